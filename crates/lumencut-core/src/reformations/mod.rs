@@ -6,6 +6,7 @@ pub mod cpr;
 pub mod cr;
 mod found;
 mod layout;
+pub mod lumen_map;
 pub mod mpcpr;
 
 pub use connections::Connections;

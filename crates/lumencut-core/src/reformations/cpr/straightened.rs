@@ -59,7 +59,7 @@ impl Straightened {
 
     /// The world point (mm, LPS) at a place in the straightened space.
     pub fn world_from_straightened(&self, place: DVec3) -> DVec3 {
-        let frame = self.sections.frames.at(place.z).turned(self.angle);
+        let frame = self.frame(place.z);
         self.sections.path.at(place.z) + frame.across * place.x + frame.ahead * place.y
     }
 
@@ -68,6 +68,21 @@ impl Straightened {
         let sections = self.sections.through(point);
         let nearest = sections.iter().min_by(|a, b| a.offset.length().total_cmp(&b.offset.length()));
         nearest.map_or(DVec3::ZERO, |section| self.place(section))
+    }
+
+    /// The frame of the section at an arc length (mm), turned as the picture is.
+    pub fn frame(&self, at: f64) -> MovingFrame {
+        self.sections.frames.at(at).turned(self.angle)
+    }
+
+    /// How far a point beside the vessel, across and ahead (mm), moves along the vessel for each mm of it: 1 on a straight run,
+    /// 0 where neighbouring sections meet.
+    pub fn advance(&self, at: f64, offset: DVec2) -> f64 {
+        let Sections { path, frames, .. } = &*self.sections;
+        let station = frames.station(at);
+        let frame = station.frame_at(at).turned(self.angle);
+        let radial = frame.across * offset.x + frame.ahead * offset.y;
+        path.direction()[path.segment(at)].dot(frame.tangent) + station.turn.cross(radial).dot(frame.tangent)
     }
 
     fn place(&self, section: &Section) -> DVec3 {
@@ -86,7 +101,7 @@ impl Surface for Straightened {
     }
 
     fn row(&self, y: f64) -> Row {
-        let frame = self.sections.frames.at(y).turned(self.angle);
+        let frame = self.frame(y);
         let anchor = Anchor { point: self.sections.path.at(y), x: 0.0, arc_length: y };
         Row { across: frame.across, ahead: frame.ahead, runs: vec![Run::at(anchor)] }
     }
@@ -106,13 +121,8 @@ impl Surface for Straightened {
     }
 
     fn folded(&self, y: f64, x: &[f64]) -> Vec<bool> {
-        let Sections { path, frames, .. } = &*self.sections;
-        let station = frames.station(y);
-        let frame = station.frame_at(y).turned(self.angle);
-        // How the image moves along the vessel's tangent from row to row, in the middle and per mm beside it.
-        let middle = path.direction()[path.segment(y)].dot(frame.tangent);
-        let aside = station.turn.cross(frame.across).dot(frame.tangent);
-        let moves: Vec<_> = x.iter().map(|x| middle + aside * x).collect();
+        // How the image moves along the vessel's tangent from row to row.
+        let moves: Vec<_> = x.iter().map(|x| self.advance(y, DVec2::new(*x, 0.0))).collect();
         let mut folded: Vec<_> = moves.iter().map(|moves| *moves <= 0.0).collect();
         self.mark_shown_elsewhere(y, x, &moves, &mut folded);
         folded

@@ -1,0 +1,253 @@
+//! Lumen map: the wall of a vessel cut open along it and unrolled, so that calcium, struts of stents and the openings of branches
+//! all around it show in one image.
+//!
+//! After the radial ray casting of "Curve-centric Volume Reformation for Comparative Visualization" (Lampe, Correa, Ma, Hauser,
+//! IEEE TVCG 15(6), 2009, doi:10.1109/TVCG.2009.136), of which only the abstract and the opening could be read; the formulas are ours.
+
+mod folds;
+mod wall;
+
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+use glam::{DVec2, DVec3, Vec3};
+use rayon::prelude::*;
+
+use self::folds::Folds;
+pub use self::wall::Wall;
+use super::cpr::{Straightened, View};
+use super::layout::Layout;
+use crate::camera::{MAX_PIXELS, MAX_SIZE};
+use crate::error::{Error, ErrorKind, Mend, Result};
+use crate::geometry::Curved;
+use crate::limits::Limits;
+use crate::math::centerline_path::CenterlinePath;
+use crate::math::same_place::ON_PICTURE;
+
+const PIXEL_SPACING: Limits = Limits::new(1e-6, 1e4, "mm");
+const OVERLAP: Limits = Limits::new(0.0, 3.0, "rad");
+
+/// A length that is a whole number of pixels but for rounding is that many.
+const WHOLE: f64 = 1e-9;
+
+/// How bright a wall is that is seen along it, and how much brighter one that is seen face on.
+const SHADES: [f64; 2] = [0.3, 0.7];
+
+/// How a lumen map is laid out.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LumenMapParameters {
+    /// The side of a pixel (mm): along the vessel, and around it at the mean radius.
+    pub pixel_spacing: f64,
+    /// The radius at which columns are true (mm).
+    pub mean_radius: f64,
+    /// The direction of the middle column (radians): 0 is to the right of the straightened CPR at angle 0.
+    pub angle: f64,
+    /// How much of the other side is repeated beyond each edge (radians).
+    pub overlap: f64,
+    /// How far beyond the wall the pixels look (mm).
+    pub beyond: f64,
+}
+
+/// A vessel cut open and unrolled: rows by arc length, columns by the direction around the vessel.
+#[derive(Clone)]
+pub struct LumenMap {
+    path: Arc<CenterlinePath>,
+    straightened: Straightened,
+    wall: Arc<Wall>,
+    parameters: LumenMapParameters,
+    /// Columns once around the vessel, and those that are repeated on each side.
+    columns: [usize; 2],
+    rows: usize,
+}
+
+impl LumenMap {
+    /// The map of the vessel with this path, whose wall is known in the straightened space of `view`, in which angle 0 counts.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Camera`] for an invalid view, spacing, angle or overlap, or too many pixels.
+    pub fn new(
+        path: Arc<CenterlinePath>,
+        view: &View,
+        wall: Arc<Wall>,
+        parameters: LumenMapParameters,
+    ) -> Result<Self> {
+        let LumenMapParameters { pixel_spacing, mean_radius, angle, overlap, .. } = parameters;
+        let checked = |limits: Limits, subject: &str, value: f64| {
+            limits.check(subject, value).map_err(|error| Error { kind: ErrorKind::Camera, ..error })
+        };
+        checked(PIXEL_SPACING, "pixel_spacing of the lumen map", pixel_spacing)?;
+        checked(OVERLAP, "overlap of the lumen map", overlap)?;
+        if !angle.is_finite() {
+            let found = format!("{angle}");
+            return Err(Error::new(ErrorKind::Camera, "angle of the lumen map", found, "a finite angle"));
+        }
+        let straightened = Straightened::new(Arc::clone(&path), &View { angle: 0.0, ..*view })?;
+        let around = (TAU * mean_radius / pixel_spacing).round().max(1.0);
+        let aside = (overlap / TAU * around).round();
+        let rows = (path.length() / pixel_spacing + WHOLE).floor() + 1.0;
+        check_size([around + 2.0 * aside, rows])?;
+        let [around, aside, rows] = [around, aside, rows].map(|count| count as usize);
+        Ok(Self { path, straightened, wall, parameters, columns: [around, aside], rows })
+    }
+
+    /// How the map is laid out.
+    pub fn parameters(&self) -> &LumenMapParameters {
+        &self.parameters
+    }
+
+    /// How many columns on each side repeat the other side.
+    pub fn overlap(&self) -> usize {
+        self.columns[1]
+    }
+
+    /// The space around the straightened vessel, in which directions around the vessel count.
+    pub fn straightened(&self) -> &Straightened {
+        &self.straightened
+    }
+
+    /// The radius of the wall at each pixel (mm).
+    pub fn wall(&self) -> Vec<f64> {
+        self.each(|at, around| self.wall.radius(at, around))
+    }
+
+    /// Whether each pixel lies in the opening of a branch, where no wall was met.
+    pub fn open(&self) -> Vec<bool> {
+        self.each(|at, around| self.wall.is_open(at, around))
+    }
+
+    /// How bright the wall is at each pixel, lit from the middle of the vessel: 1 where it is met at right angles.
+    pub fn shades(&self) -> Vec<f32> {
+        let step = self.parameters.pixel_spacing / 2.0;
+        let turn = TAU / self.columns[0] as f64 / 2.0;
+        let wall = |at: f64, around: f64| self.point(at, around, 0.0);
+        self.each(|at, around| {
+            let along = wall(at + step, around) - wall(at - step, around);
+            let across = wall(at, around + turn) - wall(at, around - turn);
+            let normal = along.cross(across).normalize_or_zero();
+            let facing = normal.dot(self.ray(at, around)).abs();
+            (SHADES[0] + SHADES[1] * facing) as f32
+        })
+    }
+
+    /// Where a direction around the vessel (radians) lies: the column of its middle, with fractions.
+    pub fn column(&self, around: f64) -> f64 {
+        let share = ((around - self.parameters.angle) / TAU + 0.5).rem_euclid(1.0);
+        share * self.columns[0] as f64 - 0.5 + self.columns[1] as f64
+    }
+
+    /// The direction around the vessel (radians) of a column.
+    fn around(&self, column: f64) -> f64 {
+        let [around, aside] = self.columns.map(|count| count as f64);
+        TAU * ((column - aside + 0.5) / around - 0.5) + self.parameters.angle
+    }
+
+    /// The point at a distance beyond the wall.
+    fn point(&self, at: f64, around: f64, beyond: f64) -> DVec3 {
+        let offset = DVec2::from_angle(around) * self.distance(at, around, beyond);
+        self.straightened.world_from_straightened(offset.extend(at))
+    }
+
+    /// How far a place beyond the wall is from the middle of the vessel (mm); no place lies beyond the middle.
+    fn distance(&self, at: f64, around: f64, beyond: f64) -> f64 {
+        (self.wall.radius(at, around) + beyond).max(0.0)
+    }
+
+    /// The direction from the middle of the vessel to the wall.
+    fn ray(&self, at: f64, around: f64) -> DVec3 {
+        let frame = self.straightened.frame(at);
+        let (sine, cosine) = around.sin_cos();
+        frame.across * cosine + frame.ahead * sine
+    }
+
+    /// What a function of arc length and direction says of each pixel, row by row.
+    fn each<T: Send>(&self, told: impl Fn(f64, f64) -> T + Sync) -> Vec<T> {
+        let [width, height] = self.size();
+        let told = &told;
+        let row = |j: usize| {
+            let at = j as f64 * self.parameters.pixel_spacing;
+            (0..width).into_par_iter().map(move |i| told(at, self.around(i as f64)))
+        };
+        (0..height).into_par_iter().flat_map(row).collect()
+    }
+}
+
+impl Layout for LumenMap {
+    fn size(&self) -> [usize; 2] {
+        [self.columns[0] + 2 * self.columns[1], self.rows]
+    }
+
+    fn pixel_spacing(&self) -> f64 {
+        self.parameters.pixel_spacing
+    }
+
+    fn curved(&self) -> Result<Curved> {
+        let beyond = self.parameters.beyond;
+        let width = self.size()[0];
+        let directions: Vec<_> = (0..width).map(|i| self.around(i as f64)).collect();
+        let mut position = vec![DVec3::NAN; width * self.rows];
+        let mut direction = vec![Vec3::ZERO; width * self.rows];
+        let rows = position.par_chunks_mut(width).zip(direction.par_chunks_mut(width));
+        rows.enumerate().for_each(|(j, (position, direction))| {
+            let at = j as f64 * self.parameters.pixel_spacing;
+            let (middle, frame) = (self.path.at(at), self.straightened.frame(at));
+            for (i, around) in directions.iter().enumerate() {
+                let (sine, cosine) = around.sin_cos();
+                let ray = frame.across * cosine + frame.ahead * sine;
+                direction[i] = ray.as_vec3();
+                // A branch that opens here has no wall to show.
+                if !self.wall.is_open(at, *around) {
+                    position[i] = middle + ray * self.distance(at, *around, beyond);
+                }
+            }
+        });
+        Curved::new(self.size(), position, direction)
+    }
+
+    fn arc_length(&self) -> Vec<f64> {
+        (0..self.rows).map(|j| j as f64 * self.parameters.pixel_spacing).collect()
+    }
+
+    fn folded(&self) -> Vec<bool> {
+        let folds = Folds::new(&self.path, &self.straightened);
+        let beyond = self.parameters.beyond;
+        let width = self.size()[0];
+        let row = |j: usize| {
+            let at = j as f64 * self.parameters.pixel_spacing;
+            let offsets = (0..width).map(|i| {
+                let around = self.around(i as f64);
+                DVec2::from_angle(around) * self.distance(at, around, beyond)
+            });
+            folds.row(at, offsets)
+        };
+        (0..self.rows).into_par_iter().flat_map(row).collect()
+    }
+
+    fn world_from_pixel(&self, pixel: DVec2) -> DVec3 {
+        let (at, around) = (pixel.y * self.parameters.pixel_spacing, self.around(pixel.x));
+        self.point(at, around, self.parameters.beyond)
+    }
+
+    fn pixel_from_world(&self, point: DVec3) -> DVec2 {
+        let place = self.straightened.straightened_from_world(point);
+        let offset = place.truncate();
+        let is_along = (-ON_PICTURE..=self.path.length() + ON_PICTURE).contains(&place.z);
+        if !is_along || offset == DVec2::ZERO {
+            return DVec2::NAN;
+        }
+        DVec2::new(self.column(offset.to_angle()), place.z / self.parameters.pixel_spacing)
+    }
+}
+
+fn check_size([width, height]: [f64; 2]) -> Result<()> {
+    if width.max(height) > MAX_SIZE as f64 || width * height > MAX_PIXELS as f64 {
+        let found = format!("{width} × {height} pixels");
+        let expected = format!("at most {MAX_SIZE} along each side and {MAX_PIXELS} in all");
+        let error = Error::new(ErrorKind::Camera, "size of the lumen map", found, expected);
+        return Err(error.mended_by(Mend::FewerPixels));
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+#[path = "tests/lumen_map.rs"]
+mod tests;
