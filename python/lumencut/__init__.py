@@ -42,6 +42,7 @@ if TYPE_CHECKING:
     from lumencut.flights import flight
     from lumencut.focus import Focus
     from lumencut.frame import Frame
+    from lumencut.lumen_mapping import lumen_map
     from lumencut.mask_tracing import trace_mask
     from lumencut.measurements import Measurements
     from lumencut.measuring import CrossSection, cross_section, measure
@@ -62,6 +63,7 @@ if TYPE_CHECKING:
     from lumencut.transfer import TransferFunction
     from lumencut.tree_reformations import cr, mpcpr
     from lumencut.turntables import fitted_turn, save_animation, turntable
+    from lumencut.unrolled_wall import LumenMap, Ostium
     from lumencut.vessel import Vessel
     from lumencut.vessel_finding import find_vessels
     from lumencut.vessel_gap import Gap
@@ -100,6 +102,8 @@ _HOME = {
     "flights": ("flight",),
     "focus": ("Focus",),
     "frame": ("Frame",),
+    "lumen_mapping": ("lumen_map",),
+    "unrolled_wall": ("LumenMap", "Ostium"),
     "mask_tracing": ("trace_mask",),
     "measurements": ("Measurements",),
     "measuring": ("CrossSection", "cross_section", "measure"),
@@ -147,12 +151,14 @@ __all__ = [
     "FormatError",
     "Frame",
     "Gap",
+    "LumenMap",
     "LumencutError",
     "Measurements",
     "MeasuringError",
     "Mend",
     "MissingPackageError",
     "Opacity",
+    "Ostium",
     "PlanarReformation",
     "Profile",
     "Reformation",
@@ -189,6 +195,7 @@ __all__ = [
     "flight",
     "get_threads",
     "list_series",
+    "lumen_map",
     "measure",
     "mpcpr",
     "read_centerlines",

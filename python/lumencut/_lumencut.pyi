@@ -236,6 +236,43 @@ class Cpr(Layout):
     def straightened_from_world(self, points: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]: ...
 
 @final
+class LumenWall:
+    def __new__(
+        cls,
+        volume: Any,
+        vessel: _Arrays,
+        smoothing: float,
+        up: Sequence[float],
+        profile: Profile | None = None,
+    ) -> LumenWall: ...
+    @property
+    def calcium_level(self) -> float | None: ...
+    @property
+    def mean_radius(self) -> float: ...
+    def map(
+        self,
+        volume: Any,
+        pixel_spacing: float,
+        directions: tuple[float | None, float],
+        band: tuple[float, float],
+        calcium_level: float | None,
+    ) -> LumenMap: ...
+
+@final
+class LumenMap(Layout):
+    @property
+    def angle(self) -> float: ...
+    @property
+    def overlap(self) -> int: ...
+    def wall(self) -> npt.NDArray[np.float64]: ...
+    def open(self) -> npt.NDArray[np.bool_]: ...
+    def shades(self) -> npt.NDArray[np.float32]: ...
+    def thickness(self, volume: Any, band: tuple[float, float], level: float) -> npt.NDArray[np.float32]: ...
+    def ostia(
+        self, tree: list[_Arrays]
+    ) -> list[tuple[int, float, tuple[float, float, float], tuple[float, float]]]: ...
+
+@final
 class Tracer:
     def __new__(cls) -> Tracer: ...
     def trace(

@@ -67,7 +67,7 @@ class PlanarReformation(Reformation):
         self, renderer: Renderer, core: _lumencut.Cpr, given: Settings, parameters: dict[str, Any]
     ) -> None:
         self.mode, self.angle = parameters["mode"], parameters["angle"]
-        recipe = ReformationRecipe(f"{self.mode} CPR", _AXES[self.mode], parameters)
+        recipe = ReformationRecipe(f"{self.mode} CPR", _AXES[self.mode], parameters, "cpr")
         super().__init__(renderer, core, given, recipe, measurable=self.mode != "projected")
 
     def rotated(self, angle: float | None = None, *, degrees: float | None = None) -> PlanarReformation:

@@ -24,6 +24,10 @@ if TYPE_CHECKING:
     from lumencut.reformation_recipe import ReformationRecipe
 
 
+#: On narrower pictures (pixels) there is no room for a sentence.
+_WIDE = 400
+
+
 class Reformation:
     """Vessels as an image (H, W) of their surroundings; every pixel looks at a place of its own.
 
@@ -172,15 +176,16 @@ class Reformation:
     def annotated(self) -> npt.NDArray[np.uint8]:
         """Return the picture with labels, RGBA, uint8, shape (H, W, 4); a side below 200 pixels gets none.
 
-        The labels are what the reformation is called, the window, what rows and columns are, a scale bar
-        where distances can be measured, and the sides of the patient where edges look to them.
+        The labels are what the reformation is called, the window, what rows and columns are (on pictures of
+        at least 400 columns), a scale bar where distances can be measured, and the sides of the patient where edges look to them.
         """
         from lumencut.annotation import window_words, with_labels
 
         volume, window = self._renderer.volume, self.settings.window
         words = [self._title()]
         words += [window_words(window)] if isinstance(window, Window) else []
-        words += [self.recipe.axes]
+        # On a narrow picture the sentence would cover what it is about; the file tells it too.
+        words += [self.recipe.axes] if self.size[0] >= _WIDE else []
         letters = self._edges() if volume is not None and volume.states_orientation else {}
         has_scale = self.measurable and volume is not None and volume.states_spacing
         return with_labels(self.image, words, letters, self.pixel_spacing if has_scale else None)

@@ -6,7 +6,7 @@ It names no file and no vessel, and takes over nothing that the files say of the
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -32,11 +32,14 @@ class ReformationRecipe:
         What rows and columns are, in words.
     parameters : dict
         The parameters of the function that made it, by their names, as JSON holds them.
+    command : str
+        The command of the shell that makes it, such as ``"cpr"``.
     """
 
     name: str
     axes: str
-    parameters: dict[str, Any] = field(default_factory=dict)
+    parameters: dict[str, Any]
+    command: str
 
 
 def png_options(recipe: ReformationRecipe, settings: Settings) -> dict[str, Any]:
@@ -49,6 +52,7 @@ def png_options(recipe: ReformationRecipe, settings: Settings) -> dict[str, Any]
         "reformation": recipe.name,
         "axes": recipe.axes,
         "parameters": recipe.parameters,
+        "command": recipe.command,
         "settings": plain_settings(settings),
     }
     info = PngInfo()
@@ -78,8 +82,10 @@ def read_reformation_recipe(path: str | Path) -> tuple[ReformationRecipe, Settin
         elif "reformation" not in content:
             found = "a picture of a view, which lumencut render --like takes"
         else:
-            recipe = ReformationRecipe(content["reformation"], content["axes"], content["parameters"])
-            if isinstance(recipe.parameters, dict) and isinstance(recipe.name, str):
+            names = ("reformation", "axes", "parameters", "command")
+            recipe = ReformationRecipe(*(content[name] for name in names))
+            texts = (recipe.name, recipe.axes, recipe.command)
+            if isinstance(recipe.parameters, dict) and all(isinstance(text, str) for text in texts):
                 return recipe, settings_of(content["settings"])
     except (SettingsError, ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
         if isinstance(error, FormatError):

@@ -13,6 +13,7 @@ mod kept_profiles;
 mod labels;
 mod layout;
 mod line_edits;
+mod lumen_map;
 mod marked;
 mod mask_tracing;
 mod measuring;
@@ -51,6 +52,8 @@ fn _lumencut(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<centerlines::CenterlineFile>()?;
     module.add_class::<layout::Layout>()?;
     module.add_class::<cpr::Cpr>()?;
+    module.add_class::<lumen_map::LumenMap>()?;
+    module.add_class::<lumen_map::LumenWall>()?;
     module.add_class::<kept_profiles::KeptProfiles>()?;
     module.add_class::<measuring::Profile>()?;
     module.add_class::<measuring::Stenosis>()?;

@@ -14,6 +14,7 @@ from lumencut.cli.cpr import cpr
 from lumencut.cli.demo import demo
 from lumencut.cli.evaluate import evaluate
 from lumencut.cli.info import info
+from lumencut.cli.lumen_map import lumen_map
 from lumencut.cli.measure import measure
 from lumencut.cli.render import render
 from lumencut.cli.report import reported, verbose_option
@@ -61,6 +62,7 @@ for _command in (
     turntable,
     compare_methods,
     cpr,
+    lumen_map,
     evaluate,
     info,
     trace,

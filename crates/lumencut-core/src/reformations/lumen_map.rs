@@ -110,6 +110,11 @@ impl LumenMap {
         self.each(|at, around| self.wall.radius(at, around))
     }
 
+    /// The radius of the wall (mm) at an arc length (mm), in a direction (radians).
+    pub fn wall_at(&self, at: f64, around: f64) -> f64 {
+        self.wall.radius(at, around)
+    }
+
     /// Whether each pixel lies in the opening of a branch, where no wall was met.
     pub fn open(&self) -> Vec<bool> {
         self.each(|at, around| self.wall.is_open(at, around))
@@ -136,7 +141,7 @@ impl LumenMap {
     }
 
     /// The direction around the vessel (radians) of a column.
-    fn around(&self, column: f64) -> f64 {
+    pub fn around(&self, column: f64) -> f64 {
         let [around, aside] = self.columns.map(|count| count as f64);
         TAU * ((column - aside + 0.5) / around - 0.5) + self.parameters.angle
     }

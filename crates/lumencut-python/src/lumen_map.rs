@@ -1,0 +1,168 @@
+//! Lumen maps, as Python has them.
+
+use std::sync::Arc;
+
+use glam::DVec3;
+use lumencut::error::Result;
+use lumencut::lumen_map::{self as maps, MapRequest};
+use lumencut::lumen_wall::{FoundWall, lumen_wall};
+use lumencut::math::centerline_path::CenterlinePath;
+use lumencut::reformations::Layout as _;
+use lumencut::reformations::cpr::{Straightened, View};
+use lumencut::reformations::lumen_map;
+use lumencut::vessel_tree::Vessel;
+use numpy::{PyArray1, PyArray2, PyArrayMethods};
+use pyo3::prelude::*;
+
+use crate::errors::to_python;
+use crate::layout::Layout;
+use crate::measuring::Profile;
+use crate::pool;
+use crate::tree::{VesselArrays, vessel as vessel_of};
+use crate::volume::VolumeArgument;
+
+/// An ostium: the id of its vessel, the arc length (mm), the point (mm, LPS), and column and row in the map.
+type OstiumRow = (usize, f64, [f64; 3], [f64; 2]);
+
+/// The wall around a vessel, which maps of all kinds share.
+#[pyclass(frozen, module = "lumencut._lumencut")]
+pub struct LumenWall {
+    path: Arc<CenterlinePath>,
+    view: View,
+    found: FoundWall,
+}
+
+#[pymethods]
+impl LumenWall {
+    /// The wall of a vessel, its points (n, 3) and radii (n,), that is seen with `up` upwards, by its profile where it has one.
+    #[new]
+    #[pyo3(signature = (volume, vessel, smoothing, up, profile=None))]
+    #[allow(clippy::needless_pass_by_value)]
+    fn new<'py>(
+        py: Python<'py>,
+        volume: VolumeArgument<'py>,
+        vessel: VesselArrays<'py>,
+        smoothing: f64,
+        up: [f64; 3],
+        profile: Option<Bound<'py, Profile>>,
+    ) -> PyResult<Self> {
+        let borrowed = volume.borrow()?;
+        let (volume, vessel) = (volume.volume(&borrowed)?, vessel_of(&vessel)?);
+        let view = View { up: DVec3::from_array(up), angle: 0.0, normal: None };
+        let profile = profile.map(|profile| Arc::clone(&profile.get().0));
+        let found = || -> Result<Self> {
+            // The path has no radii of its own.
+            let line = Vessel::new(vessel.points().to_vec(), None)?;
+            let path = Arc::new(CenterlinePath::new(&line, smoothing)?);
+            let straightened = Straightened::new(Arc::clone(&path), &view)?;
+            let found = lumen_wall(&volume, &vessel, &straightened, profile.as_deref())?;
+            Ok(Self { path, view, found })
+        };
+        py.detach(|| pool::install(found))?.map_err(to_python)
+    }
+
+    /// The level from which on something at the wall is calcium or metal, where the vessel was measured.
+    #[getter]
+    fn calcium_level(&self) -> Option<f64> {
+        self.found.levels.map(maps::calcium_level)
+    }
+
+    /// The radius at which columns are true (mm).
+    #[getter]
+    fn mean_radius(&self) -> f64 {
+        self.found.mean_radius
+    }
+
+    /// A map of the wall: the side of a pixel (mm), the direction of its middle (radians; None turns calcium there), how much of
+    /// the other side is repeated (radians), from where to where beyond the wall it is about (mm), and the level of calcium.
+    #[allow(clippy::needless_pass_by_value)]
+    fn map<'py>(
+        &self,
+        py: Python<'py>,
+        volume: VolumeArgument<'py>,
+        pixel_spacing: f64,
+        directions: (Option<f64>, f64),
+        band: [f64; 2],
+        calcium_level: Option<f64>,
+    ) -> PyResult<Bound<'py, LumenMap>> {
+        let borrowed = volume.borrow()?;
+        let volume = volume.volume(&borrowed)?;
+        let (angle, overlap) = directions;
+        let request = MapRequest { pixel_spacing, angle, overlap, band, calcium_level };
+        let laid = || maps::lumen_map(&volume, &self.path, &self.view, &self.found, &request);
+        let map = py.detach(|| pool::install(laid))?.map_err(to_python)?;
+        let layout = Layout(Arc::new(map.clone()));
+        Bound::new(py, PyClassInitializer::from(layout).add_subclass(LumenMap(map)))
+    }
+}
+
+/// The wall of a vessel, unrolled.
+#[pyclass(frozen, extends = Layout, module = "lumencut._lumencut")]
+pub struct LumenMap(lumen_map::LumenMap);
+
+#[pymethods]
+impl LumenMap {
+    /// The direction of the middle column (radians).
+    #[getter]
+    fn angle(&self) -> f64 {
+        self.0.parameters().angle
+    }
+
+    /// How many columns on each side repeat the other side.
+    #[getter]
+    fn overlap(&self) -> usize {
+        self.0.overlap()
+    }
+
+    /// The radius of the wall at each pixel (mm), shape (H, W).
+    fn wall<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        self.shaped(py, py.detach(|| pool::install(|| self.0.wall()))?)
+    }
+
+    /// Which pixels lie in the opening of a branch, shape (H, W).
+    fn open<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<bool>>> {
+        self.shaped(py, py.detach(|| pool::install(|| self.0.open()))?)
+    }
+
+    /// How bright the wall is at each pixel, lit from the middle of the vessel (0 to 1), shape (H, W).
+    fn shades<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f32>>> {
+        self.shaped(py, py.detach(|| pool::install(|| self.0.shades()))?)
+    }
+
+    /// How much of a band beyond the wall (mm) is brighter than a level (mm), shape (H, W).
+    #[allow(clippy::needless_pass_by_value)]
+    fn thickness<'py>(
+        &self,
+        py: Python<'py>,
+        volume: VolumeArgument<'py>,
+        band: [f64; 2],
+        level: f64,
+    ) -> PyResult<Bound<'py, PyArray2<f32>>> {
+        let borrowed = volume.borrow()?;
+        let volume = volume.volume(&borrowed)?;
+        let thick = py.detach(|| pool::install(|| maps::thickness(&volume, &self.0, band, level)))?;
+        self.shaped(py, thick.map_err(to_python)?)
+    }
+
+    /// Where the vessels of a tree open into this one.
+    #[allow(clippy::needless_pass_by_value)]
+    fn ostia(&self, tree: Vec<VesselArrays<'_>>) -> PyResult<Vec<OstiumRow>> {
+        let vessels = tree.iter().map(vessel_of).collect::<PyResult<Vec<_>>>()?;
+        let row = |ostium: maps::Ostium| {
+            let place = [self.0.column(ostium.around), ostium.at / self.0.pixel_spacing()];
+            (ostium.vessel, ostium.at, ostium.point.to_array(), place)
+        };
+        Ok(maps::ostia(&self.0, &vessels).into_iter().map(row).collect())
+    }
+}
+
+impl LumenMap {
+    fn shaped<'py, T: numpy::Element>(
+        &self,
+        py: Python<'py>,
+        image: Vec<T>,
+    ) -> PyResult<Bound<'py, PyArray2<T>>> {
+        let [width, height] = self.0.size();
+        PyArray1::from_vec(py, image).reshape([height, width])
+    }
+}

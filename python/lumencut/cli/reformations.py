@@ -1,0 +1,136 @@
+"""What the commands of reformations share: which vessels, where they are written, and ``--like``."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from lumencut.cli import options
+from lumencut.cli.like import typed
+from lumencut.cli.mistakes import check_files, check_reading
+from lumencut.cli.report import busy, detail, say, timings, warn
+from lumencut.cli.scene import read_files, scene_from, warn_of_window
+from lumencut.cli.settings import settings_from
+from lumencut.cli.vessels import titled_vessels
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from lumencut.reformation import Reformation
+    from lumencut.renderer import Renderer
+    from lumencut.settings import Settings
+    from lumencut.vessel import Vessel
+    from lumencut.vessel_tree import VesselTree
+
+#: Which parameters of a recipe are radians, and degrees on the command line.
+_ANGLES = ("angle", "overlap")
+
+output_option = click.option(
+    "-o",
+    "--output",
+    type=options.FILE,
+    required=True,
+    help="Picture (.png, .tif, .webp, …); .npz for the arrays of one vessel.",
+)
+
+smoothing_option = click.option(
+    "--smoothing",
+    type=float,
+    default=0.0,
+    show_default=True,
+    metavar="MM",
+    help="Smooth the centerlines by a Gaussian with this standard deviation (mm).",
+)
+
+annotate_option = click.option(
+    "--annotate/--no-annotate",
+    default=True,
+    show_default=True,
+    help="What is shown, window, what rows and columns are, names and scales on the pictures.",
+)
+
+like_option = click.option(
+    "--like",
+    type=options.FILE,
+    metavar="PICTURE.png",
+    help="Take the options and settings of a .png that this command wrote. Options beside it come on top.",
+)
+
+
+def like(chosen: dict[str, Any], command: str) -> tuple[dict[str, Any], Settings]:
+    """Return the options with those of ``--like`` where the user typed none, and the settings."""
+    path = chosen.pop("like")
+    if path is None:
+        return chosen, settings_from(chosen)
+    from lumencut.errors import FormatError
+    from lumencut.reformation_recipe import read_reformation_recipe
+
+    recipe, settings = read_reformation_recipe(path)
+    if recipe.command != command:
+        found = f"a picture of lumencut {recipe.command or 'no command'}"
+        raise FormatError(str(path), found, f"one of lumencut {command}", "use the command that made it")
+    own = {name: value for name, value in recipe.parameters.items() if name in chosen and value is not None}
+    degrees = {name: math.degrees(value) for name, value in own.items() if name in _ANGLES}
+    return {**chosen, **own, **degrees, **typed(chosen)}, settings_from(chosen, settings)
+
+
+def read_vessels(
+    chosen: dict[str, Any], settings: Settings, command: str
+) -> tuple[Renderer, VesselTree, list[tuple[str, Vessel]]]:
+    """Return a renderer of the files, the tree, and the vessels that are chosen with their titles."""
+    files = scene_from(chosen)
+    check_files(files.volume, files.centerlines)
+    check_reading(chosen, [chosen["volume"]], has_centerlines=True)
+    voxels, tree = read_files(files, chosen)
+    if voxels is None or tree is None:
+        raise click.UsageError(f"lumencut {command} needs VOLUME and CENTERLINES")
+    vessels = titled_vessels(tree, chosen)
+    if len(vessels) > 1 and chosen["output"].suffix.lower() == ".npz":
+        found = f"{chosen['output']} holds one vessel; found {len(vessels)}"
+        raise click.UsageError(f"{found}; choose one by --vessel or --path")
+
+    from lumencut.renderer import Renderer
+
+    renderer = Renderer(voxels, tree, files.device)
+    warn_of_window(settings, renderer)
+    return renderer, tree, vessels
+
+
+def write_each(
+    chosen: dict[str, Any], vessels: list[tuple[str, Vessel]], make: Callable[[Vessel], Reformation]
+) -> None:
+    """Make the image of each vessel and write it, several as a contact sheet; say what was made."""
+    made = [_made(title, vessel, make) for title, vessel in vessels]
+    output, annotate = chosen["output"], chosen["annotate"]
+    with busy(f"writing {output.name}"):
+        _write(output, made, [title for title, _ in vessels], annotate=annotate)
+    count = "1 vessel" if len(made) == 1 else f"{len(made)} vessels"
+    say(f"{output}: {made[0].recipe.name} of {count}, pixels of {made[0].pixel_spacing:.4g} mm")
+    detail(made[0].recipe.axes)
+
+
+def _made(title: str, vessel: Vessel, make: Callable[[Vessel], Reformation]) -> Reformation:
+    """The image of one vessel, and a warning where it shows nothing."""
+    import numpy as np
+
+    with busy(f"vessel {title}"):
+        made = make(vessel)
+        _ = made.image
+    timings(f"vessel {title}", made.timings)
+    if np.isnan(made.value).all():
+        warn(f"vessel {title}: no pixel lies in the volume")
+    return made
+
+
+def _write(output: Path, made: list[Reformation], titles: list[str], *, annotate: bool) -> None:
+    from lumencut.contact_sheet import contact_sheet
+    from lumencut.frame import save_picture
+
+    if len(made) == 1:
+        made[0].save(output, annotate=annotate)
+        return
+    pictures = [one.annotated() if annotate else one.image for one in made]
+    save_picture(contact_sheet(pictures, titles), output)
