@@ -9,7 +9,7 @@ import pytest
 from click.testing import CliRunner
 
 import lumencut
-from lumencut import Vessel, VesselTree, Volume, cpr, lumen_map
+from lumencut import Settings, Vessel, VesselTree, Volume, Window, cpr, lumen_map
 from lumencut.cli import main
 from lumencut.errors import CameraError, FormatError, MeasuringError, SettingsError, VesselTreeError
 from lumencut.recipe import read_recipe
@@ -65,7 +65,7 @@ def test_the_wall_is_where_the_lumen_ends(plain):
 
 
 def test_a_crust_lies_on_its_side(plain):
-    columns, rows = plain.size
+    columns, _ = plain.size
     angles = 2 * math.pi * (np.arange(columns) + 0.5) / columns - math.pi
     sides = np.sin(angles)
     shown = plain.value
@@ -145,8 +145,12 @@ def test_a_branch_opens_as_a_hole_with_its_name():
     assert away.max() < 3
 
 
-def test_an_overlap_repeats_the_other_side_dimmed(crusted, plain):
-    wide = lumen_map(crusted, LINE, angle=0.0, pixel_spacing=0.25, overlap=math.radians(18))
+def test_an_overlap_repeats_the_other_side_dimmed(crusted):
+    settings = Settings(window=Window(level=500, width=1000))
+    plain = lumen_map(crusted, LINE, angle=0.0, pixel_spacing=0.25, settings=settings)
+    wide = lumen_map(
+        crusted, LINE, angle=0.0, pixel_spacing=0.25, overlap=math.radians(18), settings=settings
+    )
     aside = wide.overlap
     assert aside == 5
     assert np.allclose(wide.value[:, aside:-aside], plain.value, equal_nan=True)

@@ -177,7 +177,8 @@ class Reformation:
         """Return the picture with labels, RGBA, uint8, shape (H, W, 4); a side below 200 pixels gets none.
 
         The labels are what the reformation is called, the window, what rows and columns are (on pictures of
-        at least 400 columns), a scale bar where distances can be measured, and the sides of the patient where edges look to them.
+        at least 400 columns), a scale bar where distances can be measured, and the sides of the patient
+        where edges look to them.
         """
         from lumencut.annotation import window_words, with_labels
 

@@ -7,7 +7,7 @@ use lumencut::error::{Error, ErrorKind};
 use lumencut::math::centerline_path::CenterlinePath;
 use lumencut::named::Named;
 use lumencut::pipeline;
-use lumencut::reformations::cpr::{self, CprMode, Straightened, View};
+use lumencut::reformations::cpr::{self, CprMode, Roll, Straightened, View};
 use lumencut::vessel_tree::Vessel;
 use numpy::{PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::prelude::*;
@@ -54,6 +54,12 @@ impl Cpr {
     /// The same vessel from another angle (radians).
     fn rotated<'py>(&self, py: Python<'py>, angle: f64) -> PyResult<Bound<'py, Self>> {
         Bound::new(py, self.0.rotated(angle).map(Self::with_layout).map_err(to_python)?)
+    }
+
+    /// The same straightened vessel, each section seen from an angle of its own: angles (radians) at arc lengths (mm).
+    fn rolled<'py>(&self, py: Python<'py>, at: Vec<f64>, angle: Vec<f64>) -> PyResult<Bound<'py, Self>> {
+        let rolled = Roll::new(at, angle).and_then(|roll| self.0.rolled(roll));
+        Bound::new(py, rolled.map(Self::with_layout).map_err(to_python)?)
     }
 
     /// The world points (n, 3) of places in the space around the straightened vessel: across, ahead, along (mm).

@@ -7,8 +7,9 @@ use lumencut::error::Result;
 use lumencut::lumen_map::{self as maps, MapRequest};
 use lumencut::lumen_wall::{FoundWall, lumen_wall};
 use lumencut::math::centerline_path::CenterlinePath;
+use lumencut::named::Named;
 use lumencut::reformations::Layout as _;
-use lumencut::reformations::cpr::{Straightened, View};
+use lumencut::reformations::cpr::{Roll, Side, Straightened, View};
 use lumencut::reformations::lumen_map;
 use lumencut::vessel_tree::Vessel;
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
@@ -71,6 +72,14 @@ impl LumenWall {
     #[getter]
     fn mean_radius(&self) -> f64 {
         self.found.mean_radius
+    }
+
+    /// Arc lengths (mm) and at each the angle (radians) about the vessel from which its narrowest or widest side is cut.
+    fn roll<'py>(&self, py: Python<'py>, side: &str) -> PyResult<[Bound<'py, PyArray1<f64>>; 2]> {
+        let side = Side::named("roll of the CPR", side).map_err(to_python)?;
+        let length = self.path.length();
+        let roll = py.detach(|| Roll::following(&self.found.wall, length, side));
+        Ok([roll.places(), roll.angles()].map(|values| PyArray1::from_slice(py, values)))
     }
 
     /// A map of the wall: the side of a pixel (mm), the direction of its middle (radians; None turns calcium there), how much of

@@ -57,6 +57,12 @@ _COARSEST = 0.25
     help="Move the viewer to the right from the front: around the up axis, or around the vessel where it is "
     "straightened.",
 )
+@click.option(
+    "--roll",
+    type=click.Choice(("narrowest", "widest")),
+    help="See each section of the straightened vessel from the angle at which its lumen is narrowest or "
+    "widest, so that no eccentric stenosis hides; a strip beside the picture tells the angle.",
+)
 @click.option("--up", type=VECTOR, default="0,0,1", show_default=True, help="What points upwards (LPS).")
 @click.option(
     "--width",
@@ -159,7 +165,7 @@ def _reformation(renderer: Renderer, vessel: Vessel, title: str, chosen: dict[st
     spacing = chosen["pixel_spacing"]
     if spacing is None and renderer.volume is not None:
         spacing = min(_COARSEST, float(renderer.volume.spacing.min()))
-    named = {name: chosen[name] for name in ("width", "up", "smoothing", "settings")}
+    named = {name: chosen[name] for name in ("width", "up", "smoothing", "roll", "settings")}
     made = cpr_of(
         renderer, vessel, chosen["mode"], pixel_spacing=spacing, angle=math.radians(chosen["angle"]), **named
     )

@@ -6,6 +6,7 @@
 //! image. No picture is ever mirrored: to the right × downwards = into the scene.
 
 mod projected;
+mod roll;
 mod row;
 mod sections;
 mod straightened;
@@ -19,6 +20,7 @@ use glam::{DVec2, DVec3, Vec3};
 use rayon::prelude::*;
 
 use self::projected::Projected;
+pub use self::roll::{Roll, Side};
 use self::row::Row;
 pub use self::straightened::Straightened;
 use self::stretched::Stretched;
@@ -120,6 +122,19 @@ impl Cpr {
         view.checked_angle()?;
         let straightened = self.straightened.as_ref().map(|known| known.rotated(angle));
         Self::laid_out(self.mode, view, Arc::clone(&self.path), straightened, self.width, self.pixel_spacing)
+    }
+
+    /// The same straightened vessel, each row seen from an angle of its own, in which angle 0 is that of [`View`].
+    ///
+    /// # Errors
+    /// [`ErrorKind::Camera`] for a CPR of another mode.
+    pub fn rolled(&self, roll: Roll) -> Result<Self> {
+        let Some(straightened) = self.straightened.as_ref().map(|known| known.rolled(roll)) else {
+            let found = "a roll of a CPR of another mode";
+            return Err(Error::new(ErrorKind::Camera, "roll of the CPR", found, "mode straightened"));
+        };
+        let path = Arc::clone(&self.path);
+        Self::laid_out(self.mode, self.view, path, Some(straightened), self.width, self.pixel_spacing)
     }
 
     /// The space around the straightened vessel, where it is straightened.

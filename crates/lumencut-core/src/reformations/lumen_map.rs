@@ -5,7 +5,6 @@
 //! IEEE TVCG 15(6), 2009, doi:10.1109/TVCG.2009.136), of which only the abstract and the opening could be read; the formulas are ours.
 
 mod folds;
-mod wall;
 
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -14,9 +13,9 @@ use glam::{DVec2, DVec3, Vec3};
 use rayon::prelude::*;
 
 use self::folds::Folds;
-pub use self::wall::Wall;
 use super::cpr::{Straightened, View};
 use super::layout::Layout;
+use super::wall::Wall;
 use crate::camera::{MAX_PIXELS, MAX_SIZE};
 use crate::error::{Error, ErrorKind, Mend, Result};
 use crate::geometry::Curved;

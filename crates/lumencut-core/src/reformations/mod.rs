@@ -8,7 +8,9 @@ mod found;
 mod layout;
 pub mod lumen_map;
 pub mod mpcpr;
+mod wall;
 
 pub use connections::Connections;
 pub use found::NO_VESSEL;
 pub use layout::Layout;
+pub use wall::Wall;

@@ -1,5 +1,5 @@
 use glam::{DAffine3, DMat3};
-use lumencut_core::reformations::lumen_map::Wall;
+use lumencut_core::reformations::Wall;
 use lumencut_core::volume::Voxels as Samples;
 
 use super::*;

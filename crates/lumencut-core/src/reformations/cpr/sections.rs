@@ -124,20 +124,20 @@ impl Sections {
         self.section(station, at, point)
     }
 
-    /// Whether a line surely meets no section of an interval where the picture from an angle is: as far as the interval turns,
+    /// Whether a line surely meets no section of an interval where the picture from an angle, if there is one for all, is: as far as the interval turns,
     /// its sections lie beyond those at its ends by no more than the margin.
-    pub fn is_apart(&self, n: usize, line: [DVec3; 2], angle: [f64; 2]) -> bool {
+    pub fn is_apart(&self, n: usize, line: [DVec3; 2], angle: Option<[f64; 2]>) -> bool {
         let ends = [self.marks[n], self.marks[n + 1]];
         let length = ends[1].at - ends[0].at;
         let turn = self.frames.station(ends[0].at).turn.length() * length;
         let reach = line.map(|end| end.distance(ends[0].point));
         let margin = ON_PICTURE + turn * (turn * (reach[0].max(reach[1]) + length) + 2.0 * length) / 8.0;
-        let frames = ends.map(|mark| mark.frame.turned(angle));
         let same = |normals: [DVec3; 2]| {
             let sides = [0, 1].map(|n| ends[n].side(line, normals[n], margin));
             sides[0] != 0 && sides[0] == sides[1]
         };
-        same(frames.map(|frame| frame.tangent)) || same(frames.map(|frame| frame.ahead))
+        let ahead = |angle: [f64; 2]| ends.map(|mark| mark.frame.turned(angle).ahead);
+        same(ends.map(|mark| mark.frame.tangent)) || angle.is_some_and(|angle| same(ahead(angle)))
     }
 
     /// Whether an interval holds the section at `at`, and surely no other one through a point that lies in it `aside` mm from

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 
+use super::roll::Roll;
 use super::row::{Anchor, Row, Run};
 use super::sections::{Section, Sections};
 use super::surface::{Surface, comes_first};
@@ -19,8 +20,33 @@ use crate::math::same_place::ON_PICTURE;
 #[derive(Clone)]
 pub struct Straightened {
     sections: Arc<Sections>,
-    /// Sine and cosine of the angle about the vessel.
-    angle: [f64; 2],
+    angle: Angle,
+}
+
+/// The angle about the vessel from which its sections are seen.
+#[derive(Clone)]
+enum Angle {
+    /// The same everywhere: its sine and cosine.
+    Even([f64; 2]),
+    /// One for each section.
+    Rolled(Arc<Roll>),
+}
+
+impl Angle {
+    fn at(&self, at: f64) -> [f64; 2] {
+        match self {
+            Self::Even(angle) => *angle,
+            Self::Rolled(roll) => roll.angle(at).sin_cos().into(),
+        }
+    }
+
+    /// The angle where it is the same everywhere.
+    fn even(&self) -> Option<[f64; 2]> {
+        match self {
+            Self::Even(angle) => Some(*angle),
+            Self::Rolled(_) => None,
+        }
+    }
 }
 
 impl Straightened {
@@ -43,13 +69,19 @@ impl Straightened {
         }
         let frames = Frames::new(&path, MovingFrame::looking(tangent, ahead));
         let sections = Arc::new(Sections::new(path, frames));
-        Ok(Self { sections, angle: view.checked_angle()?.sin_cos().into() })
+        Ok(Self { sections, angle: Angle::Even(view.checked_angle()?.sin_cos().into()) })
     }
 
     /// The same vessel turned by another finite angle (radians).
     #[must_use]
     pub fn rotated(&self, angle: f64) -> Self {
-        Self { sections: Arc::clone(&self.sections), angle: angle.sin_cos().into() }
+        Self { sections: Arc::clone(&self.sections), angle: Angle::Even(angle.sin_cos().into()) }
+    }
+
+    /// The same vessel, each section seen from an angle of its own.
+    #[must_use]
+    pub fn rolled(&self, roll: Roll) -> Self {
+        Self { sections: Arc::clone(&self.sections), angle: Angle::Rolled(Arc::new(roll)) }
     }
 
     /// The length of the vessel (mm).
@@ -72,7 +104,7 @@ impl Straightened {
 
     /// The frame of the section at an arc length (mm), turned as the picture is.
     pub fn frame(&self, at: f64) -> MovingFrame {
-        self.sections.frames.at(at).turned(self.angle)
+        self.sections.frames.at(at).turned(self.angle.at(at))
     }
 
     /// How far a point beside the vessel, across and ahead (mm), moves along the vessel for each mm of it: 1 on a straight run,
@@ -80,13 +112,13 @@ impl Straightened {
     pub fn advance(&self, at: f64, offset: DVec2) -> f64 {
         let Sections { path, frames, .. } = &*self.sections;
         let station = frames.station(at);
-        let frame = station.frame_at(at).turned(self.angle);
+        let frame = station.frame_at(at).turned(self.angle.at(at));
         let radial = frame.across * offset.x + frame.ahead * offset.y;
         path.direction()[path.segment(at)].dot(frame.tangent) + station.turn.cross(radial).dot(frame.tangent)
     }
 
     fn place(&self, section: &Section) -> DVec3 {
-        let frame = section.frame.turned(self.angle);
+        let frame = section.frame.turned(self.angle.at(section.at));
         DVec3::new(section.offset.dot(frame.across), section.offset.dot(frame.ahead), section.at)
     }
 }
@@ -136,7 +168,7 @@ impl Straightened {
         let line = [x[0], x[x.len() - 1]].map(|x| row.place(x));
         let mut found = Vec::new();
         for n in 0..self.sections.intervals() {
-            if self.sections.is_apart(n, line, self.angle) {
+            if self.sections.is_apart(n, line, self.angle.even()) {
                 continue;
             }
             for ((x, moves), folded) in x.iter().zip(moves).zip(&mut *folded) {

@@ -1,0 +1,144 @@
+//! The angle about a vessel from which each of its sections is seen: the same everywhere, or one that follows the narrow or the wide
+//! side of the lumen, so that no eccentric stenosis hides in the wrong angle (ours).
+
+use std::f64::consts::PI;
+
+use crate::error::{Error, ErrorKind, Result};
+use crate::math::arc_length::LinePlace;
+use crate::named::Named;
+use crate::reformations::Wall;
+
+/// How many directions of a diameter are compared, over half of a turn.
+const DIRECTIONS: usize = 48;
+
+/// The distance of the places at which they are (mm); from one to the next the angle changes by one direction at most.
+const STEP: f64 = 0.5;
+
+/// What a change by one direction costs (mm of diameter): enough to keep the picture calm where all directions are alike.
+const CHANGE: f64 = 0.15;
+
+/// By which Gaussians diameters and the angle are smoothed along the vessel: standard deviations (mm).
+const SMOOTHING: [f64; 2] = [1.5, 2.0];
+
+/// Which side of the lumen a picture follows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    /// The narrowest one.
+    Narrowest,
+    /// The widest one.
+    Widest,
+}
+
+impl Named for Side {
+    const NAMES: &'static [(&'static str, Self)] =
+        &[("narrowest", Self::Narrowest), ("widest", Self::Widest)];
+}
+
+/// An angle about the vessel (radians) by arc length (mm); between places it changes evenly.
+#[derive(Clone, Debug)]
+pub struct Roll {
+    at: Vec<f64>,
+    angle: Vec<f64>,
+}
+
+impl Roll {
+    /// The roll that has these angles (radians) at arc lengths that rise (mm).
+    ///
+    /// # Errors
+    /// [`ErrorKind::Camera`] for angles that are none, or not one for each place.
+    pub fn new(at: Vec<f64>, angle: Vec<f64>) -> Result<Self> {
+        let rises = at.windows(2).all(|ends| ends[1] > ends[0]);
+        if at.is_empty() || at.len() != angle.len() || !rises || !angle.iter().all(|a| a.is_finite()) {
+            let found = format!("{} angles at {} places", angle.len(), at.len());
+            let expected = "a finite angle for each of the places, which rise";
+            return Err(Error::new(ErrorKind::Camera, "roll of the CPR", found, expected));
+        }
+        Ok(Self { at, angle })
+    }
+
+    /// The roll along which the diameters of a wall through the middle of the vessel are least, or largest, in sum, by dynamic
+    /// programming. The vessel is `length` mm long.
+    pub fn following(wall: &Wall, length: f64, side: Side) -> Self {
+        let count = (length / STEP).ceil().max(1.0) as usize;
+        let at: Vec<f64> = (0..=count).map(|n| length * n as f64 / count as f64).collect();
+        let sign = if side == Side::Narrowest { 1.0 } else { -1.0 };
+        let diameter = |n: usize, k: usize| {
+            let around = PI * k as f64 / DIRECTIONS as f64;
+            sign * (wall.radius(at[n], around) + wall.radius(at[n], around + PI))
+        };
+        let columns: Vec<Vec<f64>> = (0..DIRECTIONS)
+            .map(|k| smoothed(&(0..=count).map(|n| diameter(n, k)).collect::<Vec<_>>(), length, SMOOTHING[0]))
+            .collect();
+        let steps = cheapest(&columns);
+        let angle: Vec<f64> = steps.iter().map(|step| PI * f64::from(*step) / DIRECTIONS as f64).collect();
+        Self { angle: smoothed(&angle, length, SMOOTHING[1]), at }
+    }
+
+    /// The arc lengths (mm) at which angles are known.
+    pub fn places(&self) -> &[f64] {
+        &self.at
+    }
+
+    /// The angles there (radians).
+    pub fn angles(&self) -> &[f64] {
+        &self.angle
+    }
+
+    /// The angle at an arc length (mm), that of the nearest end beyond both.
+    pub fn angle(&self, at: f64) -> f64 {
+        LinePlace::at(&self.at, at.clamp(self.at[0], self.at[self.at.len() - 1])).value(&self.angle)
+    }
+}
+
+/// For each place the direction of the cheapest way through all places, counted on through whole turns. Of equally cheap ways the one
+/// that stays is taken, then the one that comes from the smaller direction.
+fn cheapest(cost: &[Vec<f64>]) -> Vec<i32> {
+    let places = cost[0].len();
+    let mut best: Vec<f64> = cost.iter().map(|column| column[0]).collect();
+    let mut came = vec![[0i8; DIRECTIONS]; places];
+    for place in 1..places {
+        let before = best.clone();
+        for k in 0..DIRECTIONS {
+            let from = |step: i8| (k + DIRECTIONS).wrapping_add_signed(-isize::from(step)) % DIRECTIONS;
+            let whole = |step: i8| before[from(step)] + CHANGE * f64::from(step.abs());
+            let step = [0i8, 1, -1]
+                .into_iter()
+                .fold(0i8, |best, step| if whole(step) < whole(best) { step } else { best });
+            best[k] = whole(step) + cost[k][place];
+            came[place][k] = step;
+        }
+    }
+    let last = (0..DIRECTIONS).fold(0, |found, k| if best[k] < best[found] { k } else { found });
+    let mut way = vec![0; places];
+    way[places - 1] = last as i32;
+    for place in (1..places).rev() {
+        let here: i32 = way[place];
+        way[place - 1] = here - i32::from(came[place][here.rem_euclid(DIRECTIONS as i32) as usize]);
+    }
+    // The whole turns of the first place are its own: the picture begins as near to angle 0 as it can.
+    let turns = (f64::from(way[0]) / DIRECTIONS as f64).round() as i32 * DIRECTIONS as i32;
+    way.iter().map(|step| step - turns).collect()
+}
+
+/// Values at even places along a length (mm), smoothed by a Gaussian; beyond the ends they go on as at them.
+fn smoothed(values: &[f64], length: f64, deviation: f64) -> Vec<f64> {
+    let step = length / (values.len() - 1) as f64;
+    let reach = (3.0 * deviation / step).ceil() as isize;
+    let weight = |n: isize| (-0.5 * (n as f64 * step / deviation).powi(2)).exp();
+    let weights: Vec<f64> = (-reach..=reach).map(weight).collect();
+    let total: f64 = weights.iter().sum();
+    let last = values.len() as isize - 1;
+    (0..=last)
+        .map(|n| {
+            (-reach..=reach)
+                .zip(&weights)
+                .map(|(m, w)| w * values[(n + m).clamp(0, last) as usize])
+                .sum::<f64>()
+                / total
+        })
+        .collect()
+}
+
+#[cfg(test)]
+#[path = "../tests/roll.rs"]
+mod tests;
