@@ -56,6 +56,7 @@ if TYPE_CHECKING:
     from lumencut.seed_tracing import trace_from
     from lumencut.settings import Settings
     from lumencut.slab import Slab
+    from lumencut.spiral_reformation import SpiralReformation, spiral
     from lumencut.stenosis import Stenosis
     from lumencut.straightening import StraightenedVolume, straightened_volume
     from lumencut.threads import get_threads, set_threads
@@ -117,6 +118,7 @@ _HOME = {
     "seed_tracing": ("trace_from",),
     "settings": ("Settings",),
     "slab": ("Slab",),
+    "spiral_reformation": ("SpiralReformation", "spiral"),
     "stenosis": ("Stenosis",),
     "straightening": ("StraightenedVolume", "straightened_volume"),
     "threads": ("get_threads", "set_threads"),
@@ -170,6 +172,7 @@ __all__ = [
     "SettingsError",
     "Slab",
     "SpaceWarning",
+    "SpiralReformation",
     "Stenosis",
     "StraightenedVolume",
     "Tracer",
@@ -203,6 +206,7 @@ __all__ = [
     "render",
     "save_animation",
     "set_threads",
+    "spiral",
     "straightened_volume",
     "trace",
     "trace_from",

@@ -237,6 +237,18 @@ class Cpr(Layout):
     def straightened_from_world(self, points: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]: ...
 
 @final
+class Spiral(Layout):
+    def __new__(
+        cls,
+        points: npt.NDArray[np.float64],
+        smoothing: float,
+        up: Sequence[float],
+        lengths: Sequence[float],
+        sampling: str,
+        angle: float,
+    ) -> Spiral: ...
+
+@final
 class LumenWall:
     def __new__(
         cls,

@@ -92,7 +92,11 @@ class Sheet:
         found = _lumencut.scale_bar(self.size[0], spacing)
         if found is not None:
             _, words, pixels = found
-            self._bar(round(pixels), self.size[1] - self.margin, words)
+            self.ruler(pixels, words)
+
+    def ruler(self, length: float, words: str) -> None:
+        """Draw a bar of this length (pixels) into the lower left corner, words above it."""
+        self._bar(round(length), self.size[1] - self.margin, words)
 
     def _bar(self, length: int, bottom: float, words: str) -> None:
         """Draw a bar of this length (pixels) at the left above `bottom`, with ticks, words above it."""

@@ -28,6 +28,7 @@ mod report;
 mod scan_details;
 mod session_file;
 mod settings;
+mod spiral;
 mod told_by_tree;
 mod tracing;
 mod tree;
@@ -52,6 +53,7 @@ fn _lumencut(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<centerlines::CenterlineFile>()?;
     module.add_class::<layout::Layout>()?;
     module.add_class::<cpr::Cpr>()?;
+    module.add_class::<spiral::Spiral>()?;
     module.add_class::<lumen_map::LumenMap>()?;
     module.add_class::<lumen_map::LumenWall>()?;
     module.add_class::<kept_profiles::KeptProfiles>()?;

@@ -18,6 +18,7 @@ from lumencut.cli.lumen_map import lumen_map
 from lumencut.cli.measure import measure
 from lumencut.cli.render import render
 from lumencut.cli.report import reported, verbose_option
+from lumencut.cli.spiral import spiral
 from lumencut.cli.trace import trace
 from lumencut.cli.turntable import turntable
 from lumencut.cli.view import view
@@ -63,6 +64,7 @@ for _command in (
     compare_methods,
     cpr,
     lumen_map,
+    spiral,
     evaluate,
     info,
     trace,

@@ -8,6 +8,7 @@ mod found;
 mod layout;
 pub mod lumen_map;
 pub mod mpcpr;
+pub mod spiral;
 mod wall;
 
 pub use connections::Connections;

@@ -1,0 +1,248 @@
+//! Spiral CPR: every section across a vessel wound up into one row, so that a still picture shows all around the vessel, and the width
+//! of what it shows is an area.
+//!
+//! After the helical CPR of Kanitsar (dissertation, TU Wien 2004): sections as of the straightened CPR, in each of them two spirals from
+//! the middle with an even distance of windings. The formulas are ours.
+
+use std::f64::consts::PI;
+use std::sync::Arc;
+
+use glam::{DVec2, DVec3, Vec3};
+use rayon::prelude::*;
+
+use super::cpr::{Straightened, View};
+use super::layout::Layout;
+use crate::camera::{MAX_PIXELS, MAX_SIZE};
+use crate::error::{Error, ErrorKind, Mend, Result};
+use crate::geometry::Curved;
+use crate::limits::Limits;
+use crate::math::centerline_path::CenterlinePath;
+use crate::math::same_place::ON_PICTURE;
+use crate::named::Named;
+
+const LENGTH: Limits = Limits::new(1e-6, 1e4, "mm");
+
+/// A length that is a whole number of pixels but for rounding is that many.
+const WHOLE: f64 = 1e-9;
+
+/// How often the angle of a length is bettered by Newton's method: more than it takes.
+const STEPS: usize = 12;
+
+/// How the samples of a row lie on its spirals.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sampling {
+    /// A pixel apart along the spiral, so that every pixel stands for the same area.
+    Arc,
+    /// An even angle apart, so that every winding has the same width; a pixel apart at the outermost one.
+    Angle,
+}
+
+impl Named for Sampling {
+    const NAMES: &'static [(&'static str, Self)] = &[("arc", Self::Arc), ("angle", Self::Angle)];
+}
+
+/// How the sections of a vessel are wound up.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SpiralParameters {
+    /// The distance of neighbouring windings, of both spirals together (mm).
+    pub pitch: f64,
+    /// How far from the vessel the windings reach (mm).
+    pub radius: f64,
+    /// How samples lie on the spirals.
+    pub sampling: Sampling,
+    /// The side of a pixel (mm).
+    pub pixel_spacing: f64,
+    /// The angle by which sections are turned (radians).
+    pub angle: f64,
+}
+
+/// A vessel whose sections are wound up: rows by arc length, columns along two spirals that meet in the middle.
+#[derive(Clone)]
+pub struct Spiral {
+    straightened: Straightened,
+    parameters: SpiralParameters,
+    /// For each column the place in its section (mm), and the direction across the spiral there.
+    columns: Vec<[DVec2; 2]>,
+    rows: usize,
+}
+
+impl Spiral {
+    /// The spiral CPR of the vessel with this path, which is seen as [`Straightened`] is.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Camera`] for an invalid view, angle or length, or too many pixels: the error names a pitch that fits.
+    pub fn new(path: Arc<CenterlinePath>, view: &View, parameters: SpiralParameters) -> Result<Self> {
+        let SpiralParameters { pitch, radius, pixel_spacing, angle, .. } = parameters;
+        for (subject, value) in [
+            ("pitch of the spiral CPR", pitch),
+            ("radius of the spiral CPR", radius),
+            ("pixel_spacing of the spiral CPR", pixel_spacing),
+        ] {
+            LENGTH.check(subject, value).map_err(|error| Error { kind: ErrorKind::Camera, ..error })?;
+        }
+        if !angle.is_finite() {
+            let found = format!("{angle}");
+            return Err(Error::new(ErrorKind::Camera, "angle of the spiral CPR", found, "a finite angle"));
+        }
+        let rows = (path.length() / pixel_spacing + WHOLE).floor() + 1.0;
+        let half = parameters.half();
+        check_size(&parameters, [2.0 * half + 1.0, rows])?;
+        let straightened = Straightened::new(path, &View { angle: 0.0, ..*view })?;
+        let columns = (0..=2 * half as usize).map(|i| parameters.place(i as f64 - half)).collect();
+        Ok(Self { straightened, parameters, columns, rows: rows as usize })
+    }
+
+    /// How the sections are wound up.
+    pub fn parameters(&self) -> &SpiralParameters {
+        &self.parameters
+    }
+
+    fn middle(&self) -> f64 {
+        (self.columns.len() - 1) as f64 / 2.0
+    }
+}
+
+impl SpiralParameters {
+    /// How far from the middle a spiral is for each radian.
+    fn rate(&self) -> f64 {
+        self.pitch / PI
+    }
+
+    /// How many pixels lie on each side of the middle.
+    fn half(&self) -> f64 {
+        let outermost = self.radius / self.rate();
+        let length = match self.sampling {
+            Sampling::Arc => self.length(outermost),
+            Sampling::Angle => self.radius * outermost,
+        };
+        (length / self.pixel_spacing + WHOLE).floor()
+    }
+
+    /// The length of a spiral from the middle to an angle.
+    fn length(&self, angle: f64) -> f64 {
+        self.rate() / 2.0 * (angle * angle.hypot(1.0) + angle.asinh())
+    }
+
+    /// The angle at which a spiral is so long: by Newton's method, whose start lies beyond it, so that it comes down to it.
+    fn angle_of(&self, length: f64) -> f64 {
+        let rate = self.rate();
+        (0..STEPS).fold((2.0 * length / rate).sqrt(), |angle, _| {
+            angle - (self.length(angle) - length) / (rate * angle.hypot(1.0))
+        })
+    }
+
+    /// The angle along the spiral of a place so many pixels from the middle.
+    fn along(&self, pixels: f64) -> f64 {
+        let length = pixels.abs() * self.pixel_spacing;
+        match self.sampling {
+            Sampling::Arc => self.angle_of(length),
+            Sampling::Angle => length / self.radius,
+        }
+    }
+
+    /// How many pixels from the middle an angle along the spiral is.
+    fn pixels(&self, along: f64) -> f64 {
+        let length = match self.sampling {
+            Sampling::Arc => self.length(along),
+            Sampling::Angle => along * self.radius,
+        };
+        length / self.pixel_spacing
+    }
+
+    /// The place in a section so many pixels from the middle, and the direction across the spiral there.
+    fn place(&self, pixels: f64) -> [DVec2; 2] {
+        let along = self.along(pixels);
+        let outwards = DVec2::from_angle(along + self.angle);
+        let [place, forward] = [outwards * (self.rate() * along), outwards + outwards.perp() * along];
+        // The two spirals are one smooth curve through the middle.
+        let side = if pixels < 0.0 { -1.0 } else { 1.0 };
+        [place * side, -forward.normalize().perp()]
+    }
+
+    /// How many pixels from the middle a place in a section is shown: on the nearest winding, of two the inner one.
+    fn pixels_of(&self, place: DVec2) -> f64 {
+        let around = place.to_angle() - self.angle;
+        let turns = (place.length() / self.rate() - around) / PI;
+        // The spirals of both sides pass each half plane in turn.
+        let nearest = (turns - 0.5).ceil().max((-around / PI).ceil());
+        let along = around + nearest * PI;
+        let side = if nearest.rem_euclid(2.0) == 0.0 { 1.0 } else { -1.0 };
+        side * self.pixels(along)
+    }
+}
+
+impl Layout for Spiral {
+    fn size(&self) -> [usize; 2] {
+        [self.columns.len(), self.rows]
+    }
+
+    fn pixel_spacing(&self) -> f64 {
+        self.parameters.pixel_spacing
+    }
+
+    fn curved(&self) -> Result<Curved> {
+        let width = self.columns.len();
+        let mut position = vec![DVec3::ZERO; width * self.rows];
+        let mut direction = vec![Vec3::ZERO; width * self.rows];
+        let rows = position.par_chunks_mut(width).zip(direction.par_chunks_mut(width));
+        rows.enumerate().for_each(|(j, (position, direction))| {
+            let at = j as f64 * self.parameters.pixel_spacing;
+            let middle = self.straightened.world_from_straightened(DVec3::new(0.0, 0.0, at));
+            let frame = self.straightened.frame(at);
+            let world = |place: DVec2| frame.across * place.x + frame.ahead * place.y;
+            for (i, [place, across]) in self.columns.iter().enumerate() {
+                position[i] = middle + world(*place);
+                direction[i] = world(*across).as_vec3();
+            }
+        });
+        Curved::new(self.size(), position, direction)
+    }
+
+    fn arc_length(&self) -> Vec<f64> {
+        (0..self.rows).map(|j| j as f64 * self.parameters.pixel_spacing).collect()
+    }
+
+    fn folded(&self) -> Vec<bool> {
+        let row = |j: usize| {
+            let at = j as f64 * self.parameters.pixel_spacing;
+            self.columns.par_iter().map(move |[place, _]| self.straightened.advance(at, *place) <= 0.0)
+        };
+        (0..self.rows).into_par_iter().flat_map(row).collect()
+    }
+
+    fn world_from_pixel(&self, pixel: DVec2) -> DVec3 {
+        let [place, _] = self.parameters.place(pixel.x - self.middle());
+        self.straightened.world_from_straightened(place.extend(pixel.y * self.parameters.pixel_spacing))
+    }
+
+    fn pixel_from_world(&self, point: DVec3) -> DVec2 {
+        let place = self.straightened.straightened_from_world(point);
+        let is_along = (-ON_PICTURE..=self.straightened.length() + ON_PICTURE).contains(&place.z);
+        let column = self.parameters.pixels_of(place.truncate()) + self.middle();
+        let is_within = (-0.5..=self.columns.len() as f64 - 0.5).contains(&column);
+        if !is_along || !is_within {
+            return DVec2::NAN;
+        }
+        DVec2::new(column, place.z / self.parameters.pixel_spacing)
+    }
+}
+
+fn check_size(parameters: &SpiralParameters, [width, height]: [f64; 2]) -> Result<()> {
+    let most = (MAX_SIZE as f64).min(MAX_PIXELS as f64 / height);
+    if width <= most && height <= MAX_SIZE as f64 {
+        return Ok(());
+    }
+    let found = format!("{width} × {height} pixels");
+    let expected = format!("at most {MAX_SIZE} along each side and {MAX_PIXELS} in all");
+    let error = Error::new(ErrorKind::Camera, "size of the spiral CPR", found, expected);
+    // The columns are about the area of a section by the pitch.
+    let fits = parameters.pitch * width / most;
+    if height > MAX_SIZE as f64 || fits > 2.0 * parameters.radius {
+        return Err(error.mended_by(Mend::FewerPixels));
+    }
+    Err(error.mend(format!("give a pitch of {:.2} mm or more", (fits * 101.0).ceil() / 100.0)))
+}
+
+#[cfg(test)]
+#[path = "tests/spiral.rs"]
+mod tests;

@@ -1,0 +1,83 @@
+"""``lumencut spiral``: vessels whose sections are wound up."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from lumencut.cli import options, reformations
+from lumencut.cli.parameters import VECTOR
+from lumencut.cli.report import verbose_option
+from lumencut.cli.settings import look_options
+from lumencut.cli.vessels import path_option
+
+if TYPE_CHECKING:
+    from lumencut.reformation import Reformation
+    from lumencut.vessel import Vessel
+
+
+@click.command("spiral", short_help="Wind up the sections of vessels (spiral CPR).")
+@click.argument("volume", type=options.FILE)
+@click.argument("centerlines", type=options.FILE, nargs=-1, required=True)
+@reformations.output_option
+@options.shown_vessel_options
+@path_option
+@click.option(
+    "--pitch",
+    type=float,
+    metavar="MM",
+    help="Distance of neighbouring windings (mm); default: a quarter of the median radius, but no less than "
+    "the smallest side of a voxel.",
+)
+@click.option(
+    "--radius",
+    type=float,
+    metavar="MM",
+    help="How far from the vessel they reach (mm); default: 1.25 times its largest radius and 2 mm more.",
+)
+@click.option(
+    "--sampling",
+    type=click.Choice(("arc", "angle")),
+    default="arc",
+    show_default=True,
+    help="arc: samples a pixel apart, so that widths are areas; angle: every winding has the same width.",
+)
+@click.option(
+    "--angle", type=float, default=0.0, show_default=True, metavar="DEGREES", help="Turn the sections."
+)
+@click.option("--up", type=VECTOR, default="0,0,1", show_default=True, help="What points upwards (LPS).")
+@click.option(
+    "--pixel-spacing",
+    type=float,
+    metavar="MM",
+    help="Side of a pixel (mm); default: the smallest side of a voxel, but no more than 0.5 mm.",
+)
+@reformations.smoothing_option
+@reformations.annotate_option
+@reformations.like_option
+@options.reading_options
+@look_options
+@verbose_option
+def spiral(**given: Any) -> None:
+    """Wind up the sections across the vessels of CENTERLINES: all around a vessel in one still picture.
+
+    The width of anything in a row is its area in the section, divided by the pitch.
+
+    \b
+    lumencut spiral ct.nii.gz centerlines.vtp -o LAD.png --vessel LAD
+    lumencut spiral ct.nii.gz centerlines.vtp -o graft.png --path 0,1,2 --pitch 2
+    """  # noqa: D301 - click needs the control character itself
+    options.check_picture(given["output"])
+    chosen, settings = reformations.like(given, "spiral")
+    renderer, _, vessels = reformations.read_vessels(chosen, settings, "spiral")
+    names = ("pitch", "radius", "sampling", "pixel_spacing", "up", "smoothing")
+    named = {name: chosen[name] for name in names}
+
+    def make(vessel: Vessel) -> Reformation:
+        from lumencut.spiral_reformation import spiral_of
+
+        return spiral_of(renderer, vessel, **named, angle=math.radians(chosen["angle"]), settings=settings)
+
+    reformations.write_each(chosen, vessels, make)

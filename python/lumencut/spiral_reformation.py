@@ -1,0 +1,241 @@
+"""Spiral CPR: every section across a vessel wound up into one row of an image."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any, Literal
+
+import numpy as np
+import numpy.typing as npt
+
+from lumencut import _lumencut
+from lumencut._checked_settings import checked
+from lumencut._checks import choice, number, numbers
+from lumencut.errors import CameraError, SettingsError, VesselTreeError, VolumeError
+from lumencut.planar_reformation import check_vessel, one_angle
+from lumencut.reformation import Reformation
+from lumencut.reformation_recipe import ReformationRecipe
+from lumencut.renderer import Renderer
+from lumencut.settings import Settings
+from lumencut.vessel import Vessel
+from lumencut.vessel_tree import VesselTree
+
+#: How samples lie on the spirals.
+SAMPLINGS = ("arc", "angle")
+
+_AXES = {
+    "arc": "Down: along the vessel, in mm. Across: sections wound up; width = area / {pitch:.3g} mm.",
+    "angle": "Down: along the vessel, in mm. Across: sections wound up by angle; widths are no areas.",
+}
+
+#: The areas that a ruler can have (mm²), and the widest ruler as a share of the picture.
+_AREAS, _WIDEST = (1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000), 0.4
+
+
+#: The most columns that a default pitch makes.
+_MOST_COLUMNS = 16_000
+
+#: The coarsest pixels where the caller names none (mm).
+_COARSEST = 0.5
+
+
+class SpiralReformation(Reformation):
+    """A vessel whose sections are wound up into rows (H, W), made by :func:`lumencut.spiral`.
+
+    The vessel is the middle column. From there two spirals go out to both sides, half of a turn apart. A
+    world point lies on the winding that is nearest to it, NaN beyond the outermost one and beyond the ends
+    of the vessel. A pixel is folded where sections have met before they reach it.
+
+    Attributes
+    ----------
+    pitch : float
+        The distance of neighbouring windings (mm). With samples at even arc lengths the width of anything in
+        a row, in mm, is its area in the section, in mm², divided by the pitch.
+    radius : float
+        How far from the vessel the windings reach (mm).
+    sampling : {"arc", "angle"}
+        How samples lie on the spirals.
+    """
+
+    def __init__(
+        self, renderer: Renderer, core: _lumencut.Spiral, given: Settings, parameters: dict[str, Any]
+    ) -> None:
+        self.pitch: float = parameters["pitch"]
+        self.radius: float = parameters["radius"]
+        self.sampling: str = parameters["sampling"]
+        axes = _AXES[self.sampling].format(pitch=self.pitch)
+        recipe = ReformationRecipe("spiral CPR", axes, parameters, "spiral")
+        super().__init__(renderer, core, given, recipe, measurable=False)
+
+    def area(self, columns: int) -> float:
+        """Return the area in a section (mm²) that so many columns of a row stand for.
+
+        Raises
+        ------
+        SettingsError
+            Where samples lie at even angles, so that columns do not stand for even areas.
+        """
+        if self.sampling != "arc":
+            raise SettingsError("sampling of the spiral CPR", repr(self.sampling), "'arc', for areas")
+        return columns * self.pixel_spacing * self.pitch
+
+    def annotated(self) -> npt.NDArray[np.uint8]:
+        """Return the picture with labels as every reformation has them, and with a ruler in mm²."""
+        from lumencut.annotation import SMALLEST_SIDE
+        from lumencut.lettering import Sheet
+
+        image = super().annotated()
+        volume = self._renderer.volume
+        states_spacing = volume is not None and volume.states_spacing
+        if self.sampling != "arc" or min(self.size) < SMALLEST_SIDE or not states_spacing:
+            return image
+        fitting = [area for area in _AREAS if self._ruler(area) <= _WIDEST * self.size[0]]
+        if not fitting:
+            return image
+        sheet = Sheet(image)
+        sheet.ruler(self._ruler(fitting[-1]), f"{fitting[-1]} square mm")
+        return sheet.pixels()
+
+    def _ruler(self, area: float) -> float:
+        """How wide an area is (pixels)."""
+        return area / self.pitch / self.pixel_spacing
+
+
+def spiral(
+    volume: Any,
+    vessel: Vessel,
+    pitch: float | None = None,
+    radius: float | None = None,
+    sampling: Literal["arc", "angle"] = "arc",
+    pixel_spacing: float | None = None,
+    angle: float = 0.0,
+    *,
+    up: npt.ArrayLike = (0.0, 0.0, 1.0),
+    smoothing: float = 0.0,
+    settings: Settings | None = None,
+    degrees: float | None = None,
+    device: Literal["auto", "cpu", "gpu"] = "auto",
+) -> SpiralReformation:
+    """Return a vessel whose sections are wound up, so that a still picture shows all around it.
+
+    In each section two spirals go out from the vessel with an even distance of windings; they become one row.
+    Windings sample a section evenly, so the width of anything in a row is its area divided by the pitch: half
+    of a diameter is a quarter of the width. Kanitsar (dissertation, TU Wien 2004) describes the spirals of
+    helical CPR; the formulas and this law are ours.
+
+    Parameters
+    ----------
+    volume : Volume, or whatever else :func:`lumencut.render` takes as a volume
+        The angiography.
+    vessel : Vessel
+        The centerline; :meth:`VesselTree.path` makes one of several vessels that meet.
+    pitch : float, optional
+        The distance of neighbouring windings (mm); a quarter of the vessel's median radius where not given,
+        but no less than the smallest side of a voxel, and no finer than fits into 16,384 columns.
+    radius : float, optional
+        How far from the vessel the windings reach (mm); 1.25 times its largest radius and 2 mm more where not
+        given.
+    sampling : {"arc", "angle"}, default "arc"
+        ``"arc"``: samples are a pixel apart along the spirals. ``"angle"``: they are an even angle apart, so
+        that every winding has the same width.
+    pixel_spacing : float, optional
+        Side of a pixel (mm); the smallest side of a voxel where not given, but no more than 0.5 mm.
+    angle : float, default 0
+        The angle by which sections are turned (radians): 0 begins to the right of the straightened CPR.
+    up : array_like, shape (3,), default (0, 0, 1)
+        Upwards in space (LPS), as for :func:`lumencut.cpr`.
+    smoothing : float, default 0
+        Standard deviation of the Gaussian that smooths the centerline along its length (mm).
+    settings : Settings, optional
+        Window, opacity, background and slab; a slab is thick across the spirals.
+    degrees : float, optional
+        The angle in degrees, in the place of ``angle``.
+    device : {"auto", "cpu", "gpu"}, default "auto"
+        What computes, as for :class:`lumencut.Renderer`.
+
+    Raises
+    ------
+    VesselTreeError
+        For a vessel of another kind, without length, or without radii where pitch or radius is not given.
+    CameraError
+        For lengths that are none, and for an image of too many pixels: it names a pitch that fits.
+    SettingsError
+        For another sampling, or a smoothing out of range.
+    VolumeError
+        For an image that is no volume.
+    """
+    check_vessel(vessel)
+    return spiral_of(
+        Renderer(volume, VesselTree([vessel]), device),
+        vessel,
+        pitch=pitch,
+        radius=radius,
+        sampling=sampling,
+        pixel_spacing=pixel_spacing,
+        angle=one_angle(angle, degrees),
+        up=up,
+        smoothing=smoothing,
+        settings=settings,
+    )
+
+
+def spiral_of(
+    renderer: Renderer,
+    vessel: Vessel,
+    *,
+    pitch: float | None = None,
+    radius: float | None = None,
+    sampling: Literal["arc", "angle"] = "arc",
+    pixel_spacing: float | None = None,
+    angle: float = 0.0,
+    up: npt.ArrayLike = (0.0, 0.0, 1.0),
+    smoothing: float = 0.0,
+    settings: Settings | None = None,
+) -> SpiralReformation:
+    """Return the spiral CPR by a renderer, whose window it has; parameters are those of :func:`spiral`."""
+    check_vessel(vessel)
+    choice(SettingsError, "sampling of the spiral CPR", sampling, SAMPLINGS)
+    volume = renderer.volume
+    if volume is None:
+        raise VolumeError("volume of the spiral CPR", "None", "a volume to show")
+    finest = float(volume.spacing.min())
+    spacing = min(_COARSEST, finest) if pixel_spacing is None else pixel_spacing
+    reach = _reach(vessel) if radius is None else radius
+    parameters: dict[str, Any] = {
+        "pixel_spacing": number(CameraError, "pixel_spacing of the spiral CPR", spacing),
+        "radius": number(CameraError, "radius of the spiral CPR", reach),
+        "sampling": sampling,
+        "angle": number(CameraError, "angle of the spiral CPR", angle),
+        "up": numbers(CameraError, "up of the spiral CPR", up, (3,)).tolist(),
+        "smoothing": number(SettingsError, "smoothing of the centerline", smoothing),
+    }
+    fine = _fine_pitch(vessel, finest, parameters) if pitch is None else pitch
+    parameters["pitch"] = number(CameraError, "pitch of the spiral CPR", fine)
+    given = replace(settings or Settings(), context=None, samples=1)
+    checked(given).refuse_focus()
+    lengths = [parameters[name] for name in ("pitch", "radius", "pixel_spacing")]
+    core = _lumencut.Spiral(
+        vessel.points, parameters["smoothing"], parameters["up"], lengths, sampling, parameters["angle"]
+    )
+    return SpiralReformation(renderer, core, given, parameters)
+
+
+def _radii(vessel: Vessel, missing: str) -> npt.NDArray[np.float64]:
+    """The radii of a vessel that are above 0."""
+    known = np.zeros(0) if vessel.radius is None else vessel.radius[vessel.radius > 0]
+    if not known.size:
+        expected = "radii, or the other"
+        raise VesselTreeError("radius of the vessel", "none", expected, f"give {missing}=, in mm")
+    return known
+
+
+def _reach(vessel: Vessel) -> float:
+    return 1.25 * float(_radii(vessel, "radius").max()) + 2
+
+
+def _fine_pitch(vessel: Vessel, finest: float, parameters: dict[str, Any]) -> float:
+    """A quarter of the usual radius, as far as voxels and the widest picture allow it."""
+    radius, spacing = parameters["radius"], parameters["pixel_spacing"]
+    is_length = 0 < spacing < np.inf and 0 < radius < np.inf
+    fits = np.pi * radius**2 / (_MOST_COLUMNS * spacing) if is_length else 0.0
+    return max(finest, float(np.median(_radii(vessel, "pitch"))) / 4, fits)
