@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from lumencut.centerline_comparison import CenterlineComparison, compare_centerlines
     from lumencut.centerline_writers import write_centerlines
     from lumencut.centerlines import read_centerlines
+    from lumencut.cohort.batch import BatchSummary, batch
     from lumencut.device import Device, devices
     from lumencut.errors import (
         CameraError,
@@ -80,6 +81,7 @@ _HOME = {
     "centerline_comparison": ("CenterlineComparison", "compare_centerlines"),
     "centerline_writers": ("write_centerlines",),
     "centerlines": ("read_centerlines",),
+    "cohort.batch": ("BatchSummary", "batch"),
     "device": ("Device", "devices"),
     "errors": (
         "CameraError",
@@ -138,6 +140,7 @@ _MODULE = {name: module for module, names in _HOME.items() for name in names}
 
 __all__ = [
     "VIEWS",
+    "BatchSummary",
     "Camera",
     "CameraError",
     "CenterlineComparison",
@@ -185,6 +188,7 @@ __all__ = [
     "VolumeError",
     "Window",
     "__version__",
+    "batch",
     "brightest",
     "cfa",
     "compare_centerlines",

@@ -9,6 +9,7 @@ from typing import Any
 
 import click
 
+from lumencut.cli.batch import batch
 from lumencut.cli.compare_methods import compare_methods
 from lumencut.cli.cpr import cpr
 from lumencut.cli.demo import demo
@@ -69,6 +70,7 @@ for _command in (
     info,
     trace,
     measure,
+    batch,
     settings,
     demo,
 ):

@@ -10,6 +10,7 @@ import click
 
 from lumencut.cli.options import FILE, added
 from lumencut.cli.report import bar, detail, say, warn
+from lumencut.errors import SettingsError
 
 if TYPE_CHECKING:
     from lumencut.vessel_tree import VesselTree
@@ -88,20 +89,13 @@ def traced_from_mask(chosen: dict[str, Any], volume: Volume | None) -> VesselTre
 
 
 def _labels(words: tuple[str, ...], known: dict[int, str]) -> dict[int, str] | None:
-    """The labels that are written as ``52``, ``52=aorta`` or by a name of the file."""
-    labels: dict[int, str] = {}
-    values = {name: value for value, name in known.items()}
-    for word in words:
-        value, equals, name = word.partition("=")
-        if value.strip().lstrip("-").isdigit():
-            number = int(value)
-            labels[number] = name if equals else known.get(number, f"label {number}")
-        elif word in values:
-            labels[values[word]] = word
-        else:
-            names = f", or a name of the file: {', '.join(values)}" if values else ""
-            raise click.UsageError(f"--label {word!r}: expected a value such as 52 or 52=aorta{names}")
-    return labels or None
+    """The labels that the options choose; None where they choose none."""
+    from lumencut.volume_files.label_names import chosen_labels
+
+    try:
+        return chosen_labels(words, known) or None
+    except SettingsError as error:
+        raise click.UsageError(f"--label {error.found}: expected {error.expected}") from error
 
 
 def _above(mask: Volume, threshold: float) -> Volume:

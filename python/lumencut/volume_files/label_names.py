@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import os
 import re
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 from lumencut._files import checked_path
-from lumencut.errors import FileError
+from lumencut.errors import FileError, SettingsError
 from lumencut.file_kinds import kind_of
 
 _HEADER_LIMIT = 1 << 20
@@ -44,6 +45,41 @@ def read_label_names(path: str | os.PathLike[str]) -> dict[int, str]:
     known = {"an NRRD volume": _of_slicer, "a NIfTI volume": _of_nifti}
     names = None if kind is None else known.get(kind.name)
     return {} if names is None else names(place)
+
+
+def chosen_labels(words: Iterable[str], known: Mapping[int, str]) -> dict[int, str]:
+    """Return the labels that are written as ``52``, ``52=aorta`` or by a name of the file.
+
+    Parameters
+    ----------
+    words : iterable of str
+        The labels as they are written.
+    known : mapping of int to str
+        The names in the file, as :func:`read_label_names` returns them.
+
+    Returns
+    -------
+    dict of int to str
+        The name of each label that is chosen.
+
+    Raises
+    ------
+    SettingsError
+        For a word that is no value and no name of the file.
+    """
+    labels: dict[int, str] = {}
+    values = {name: value for value, name in known.items()}
+    for word in words:
+        value, equals, name = word.partition("=")
+        if value.strip().lstrip("-").isdigit():
+            number = int(value)
+            labels[number] = name if equals else known.get(number, f"label {number}")
+        elif word in values:
+            labels[values[word]] = word
+        else:
+            names = f", or a name of the file: {', '.join(values)}" if values else ""
+            raise SettingsError("label", repr(word), f"a value such as 52 or 52=aorta{names}")
+    return labels
 
 
 def _of_slicer(path: Path) -> dict[int, str]:

@@ -1,0 +1,198 @@
+"""``lumencut batch``: many studies of a manifest, each in a process of its own."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NoReturn
+
+import click
+
+from lumencut.cli.options import FILE, device_option
+from lumencut.cli.report import say, tell, verbose_option, warn
+from lumencut.errors import FormatError
+
+if TYPE_CHECKING:
+    _Type = click.ParamType[Any]
+
+    from lumencut.cohort.manifest import Manifest
+    from lumencut.cohort.recipe import CohortRecipe
+else:
+    # Generic only in recent versions of click.
+    _Type = click.ParamType
+
+#: The exit code where some studies failed, or will.
+SOME_FAILED = 3
+
+_UNITS = {"": 1, "k": 1 << 10, "m": 1 << 20, "g": 1 << 30, "t": 1 << 40}
+_TIMES = {"": 1, "s": 1, "min": 60, "h": 3600}
+
+
+class _Quantity(_Type):
+    """A number with a unit behind it."""
+
+    def __init__(self, name: str, units: dict[str, int], example: str) -> None:
+        self.name, self._units, self._example = name, units, example
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float:
+        """Return the number in the smallest unit."""
+        if not isinstance(value, str):
+            return float(value)
+        found = re.fullmatch(r"([\d.]+)\s*([a-z]*?)(?:i?b)?", value.lower())
+        try:
+            return float(found[1]) * self._units[found[2]] if found else self._refuse(value, param, ctx)
+        except (ValueError, KeyError):
+            return self._refuse(value, param, ctx)
+
+    def _refuse(self, value: str, param: click.Parameter | None, ctx: click.Context | None) -> NoReturn:
+        self.fail(f"{value!r} is not of the form {self.name}, such as {self._example}", param, ctx)
+
+
+class _Part(_Type):
+    """One part of how many."""
+
+    name = "K/N"
+
+    def convert(
+        self, value: Any, param: click.Parameter | None, ctx: click.Context | None
+    ) -> tuple[int, int]:
+        """Return the number of the part and their count."""
+        if not isinstance(value, str):
+            return tuple(value)
+        found = re.fullmatch(r"(\d+)/(\d+)", value)
+        if found is None or not 1 <= int(found[1]) <= int(found[2]):
+            self.fail(f"{value!r} is not of the form K/N with K from 1 to N, such as 3/40", param, ctx)
+        return int(found[1]), int(found[2])
+
+
+@click.command(short_help="Do many studies, and write tables of all.")
+@click.argument("manifest")
+@click.option("-o", "--output", type=FILE, help="The folder of the results; made where it is missing.")
+@click.option("--recipe", type=FILE, help="A TOML file that says what is done with each study.")
+@click.option("--centerlines", metavar="PATTERN", help="Beside a pattern of volumes that of centerlines.")
+@click.option("--mask", metavar="PATTERN", help="The same of masks of the lumen.")
+@click.option("--points", metavar="PATTERN", help="The same of files of points along vessels.")
+@click.option("--seeds", metavar="PATTERN", help="The same of files of seeds.")
+@click.option("--check", is_flag=True, help="Name every study that will fail, by its headers, and do none.")
+@click.option("--jobs", type=click.IntRange(1, 1024), default=1, show_default=True, metavar="N",
+              help="How many studies are done at once.")  # fmt: skip
+@click.option("--shard", type=_Part(), help="Do one part of N; several may work beside each other.")
+@click.option("--retry", type=click.Choice(["failed", "all"]), help="Do these again in any case.")
+@click.option("--threads", type=click.IntRange(1, 1024), metavar="N",
+              help="How many threads compute in each study; default: the cores by --jobs.")  # fmt: skip
+@click.option("--memory", type=_Quantity("SIZE", _UNITS, "8GB"), help="The most memory of each study.")
+@click.option("--time-limit", type=_Quantity("TIME", _TIMES, "90min"), default="1h", show_default=True,
+              help="The longest time of each study; 0 for no limit.")  # fmt: skip
+@click.option("--one", metavar="ID", help="Do this study alone, in this process.")
+@device_option
+@verbose_option
+def batch(manifest: str, output: Path | None, **chosen: Any) -> None:
+    """Do each study of MANIFEST in a process of its own, and write tables of all.
+
+    MANIFEST is a table (.csv or .tsv) with the columns id and volume, and centerlines, mask, points or seeds
+    where a study has some; without them its vessels are found. Or it is a pattern such as
+    'scans/{id}.nii.gz'. Without --recipe the tree is written, one picture is made from the front, and all
+    vessels are measured. Studies that are done are not done again: a batch that was ended in any way goes on
+    when the same command is given. The exit code is 0 where all are done, and 3 where some failed.
+
+    \b
+    lumencut batch studies.csv --check
+    lumencut batch studies.csv -o results --jobs 4
+    lumencut batch 'scans/{id}.nii.gz' --mask 'masks/{id}.nii.gz' -o results --time-limit 20min --memory 8GB
+    lumencut batch studies.csv -o results --shard 3/40
+    """  # noqa: D301 - click needs the control character itself
+    from lumencut.cohort.recipe import read_cohort_recipe
+
+    sources = {name: chosen.pop(name) for name in ("centerlines", "mask", "points", "seeds")}
+    given = {name: pattern for name, pattern in sources.items() if pattern is not None}
+    try:
+        found = _manifest(manifest, given)
+        recipe = read_cohort_recipe(chosen["recipe"])
+    except FormatError as error:
+        # A manifest or a recipe with mistakes is a wrong use of the command.
+        raise click.UsageError(str(error)) from error
+    if chosen.pop("check"):
+        _check(found, recipe)
+        return
+    if output is None:
+        raise click.UsageError("Missing option '-o' / '--output'.")
+    one = chosen.pop("one")
+    if one is not None:
+        _one(found, recipe, output, one, chosen)
+        return
+    for note in found.notes:
+        warn(note)
+    _all(manifest, output, given, chosen)
+
+
+def _manifest(manifest: str, sources: dict[str, str]) -> Manifest:
+    from lumencut.cohort.manifest import read_manifest
+
+    return read_manifest(manifest, **sources)
+
+
+def _one(found: Manifest, recipe: CohortRecipe, output: Path, study_id: str, chosen: dict[str, Any]) -> None:
+    """Do one study in this process."""
+    from lumencut.cohort.layout import Layout
+    from lumencut.cohort.one import do_one, end_with_parent, limit_memory
+
+    end_with_parent()
+    limit_memory(None if chosen["memory"] is None else int(chosen["memory"]))
+    if chosen["threads"] is not None:
+        from lumencut.threads import set_threads
+
+        set_threads(chosen["threads"])
+    try:
+        study = found.study(study_id)
+    except FormatError as error:
+        raise click.UsageError(str(error)) from error
+    code = do_one(study, recipe, Layout(output.absolute()), chosen["device"])
+    click.get_current_context().exit(code)
+
+
+def _check(found: Manifest, recipe: CohortRecipe) -> None:
+    """Name every study that will fail, and how many will not."""
+    from lumencut.cohort.checking import trouble_of
+
+    for note in found.notes:
+        warn(note)
+    failing = 0
+    for study in found.studies:
+        trouble = trouble_of(study)
+        if trouble:
+            failing += 1
+            say(f"{study.id}: {trouble}")
+    say(f"{len(found.studies)} studies, {failing} will fail")
+    if failing:
+        click.get_current_context().exit(SOME_FAILED)
+
+
+def _all(manifest: str, output: Path, sources: dict[str, str], chosen: dict[str, Any]) -> None:
+    """Do all studies, with a line for each that failed and a bar on a terminal."""
+    from tqdm import tqdm
+
+    from lumencut.cohort.batch import batch as library
+
+    memory, seconds = chosen.pop("memory"), chosen.pop("time_limit")
+    with tqdm(desc="studies", unit="study", disable=None, leave=False, smoothing=0.1) as drawn:
+
+        def told(done: int, total: int, outcome: Any) -> None:
+            drawn.total = total
+            drawn.update(done - drawn.n)
+            if outcome.state != "done":
+                with drawn.external_write_mode():
+                    tell(f"{outcome.id}: {outcome.state}: {outcome.reason}")
+
+        summary = library(
+            manifest,
+            output,
+            **{**chosen, "shard": chosen["shard"] or (1, 1)},
+            memory=None if memory is None else int(memory),
+            time_limit=seconds or None,
+            sources=sources,
+            progress=told,
+        )
+    skipped = f", {summary.skipped} not done yet" if summary.skipped else ""
+    say(f"{output}: {summary.done} done, {summary.failed} failed{skipped}; {summary.worked} of them now")
+    if summary.failed:
+        click.get_current_context().exit(SOME_FAILED)

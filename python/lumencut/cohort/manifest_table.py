@@ -1,0 +1,116 @@
+"""A table of studies as text: its rows by the names of its columns, and which names are nearly known ones."""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from lumencut.errors import FileError, FormatError
+
+_EXPECTED = "a table of studies (.csv or .tsv)"
+_LARGEST = 1 << 28
+#: What may stand between fields. A semicolon is what spreadsheets write where the comma parts decimals.
+_SEPARATORS = ("\t", ",", ";")
+
+
+@dataclass(frozen=True)
+class Row:
+    """One line of the table: where it stands, and its values by the names of their columns."""
+
+    line: int
+    values: dict[str, str]
+
+
+@dataclass(frozen=True)
+class Table:
+    """The names of the columns, the rows, and what is odd about the names."""
+
+    names: tuple[str, ...]
+    rows: tuple[Row, ...]
+    notes: tuple[str, ...]
+
+
+def table_of(path: Path, known: Sequence[str]) -> Table:
+    """Read a table, whose empty lines are left out.
+
+    Raises
+    ------
+    FormatError
+        For letters that are no UTF-8, doubled or empty names of columns, and lines of another length.
+    FileError
+        For a file that is missing or cannot be read.
+    """
+    text = _text(path)
+    head = text.lstrip("\n").partition("\n")[0]
+    separator = "\t" if path.suffix.lower() == ".tsv" else max(_SEPARATORS, key=head.count)
+    reader = csv.reader(io.StringIO(text, newline=""), delimiter=separator, strict=True)
+    rows: list[tuple[int, list[str]]] = []
+    try:
+        for fields in reader:
+            values = [value.strip() for value in fields]
+            if any(values):
+                rows.append((reader.line_num, values))
+    except csv.Error as error:
+        raise FormatError(str(path), f"line {reader.line_num}: {error}", _EXPECTED) from error
+    if not rows:
+        raise FormatError(str(path), "an empty file", _EXPECTED)
+    names = tuple(rows[0][1])
+    _check_names(path, names)
+    for line, fields in rows[1:]:
+        if len(fields) != len(names):
+            found = f"{len(fields)} fields in line {line}"
+            mend = "put fields that hold a separator in quotes"
+            raise FormatError(str(path), found, f"{len(names)}, as in the first line", mend)
+    made = tuple(Row(line, dict(zip(names, fields, strict=True))) for line, fields in rows[1:])
+    return Table(names, made, tuple(_near(names, known)))
+
+
+def _text(path: Path) -> str:
+    try:
+        with path.open("rb") as file:
+            content = file.read(_LARGEST + 1)
+    except OSError as error:
+        raise FileError(str(path), error.strerror or str(error), _EXPECTED) from error
+    if len(content) > _LARGEST:
+        raise FormatError(str(path), f"more than {_LARGEST} bytes", _EXPECTED)
+    try:
+        text = content.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        line = content.count(b"\n", 0, error.start) + 1
+        found = f"the byte {content[error.start]:#04x} in line {line}, which is no UTF-8"
+        raise FormatError(str(path), found, "UTF-8", "save the table as CSV UTF-8") from error
+    if "\0" in text:
+        line = text.count("\n", 0, text.index("\0")) + 1
+        raise FormatError(str(path), f"a null character in line {line}", _EXPECTED, "save it as CSV UTF-8")
+    return text
+
+
+def _check_names(path: Path, names: tuple[str, ...]) -> None:
+    twice = sorted({name for name in names if names.count(name) > 1})
+    if "" in names:
+        raise FormatError(str(path), f"no name of column {names.index('') + 1}", "a name of each column")
+    if twice:
+        raise FormatError(str(path), f"the column {twice[0]!r} twice", "each name once")
+
+
+def _near(names: Sequence[str], known: Sequence[str]) -> list[str]:
+    """A sentence for each name that is one letter off a known one, which may be a slip."""
+    notes = []
+    for name in names:
+        meant = next((one for one in known if _is_one_letter_off(name.lower(), one)), None)
+        if name not in known and meant is not None:
+            notes.append(f"the column {name!r} is carried along; perhaps {meant!r} is meant")
+    return notes
+
+
+def _is_one_letter_off(name: str, known: str) -> bool:
+    """Whether one letter added, left out or changed, or none at all, makes one name of the other."""
+    longer, shorter = (name, known) if len(name) >= len(known) else (known, name)
+    if len(longer) - len(shorter) > 1:
+        return False
+    same = next((n for n, letter in enumerate(shorter) if letter != longer[n]), len(shorter))
+    rest = same if len(longer) > len(shorter) else same + 1
+    return longer[same + 1 :] == shorter[rest:]

@@ -1,0 +1,165 @@
+"""One study in this process: its limits, its folder that is renamed when whole, and its record."""
+
+from __future__ import annotations
+
+import ctypes
+import errno
+import logging
+import os
+import secrets
+import shutil
+import signal
+import sys
+import time
+import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+
+from lumencut.cohort.layout import Layout, flush
+from lumencut.cohort.manifest import Study
+from lumencut.cohort.recipe import CohortRecipe
+from lumencut.cohort.record import Origin, Record, origin_of
+from lumencut.cohort.study import Device, do_study
+from lumencut.errors import LumencutError
+
+#: The exit codes of a process that does one study: whole, failed with a record of it, no room on the disk.
+DONE, FAILED, NO_ROOM = 0, 3, 4
+#: Says which process has started this one; without it this one ends.
+PARENT = "LUMENCUT_BATCH_PARENT"
+_PR_SET_PDEATHSIG = 1
+_MOST_WARNINGS = 20
+
+
+def end_with_parent() -> None:
+    """See that the system ends this process when the one that started it ends, however it ends."""
+    parent = os.environ.pop(PARENT, None)
+    if parent is None or not sys.platform.startswith("linux"):
+        return
+    ctypes.CDLL(None, use_errno=True).prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
+    # It may have ended before.
+    if os.getppid() != int(parent):
+        os._exit(1)
+
+
+def limit_memory(most: int | None) -> None:
+    """Let this process have so many bytes at most, and be the first to go where the machine has no more."""
+    # Systems without this file choose by themselves.
+    with suppress(OSError):
+        Path("/proc/self/oom_score_adj").write_text("1000", "ascii")
+    if most is not None:
+        import resource
+
+        resource.setrlimit(resource.RLIMIT_AS, (most, most))
+
+
+def do_one(study: Study, recipe: CohortRecipe, layout: Layout, device: Device) -> int:
+    """Do one study: its results appear at once and whole, or a record of why it failed.
+
+    Returns
+    -------
+    int
+        The exit code of the process: `DONE`, `FAILED` or `NO_ROOM`.
+    """
+    layout.make()
+    origin = origin_of(study, recipe.digest)
+    start = time.monotonic()
+    work = layout.work / f"{study.label}.{secrets.token_hex(8)}"
+    try:
+        with _heard() as told:
+            work.mkdir()
+            try:
+                numbers = do_study(study, recipe, work, device)
+                if origin_of(study, recipe.digest) != origin:
+                    raise LumencutError(
+                        str(study.volume), "other files than before", "files that do not change"
+                    )
+            except MemoryError:
+                reason = "not enough memory"
+            except LumencutError as error:
+                reason = str(error)
+            except OSError as error:
+                if error.errno in (errno.ENOSPC, errno.EDQUOT):
+                    raise
+                reason = str(error)
+            except Exception as error:
+                logging.getLogger("lumencut").exception("unexpected")
+                reason = f"unexpected {type(error).__name__}: {error}"
+            else:
+                made = Record(study.id, "done", "", _seconds(start), origin, tuple(told), numbers)
+                made.write(work / layout.record(study).name)
+                put_in_place(work, layout, study)
+                return DONE
+        record_failure(layout, study, origin, reason, time.monotonic() - start, tuple(told))
+        return FAILED
+    except OSError as error:
+        if error.errno not in (errno.ENOSPC, errno.EDQUOT):
+            raise
+        print(f"lumencut: error: {layout.out}: {error.strerror}", file=sys.stderr)
+        return NO_ROOM
+    finally:
+        shutil.rmtree(work, ignore_errors=True)
+
+
+def put_in_place(work: Path, layout: Layout, study: Study) -> None:
+    """Move a whole folder to where results are, in the place of former ones, so that no cut can part it."""
+    for path in work.iterdir():
+        flush(path)
+    flush(work)
+    place = layout.folder(study)
+    place.parent.mkdir(parents=True, exist_ok=True)
+    former = work.with_name(f"{work.name}.former")
+    if place.exists():
+        os.rename(place, former)
+    os.rename(work, place)
+    flush(place.parent)
+    layout.failure(study).unlink(missing_ok=True)
+    shutil.rmtree(former, ignore_errors=True)
+
+
+def record_failure(
+    layout: Layout, study: Study, origin: Origin, reason: str, seconds: float, told: tuple[str, ...] = ()
+) -> None:
+    """Record why a study failed; former results of it are removed, for they are of another kind."""
+    words = "".join(letter if letter.isprintable() else " " for letter in " ".join(reason.split()))
+    Record(study.id, "failed", words, round(seconds, 3), origin, told).write(layout.failure(study))
+    place = layout.folder(study)
+    if place.exists():
+        former = layout.work / f"{study.label}.{secrets.token_hex(8)}.former"
+        os.rename(place, former)
+        shutil.rmtree(former, ignore_errors=True)
+
+
+def _seconds(start: float) -> float:
+    return round(time.monotonic() - start, 3)
+
+
+@contextmanager
+def _heard() -> Iterator[list[str]]:
+    """Keep what is warned of, and let it be shown as before."""
+    told: list[str] = []
+
+    class _Ear(logging.Handler):
+        def emit(self, record: logging.LogRecord) -> None:
+            _keep(told, record.getMessage())
+
+    log, ear = logging.getLogger("lumencut"), _Ear(logging.WARNING)
+    log.addHandler(ear)
+    shown = warnings.showwarning
+
+    def show(message: Warning | str, *where: object) -> None:
+        _keep(told, str(message))
+        shown(message, *where)  # type: ignore[arg-type]
+
+    warnings.showwarning = show  # type: ignore[assignment]
+    try:
+        yield told
+    finally:
+        log.removeHandler(ear)
+        warnings.showwarning = shown
+
+
+def _keep(told: list[str], text: str) -> None:
+    words = " ".join(text.split())
+    if words not in told and len(told) < _MOST_WARNINGS:
+        told.append(words)

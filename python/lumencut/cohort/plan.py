@@ -1,0 +1,86 @@
+"""Which studies of a cohort are done, which failed, and which are still to do."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+from lumencut._files import write_text
+from lumencut.cohort.layout import Layout
+from lumencut.cohort.lock import Shard
+from lumencut.cohort.manifest import Manifest, Study
+from lumencut.cohort.recipe import CohortRecipe
+from lumencut.cohort.record import FORMAT, Origin, Record, origin_of, read_record
+from lumencut.errors import FormatError
+
+Retry = Literal["failed", "all"]
+
+
+@dataclass(frozen=True)
+class Planned:
+    """A study, from what it is made now, and what is told of it where its results agree with that."""
+
+    study: Study
+    origin: Origin
+    record: Record | None
+
+
+def known_record(layout: Layout, study: Study, origin: Origin) -> Record | None:
+    """Return what is told of a study, where it agrees with what its files and the recipe are now.
+
+    Raises
+    ------
+    FormatError
+        For a record of a newer version of Lumencut.
+    """
+    for path in (layout.record(study), layout.failure(study)):
+        record = read_record(path)
+        if record is not None and record.id == study.id and record.origin == origin:
+            return record
+    return None
+
+
+def planned(layout: Layout, manifest: Manifest, recipe: CohortRecipe) -> list[Planned]:
+    """Look at each study of the manifest, in its order."""
+    found = []
+    for study in manifest.studies:
+        origin = origin_of(study, recipe.digest)
+        found.append(Planned(study, origin, known_record(layout, study, origin)))
+    return found
+
+
+def to_do(plans: Sequence[Planned], shard: Shard, retry: Retry | None) -> list[Planned]:
+    """Return the studies of a shard that are still to do, or to be done again."""
+    return [
+        one
+        for place, one in enumerate(plans)
+        if shard.has(place)
+        and (one.record is None or retry == "all" or (retry == "failed" and one.record.state == "failed"))
+    ]
+
+
+def settle_recipe(layout: Layout, recipe: CohortRecipe, retry: Retry | None) -> None:
+    """See that all results of a folder are of one recipe and one version.
+
+    Raises
+    ------
+    FormatError
+        Where results of others are there, unless they are all made again.
+    """
+    now = {"format": FORMAT, "recipe": recipe.digest, "version": Origin("", "").version}
+    path = layout.batch_file
+    try:
+        found = json.loads(path.read_text("utf-8"))
+        before = {name: found[name] for name in now}
+    except FileNotFoundError:
+        before = now
+    except (ValueError, KeyError, TypeError):
+        before = dict.fromkeys(now, "unknown")
+    if before != now and retry != "all":
+        other = "recipe" if before["version"] == now["version"] else "version of Lumencut"
+        told = f"results of another {other} ({before[other.partition(' ')[0]]})"
+        mend = "name another folder, or make them all again with --retry all"
+        raise FormatError(str(layout.out), told, f"those of {now[other.partition(' ')[0]]}", mend)
+    write_text(path, json.dumps(now, indent=1) + "\n")

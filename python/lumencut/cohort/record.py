@@ -1,0 +1,146 @@
+"""What is told of a study: whether it is done, why not, from what and with what it was made."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+from collections.abc import Iterator
+from dataclasses import asdict, dataclass, field
+from pathlib import Path
+from typing import Any, Literal
+
+from lumencut import _lumencut
+from lumencut.cohort.layout import flush
+from lumencut.cohort.manifest import Study
+from lumencut.errors import FileError, FormatError
+
+#: The version of what a record holds.
+FORMAT = 1
+_EXPECTED = "a record of lumencut batch"
+
+
+@dataclass(frozen=True)
+class Origin:
+    """From what and with what results were made; they agree where all of it is the same.
+
+    Attributes
+    ----------
+    inputs : str
+        A hash of the names, sizes and times of the files of the study, and of what the manifest says of them.
+    recipe : str
+        The digest of the recipe.
+    version : str
+        The version of Lumencut.
+    """
+
+    inputs: str
+    recipe: str
+    version: str = _lumencut.__version__
+
+
+@dataclass(frozen=True)
+class Record:
+    """What is told of one study.
+
+    Attributes
+    ----------
+    id : str
+        Its id in the manifest.
+    state : {"done", "failed"}
+        Whether its results are there.
+    reason : str
+        Why it failed; empty for "done".
+    seconds : float
+        How long its process worked.
+    origin : Origin
+        From what and with what it was made.
+    warnings : tuple of str
+        What there was to warn of.
+    numbers : dict of str
+        The columns of the study in ``studies.csv``; empty where it failed.
+    """
+
+    id: str
+    state: Literal["done", "failed"]
+    reason: str
+    seconds: float
+    origin: Origin
+    warnings: tuple[str, ...] = ()
+    numbers: dict[str, str | int | float] = field(default_factory=dict)
+
+    def write(self, path: Path) -> None:
+        """Write it where it is read only once it is whole."""
+        text = json.dumps({"format": FORMAT, **asdict(self)}, indent=1, ensure_ascii=False) + "\n"
+        temporary = path.with_name(f".{path.name}.{os.getpid()}.part")
+        try:
+            temporary.write_text(text, "utf-8")
+            flush(temporary)
+            os.replace(temporary, path)
+        finally:
+            temporary.unlink(missing_ok=True)
+
+
+def read_record(path: Path) -> Record | None:
+    """Return what is told of a study; None where there is no such file.
+
+    Raises
+    ------
+    FormatError
+        For a record of a newer version of Lumencut, and what is no record.
+    FileError
+        For a file that cannot be read.
+    """
+    try:
+        content = path.read_text("utf-8")
+    except (FileNotFoundError, NotADirectoryError):
+        return None
+    except OSError as error:
+        raise FileError(str(path), error.strerror or str(error), _EXPECTED) from error
+    except UnicodeDecodeError as error:
+        raise _damaged(path) from error
+    try:
+        found: dict[str, Any] = json.loads(content)
+        if found["format"] > FORMAT:
+            told = f"a record of format {found['format']}, of a newer version of Lumencut"
+            mend = "update Lumencut, or write into another folder"
+            raise FormatError(str(path), told, f"format {FORMAT}", mend)
+        del found["format"]
+        origin, warnings = Origin(**found.pop("origin")), tuple(found.pop("warnings"))
+        return Record(**found, origin=origin, warnings=warnings)
+    except (ValueError, KeyError, TypeError, AttributeError) as error:
+        if isinstance(error, FormatError):
+            raise
+        raise _damaged(path) from error
+
+
+def _damaged(path: Path) -> FormatError:
+    mend = "remove the folder or file, and its study is done again"
+    return FormatError(str(path), "a damaged record", _EXPECTED, mend)
+
+
+def origin_of(study: Study, recipe: str) -> Origin:
+    """Return from what and with what a study is made now; files that are missing count as such."""
+    told = hashlib.sha256()
+    said = [study.source, study.given if study.given_as_text else "", *sorted(study.reading.items())]
+    told.update(json.dumps(said).encode())
+    for path in study.files:
+        for name, size, time in _stated(path):
+            told.update(f"\0{name}\0{size}\0{time}".encode("utf-8", "surrogateescape"))
+    return Origin(told.hexdigest()[:32], recipe)
+
+
+def _stated(path: Path) -> Iterator[tuple[str, int, int]]:
+    """The name, size and time of change of a file, or of all files in a folder, by their names."""
+    try:
+        if not path.is_dir():
+            found = path.stat()
+            yield path.name, found.st_size, found.st_mtime_ns
+            return
+        for folder, folders, names in os.walk(path):
+            folders.sort()
+            for name in sorted(names):
+                found = os.stat(os.path.join(folder, name))
+                yield os.path.join(os.path.relpath(folder, path), name), found.st_size, found.st_mtime_ns
+    except OSError as error:
+        yield f"unreadable: {error.strerror}", 0, 0

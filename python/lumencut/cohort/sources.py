@@ -1,0 +1,151 @@
+"""The scan of a study and its centerlines: read, traced from a mask or points, or found in the scan."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from lumencut.centerlines import read_centerlines
+from lumencut.cohort.manifest import Study
+from lumencut.cohort.recipe import Centerlines
+from lumencut.errors import FormatError, TracingError
+from lumencut.mask_tracing import trace_mask
+from lumencut.placement import check_meeting
+from lumencut.seed_tracing import trace_from
+from lumencut.tracing import trace
+from lumencut.vessel import Vessel
+from lumencut.vessel_finding import find_vessels
+from lumencut.vessel_tree import VesselTree
+from lumencut.volume import Volume
+from lumencut.volume_files import read_volume
+from lumencut.volume_files.label_names import chosen_labels, read_label_names
+
+_Points = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class StudyVessels:
+    """The vessels of a study.
+
+    Attributes
+    ----------
+    tree : VesselTree
+        Those that count.
+    doubtful : tuple of (Vessel, str)
+        Those that are not sure, each with its reason in words.
+    """
+
+    tree: VesselTree
+    doubtful: tuple[tuple[Vessel, str], ...] = ()
+
+    @classmethod
+    def of(cls, *trees: VesselTree) -> StudyVessels:
+        """Return the vessels of trees, whose doubtful ones stay apart."""
+        doubtful = [pair for tree in trees for pair in zip(tree.doubtful, tree.doubts, strict=True)]
+        # The tree itself where there is one, for it knows its space.
+        one = trees[0] if len(trees) == 1 else VesselTree([vessel for tree in trees for vessel in tree])
+        return cls(one, tuple(doubtful))
+
+
+def scan_of(study: Study) -> Volume:
+    """Read the scan of a study as the manifest says."""
+    return read_volume(study.volume, series=study.reading.get("series"), phase=study.reading.get("phase"))
+
+
+def vessels_of(study: Study, volume: Volume, how: Centerlines) -> StudyVessels:
+    """Return the vessels of a study.
+
+    Raises
+    ------
+    LumencutError
+        For files that cannot be read, and scans in which nothing is found.
+    """
+    match study.source:
+        case "centerlines":
+            tree = read_centerlines(study.given, volume=volume)
+            check_meeting(volume, tree)
+            return StudyVessels(tree)
+        case "mask":
+            mask = read_volume(study.given)
+            labels = labels_of(study)
+            return StudyVessels(trace_mask(mask, volume, labels=labels, shortest_branch=how.shortest_branch))
+        case "points":
+            return StudyVessels(_along_points(study, volume, how))
+        case "seeds":
+            return _from_seeds(places_of(study, volume), volume, how)
+    return _most_important(find_vessels(volume, smallest_radius=how.smallest_radius), how)
+
+
+def _most_important(found: VesselTree, how: Centerlines) -> StudyVessels:
+    """The most important part of what was found, or all of it where the recipe says so."""
+    every = StudyVessels.of(found)
+    if how.all_parts or len(found.parts) < 2:
+        return every
+    return StudyVessels(VesselTree([found[vessel] for vessel in found.parts[0]]), every.doubtful)
+
+
+def labels_of(study: Study) -> dict[int, str] | None:
+    """Return the labels of the mask that are lumen, with names; None for every value but 0.
+
+    Raises
+    ------
+    SettingsError
+        For a label that is no value and no name of the mask's file.
+    """
+    known = read_label_names(study.given)
+    words = [word.strip() for word in study.reading.get("label", "").split(";")]
+    return chosen_labels([word for word in words if word], known) or known or None
+
+
+def places_of(study: Study, volume: Volume | None = None) -> _Points:
+    """Return the points that a study gives, shape (n, 3), mm, LPS.
+
+    Raises
+    ------
+    FormatError
+        For a text that is no such points.
+    """
+    if not study.given_as_text:
+        return read_centerlines(study.given, volume=volume).points
+    try:
+        written = [place for place in study.given.split(";") if place.strip()]
+        return np.array([[float(x) for x in place.split(",")] for place in written]).reshape(-1, 3)
+    except ValueError:
+        expected = "three numbers x,y,z for each point (mm, LPS), and ; between points"
+        raise FormatError(f"{study.source} of {study.id}", f"{study.given!r:.80}", expected) from None
+
+
+def _along_points(study: Study, volume: Volume, how: Centerlines) -> VesselTree:
+    """The vessels along points: one of those in the manifest, one for each line of a file."""
+    if study.given_as_text:
+        return trace(volume, [places_of(study)], bridge=how.bridge)
+    lines = list(read_centerlines(study.given, volume=volume))
+    names = [line.name for line in lines]
+    return trace(volume, [line.points for line in lines], bridge=how.bridge, names=names)
+
+
+def _from_seeds(seeds: _Points, volume: Volume, how: Centerlines) -> StudyVessels:
+    """All that the seeds reach; a seed in vessels that another one has reached adds nothing."""
+    trees: list[VesselTree] = []
+    for seed in seeds:
+        if any(_reaches(tree, seed) for tree in trees):
+            continue
+        tree = trace_from(volume, seed, smallest_radius=how.smallest_radius)
+        # Seeds of one part give the same vessels to the bit.
+        if not any(np.array_equal(tree.points, other.points) for other in trees):
+            trees.append(tree)
+    if not trees:
+        raise TracingError("seeds", "no point", "a point in a vessel")
+    return StudyVessels.of(*trees)
+
+
+def _reaches(tree: VesselTree, seed: _Points) -> bool:
+    """Whether a seed lies in the lumen of a vessel of the tree."""
+    for vessel in tree:
+        distance = np.linalg.norm(vessel.points - seed, axis=1)
+        nearest = int(distance.argmin())
+        if vessel.radius is not None and distance[nearest] <= vessel.radius[nearest]:
+            return True
+    return False

@@ -1,0 +1,100 @@
+"""The tables of a cohort: its studies, their vessels and their sections, in the order of the manifest."""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import BinaryIO
+
+from lumencut._files import replace_whole
+from lumencut.cohort.layout import Layout
+from lumencut.cohort.manifest import Manifest, Study
+from lumencut.cohort.record import Record
+from lumencut.cohort.study_tables import written
+from lumencut.errors import FormatError
+
+#: The columns of ``studies.csv`` before the further ones; the numbers are those of `do_study`.
+BEGIN = ("id", "state", "reason", "seconds")
+NUMBERS = (
+    "centerlines_from",
+    "vessels",
+    "length_mm",
+    "doubtful_vessels",
+    "not_measured_vessels",
+    "sections",
+    "flags",
+)
+COLUMNS = (*BEGIN, *NUMBERS, "warnings")
+#: The tables of vessels and of sections, as they are called for a study and for the cohort.
+OF_STUDIES = ("vessels", "sections")
+
+
+def further_names(manifest: Manifest) -> tuple[str, ...]:
+    """Return what the further columns are called in ``studies.csv``, which has names of its own."""
+    return tuple(f"manifest_{name}" if name in COLUMNS else name for name in manifest.further)
+
+
+def write_tables(layout: Layout, manifest: Manifest, records: Sequence[Record | None]) -> None:
+    """Write the tables of a cohort from what is there; each appears once it is whole.
+
+    Parameters
+    ----------
+    layout : Layout
+        Where the results lie.
+    manifest : Manifest
+        The studies.
+    records : sequence of Record or None
+        What is told of each study, in the order of the manifest; None where it is not done yet.
+    """
+    rows = [[*COLUMNS, *further_names(manifest)]]
+    rows += [_row(study, record) for study, record in zip(manifest.studies, records, strict=True)]
+    text = written(rows)
+    replace_whole(layout.out / "studies.csv", lambda whole: whole.write_text(text, "utf-8", newline="\n"))
+    done = [
+        study
+        for study, record in zip(manifest.studies, records, strict=True)
+        if record is not None and record.state == "done"
+    ]
+    for name in OF_STUDIES:
+        parts = [layout.folder(study) / f"{study.label}_{name}.csv" for study in done]
+        replace_whole(layout.out / f"{name}.csv", _joined(parts))
+
+
+def _row(study: Study, record: Record | None) -> list[str]:
+    """The row of a study, whether it is done, failed, or not done yet."""
+    if record is None:
+        told = ["skipped", "not done yet", ""]
+    else:
+        told = [record.state, record.reason, f"{record.seconds:.3f}"]
+    numbers = {} if record is None else record.numbers
+    warnings = "" if record is None else "; ".join(record.warnings)
+    own = (str(numbers.get(name, "")) for name in NUMBERS)
+    return [study.id, *told, *own, warnings, *study.further]
+
+
+def _joined(parts: Sequence[Path]) -> Callable[[Path], None]:
+    """Write tables of the same columns as one; empty ones are left out."""
+
+    def write(whole: Path) -> None:
+        head = b""
+        with whole.open("wb") as file:
+            for part in parts:
+                with part.open("rb") as rows:
+                    head = _append(file, rows, head, part)
+
+    return write
+
+
+def _append(file: BinaryIO, rows: BinaryIO, head: bytes, part: Path) -> bytes:
+    """Append the rows of a table below the names of its columns, which are written once and returned."""
+    names = rows.readline()
+    if not names:
+        return head
+    if not head:
+        file.write(names)
+    elif names != head:
+        mend = "run the batch again with --retry all"
+        raise FormatError(str(part), "other columns than those of the studies before", "the same ones", mend)
+    shutil.copyfileobj(rows, file, 1 << 20)
+    return names

@@ -1,0 +1,118 @@
+"""Cohorts of small studies, among them some that crash, hang, are damaged or missing."""
+
+from __future__ import annotations
+
+import csv
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import nibabel as nib
+import numpy as np
+
+from scene_files import write_lines, write_volume
+
+#: What a child process runs before anything else: files of some names crash it as native code would, or hang.
+BROKEN_READING = """
+import os, sys, time
+def hook(event, arguments):
+    if event == "open" and isinstance(arguments[0], (str, bytes, os.PathLike)):
+        name = os.path.basename(os.fspath(arguments[0]))
+        if name == "crashing.nii.gz":
+            os.abort()
+        if name == "hanging.nii.gz":
+            time.sleep(1000)
+sys.addaudithook(hook)
+"""
+
+#: No pictures, and coarse sections: what is tried is the batch.
+RECIPE = "[pictures]\nviews = []\n[measure]\nstep = 2.0\n"
+
+#: The studies that cannot be done, with what is told of each.
+BAD = {
+    "crashing": "crashed: SIGABRT",
+    "greedy": "more than the free memory holds",
+    "hanging": "took longer than",
+    "corrupt": "corrupt.nii.gz",
+    "missing": "no such file",
+}
+
+
+def write_cohort(folder: Path, good: int = 7, bad: bool = True) -> Path:
+    """Write studies with their manifest and recipe into a folder, and return the manifest."""
+    volume = write_volume(folder / "tube.nii.gz").read_bytes()
+    write_lines(folder / "tube.vtk")
+    # The one that is too large is not packed.
+    endings = {"greedy": "nii"}
+    names = [f"good-{n}" for n in range(good)]
+    if bad:
+        # The bad ones stand among the others.
+        names = [name for pair in zip(names, [*BAD, *[""] * good], strict=False) for name in pair if name]
+    rows = [["id", "volume", "centerlines", "age"]]
+    for number, name in enumerate(names):
+        rows.append(
+            [
+                name,
+                f"{name}.{endings.get(name, 'nii.gz')}",
+                "" if number == 0 else "tube.vtk",
+                str(50 + number),
+            ]
+        )
+        if name not in ("missing", "greedy"):
+            (folder / f"{name}.nii.gz").write_bytes(
+                volume[: len(volume) // 2] if name == "corrupt" else volume
+            )
+    if bad:
+        write_greedy(folder / "greedy.nii")
+    with (folder / "studies.csv").open("w", newline="", encoding="utf-8") as file:
+        csv.writer(file).writerows(rows)
+    (folder / "recipe.toml").write_text(RECIPE, encoding="utf-8")
+    site = folder / "site"
+    site.mkdir()
+    (site / "sitecustomize.py").write_text(BROKEN_READING, encoding="utf-8")
+    return folder / "studies.csv"
+
+
+def write_greedy(path: Path) -> None:
+    """Write a volume of 4 GB that takes no room on the disk: all of its voxels are a hole in the file."""
+    header = nib.Nifti1Header()
+    header.set_data_shape((1280, 1280, 1280))
+    header.set_data_dtype(np.int16)
+    header.set_sform(np.eye(4), code=1)
+    header.set_xyzt_units("mm")
+    header["magic"], header["vox_offset"] = b"n+1", 352
+    with path.open("wb") as file:
+        file.write(header.binaryblock + bytes(4))
+        file.truncate(352 + 2 * 1280**3)
+
+
+def command(manifest: Path, out: Path, *words: str) -> list[str]:
+    """The words of a batch of such a cohort."""
+    recipe = manifest.with_name("recipe.toml")
+    fixed = ("-o", str(out), "--recipe", str(recipe), "--device", "cpu")
+    return [sys.executable, "-m", "lumencut", "batch", str(manifest), *fixed, *words]
+
+
+def environment(manifest: Path) -> dict[str, str]:
+    """The environment of such a batch, in whose children some files crash or hang."""
+    path = os.pathsep.join([str(manifest.parent / "site"), os.environ.get("PYTHONPATH", "")])
+    return {**os.environ, "PYTHONPATH": path}
+
+
+def run(manifest: Path, out: Path, *words: str) -> subprocess.CompletedProcess[str]:
+    """Run a batch to its end."""
+    return subprocess.run(
+        command(manifest, out, *words),
+        env=environment(manifest),
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=300,
+    )
+
+
+def table(path: Path) -> list[dict[str, str]]:
+    """The rows of a table by the names of its columns."""
+    with path.open(newline="", encoding="utf-8") as file:
+        return list(csv.DictReader(file))

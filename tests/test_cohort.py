@@ -1,0 +1,267 @@
+"""``lumencut batch``: a crash takes nobody with it, nothing is done twice, kills leave whole studies."""
+
+from __future__ import annotations
+
+import json
+import os
+import random
+import signal
+import subprocess
+import time
+
+import pytest
+
+import lumencut
+from cohort_scenes import BAD, command, environment, run, table, write_cohort
+
+pytestmark = pytest.mark.skipif(os.name != "posix", reason="processes are ended as POSIX does")
+
+LIMITS = ("--memory", "2GB", "--time-limit", "20s", "--jobs", "2", "--threads", "1")
+
+
+@pytest.fixture(scope="module")
+def done(tmp_path_factory):
+    """A cohort of twelve studies, five of them bad, and how its batch ended."""
+    manifest = write_cohort(tmp_path_factory.mktemp("cohort"))
+    out = manifest.with_name("out")
+    return manifest, out, run(manifest, out, *LIMITS)
+
+
+def test_five_bad_studies_of_twelve_take_nobody_with_them(done):
+    _, out, ended = done
+    rows = {row["id"]: row for row in table(out / "studies.csv")}
+    assert len(rows) == 12
+    failed = {name: row["reason"] for name, row in rows.items() if row["state"] == "failed"}
+    assert set(failed) == set(BAD), ended.stderr
+    for name, words in BAD.items():
+        assert words in failed[name], failed
+    good = [row for row in rows.values() if row["state"] == "done"]
+    assert len(good) == 7
+    assert all(row["reason"] == "" and float(row["seconds"]) > 0 for row in good)
+    assert ended.returncode == 3
+    assert "7 done, 5 failed" in ended.stdout
+
+
+def test_tables_hold_the_good_studies_in_the_order_of_the_manifest(done):
+    manifest, out, _ = done
+    order = [row["id"] for row in table(manifest)]
+    assert [row["id"] for row in table(out / "studies.csv")] == order
+    good = [name for name in order if name not in BAD]
+    for name in ("vessels", "sections"):
+        rows = table(out / f"{name}.csv")
+        seen = list(dict.fromkeys(row["id"] for row in rows))
+        assert seen == good
+    sections = table(out / "sections.csv")
+    assert {row["centerlines_from"] for row in sections if row["id"] == good[0]} == {"none"}
+    assert {row["centerlines_from"] for row in sections if row["id"] == good[1]} == {"centerlines"}
+    assert all(row["uncertainty_mm"] and row["fwhm_source"] and row["wall_source"] for row in sections)
+    # The tube has a radius of 3 mm.
+    measured = [float(row["diameter_median_mm"]) for row in table(out / "vessels.csv")]
+    assert all(abs(diameter - 6) < 0.5 for diameter in measured), measured
+
+
+def test_further_columns_are_carried_along(done):
+    manifest, out, _ = done
+    ages = {row["id"]: row["age"] for row in table(manifest)}
+    assert {row["id"]: row["age"] for row in table(out / "studies.csv")} == ages
+
+
+def test_the_tables_are_those_of_each_study_alone(done):
+    _, out, _ = done
+    text = (out / "sections.csv").read_text("utf-8").splitlines()
+    part = (out / "sub-good3/sub-good3_sections.csv").read_text("utf-8").splitlines()
+    assert part[0] == text[0]
+    assert set(part[1:]) <= set(text)
+
+
+def test_the_second_run_does_nothing(done):
+    manifest, out, _ = done
+    before = {path: path.stat().st_mtime_ns for path in out.glob("sub-*/*")}
+    assert before
+    start = time.monotonic()
+    again = run(manifest, out, *LIMITS)
+    assert time.monotonic() - start < 5
+    assert "0 of them now" in again.stdout
+    assert again.returncode == 3
+    assert {path: path.stat().st_mtime_ns for path in out.glob("sub-*/*")} == before
+
+
+def test_only_the_failed_ones_are_done_again_where_that_is_asked_for(done):
+    manifest, out, _ = done
+    words = (*LIMITS, "--retry", "failed", "--time-limit", "4s")
+    again = run(manifest, out, *words)
+    assert "5 of them now" in again.stdout, again.stderr
+
+
+def test_a_study_whose_files_changed_is_done_again(tmp_path):
+    manifest = write_cohort(tmp_path, good=2, bad=False)
+    out = tmp_path / "out"
+    assert run(manifest, out).returncode == 0
+    os.utime(tmp_path / "good-1.nii.gz", (1, 1))
+    again = run(manifest, out)
+    assert "1 of them now" in again.stdout
+    assert again.returncode == 0
+
+
+def test_a_missing_file_that_appears_is_no_longer_a_failure(tmp_path):
+    manifest = write_cohort(tmp_path, good=2, bad=False)
+    kept = (tmp_path / "good-1.nii.gz").rename(tmp_path / "kept")
+    out = tmp_path / "out"
+    assert run(manifest, out).returncode == 3
+    kept.rename(tmp_path / "good-1.nii.gz")
+    assert run(manifest, out).returncode == 0
+    assert not list((out / ".lumencut/failed").iterdir())
+
+
+def test_results_of_another_recipe_are_not_mixed(tmp_path):
+    manifest = write_cohort(tmp_path, good=2, bad=False)
+    out = tmp_path / "out"
+    assert run(manifest, out).returncode == 0
+    (tmp_path / "recipe.toml").write_text("[pictures]\nviews = []\n[measure]\nstep = 1.0\n", "utf-8")
+    refused = run(manifest, out)
+    assert refused.returncode == 1
+    assert "results of another recipe" in refused.stderr
+    assert "--retry all" in refused.stderr
+    before = len(table(out / "sections.csv"))
+    assert run(manifest, out, "--retry", "all").returncode == 0
+    assert len(table(out / "sections.csv")) > 1.5 * before
+    assert "0 of them now" in run(manifest, out).stdout
+
+
+def test_a_record_of_a_newer_version_is_refused(tmp_path):
+    manifest = write_cohort(tmp_path, good=1, bad=False)
+    out = tmp_path / "out"
+    assert run(manifest, out).returncode == 0
+    (record,) = out.glob("sub-*/*_record.json")
+    record.write_text(json.dumps({**json.loads(record.read_text("utf-8")), "format": 2}), "utf-8")
+    refused = run(manifest, out)
+    assert refused.returncode == 1
+    assert "of a newer version of Lumencut" in refused.stderr
+
+
+def test_a_second_batch_into_one_folder_is_refused(tmp_path):
+    manifest = write_cohort(tmp_path, good=1)
+    out = tmp_path / "out"
+    (tmp_path / "studies.csv").write_text("id,volume\nhanging,hanging.nii.gz\n", "utf-8")
+    (tmp_path / "hanging.nii.gz").write_bytes((tmp_path / "tube.nii.gz").read_bytes())
+    with started(manifest, out) as first:
+        wait_for(lambda: list(out.glob(".lumencut/work/*")), first)
+        refused = run(manifest, out)
+        assert refused.returncode == 1
+        assert f"process {first.pid}" in refused.stderr
+        assert "another batch" in refused.stderr
+        # A lock of a process that is gone is taken over; here the study is too slow for the second one too.
+        first.send_signal(signal.SIGKILL)
+        first.wait()
+        assert list(out.glob(".lumencut/lock-*"))
+        taken = run(manifest, out, "--time-limit", "3s")
+    assert "0 done, 1 failed; 1 of them now" in taken.stdout
+    assert not list(out.glob(".lumencut/lock-*"))
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGKILL], ids=lambda one: one.name)
+def test_children_end_with_their_parent(tmp_path, number):
+    manifest = write_cohort(tmp_path, good=1)
+    (tmp_path / "studies.csv").write_text("id,volume\nhanging,hanging.nii.gz\n", "utf-8")
+    (tmp_path / "hanging.nii.gz").write_bytes((tmp_path / "tube.nii.gz").read_bytes())
+    out = tmp_path / "out"
+    with started(manifest, out) as batch:
+        wait_for(lambda: list(out.glob(".lumencut/work/*")), batch)
+        children = children_of(batch.pid)
+        assert len(children) == 1
+        batch.send_signal(number)
+        code = batch.wait(30)
+    wait_for(lambda: not any(map(is_there, children)))
+    assert code == {signal.SIGINT: 130, signal.SIGTERM: 143, signal.SIGKILL: -9}[number]
+    if number != signal.SIGKILL:
+        assert not list(out.glob(".lumencut/lock-*"))
+        assert [row["state"] for row in table(out / "studies.csv")] == ["skipped"]
+
+
+def test_three_kills_at_random_moments_end_with_the_same_tables(tmp_path):
+    manifest = write_cohort(tmp_path, good=5, bad=False)
+    whole, killed = tmp_path / "whole", tmp_path / "killed"
+    assert run(manifest, whole, "--jobs", "2", "--threads", "1").returncode == 0
+    moments = random.Random(7)
+    for _ in range(3):
+        with started(manifest, killed, "--jobs", "2", "--threads", "1") as batch:
+            time.sleep(moments.uniform(0.8, 2.5))
+            batch.send_signal(signal.SIGKILL)
+            batch.wait()
+        for folder in killed.glob("sub-*"):
+            assert len(list(folder.glob("*_record.json"))) == 1
+    assert run(manifest, killed, "--jobs", "2", "--threads", "1").returncode == 0
+    assert list(killed.glob(".lumencut/work/*")) == []
+    for name in ("vessels.csv", "sections.csv"):
+        assert (killed / name).read_bytes() == (whole / name).read_bytes()
+
+
+def test_shards_share_a_folder(tmp_path):
+    manifest = write_cohort(tmp_path, good=5, bad=False)
+    out, whole = tmp_path / "out", tmp_path / "whole"
+    with started(manifest, out, "--shard", "1/2") as first:
+        second = run(manifest, out, "--shard", "2/2")
+        assert first.wait(60) == 0
+    assert second.returncode == 0
+    assert "2 of them now" in second.stdout
+    assert run(manifest, whole).returncode == 0
+    rows = table(out / "studies.csv")
+    assert [row["state"] for row in rows] == ["done"] * 5
+    assert (out / "sections.csv").read_bytes() == (whole / "sections.csv").read_bytes()
+
+
+def test_a_batch_from_python(tmp_path):
+    manifest = write_cohort(tmp_path, good=2, bad=False)
+    (tmp_path / "good-1.nii.gz").unlink()
+    told = []
+    summary = lumencut.batch(
+        manifest,
+        tmp_path / "out",
+        recipe=tmp_path / "recipe.toml",
+        progress=lambda done, total, outcome: told.append((done, total, outcome.id, outcome.state)),
+    )
+    assert (summary.done, summary.failed, summary.skipped, summary.worked) == (1, 1, 0, 2)
+    assert told == [(1, 2, "good-0", "done"), (2, 2, "good-1", "failed")]
+
+
+def started(manifest, out, *words):
+    """A batch that works, and is killed where the test leaves it."""
+    return _Started(manifest, out, *words)
+
+
+class _Started:
+    def __init__(self, manifest, out, *words):
+        pipes = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
+        # Whoever runs the tests in the background may have told their processes to ignore Ctrl-C.
+        told = {"preexec_fn": lambda: signal.signal(signal.SIGINT, signal.default_int_handler)}
+        self.process = subprocess.Popen(
+            command(manifest, out, *words), env=environment(manifest), **pipes, **told
+        )
+
+    def __enter__(self):
+        return self.process
+
+    def __exit__(self, *_):
+        self.process.kill()
+        self.process.wait()
+
+
+def wait_for(is_so, process=None):
+    end = time.monotonic() + 30
+    while not is_so():
+        assert time.monotonic() < end, "it did not come"
+        assert process is None or process.poll() is None
+        time.sleep(0.02)
+
+
+def children_of(process):
+    told = subprocess.run(["ps", "-o", "pid=", "--ppid", str(process)], capture_output=True, text=True)
+    return [int(word) for word in told.stdout.split()]
+
+
+def is_there(process):
+    try:
+        os.kill(process, 0)
+    except ProcessLookupError:
+        return False
+    return True
