@@ -167,4 +167,17 @@ def _tables(
         "not_measured_vessels": sum(bool(one.not_measured) for one in vessels),
         "sections": max(len(sections) - 1, 0),
         "flags": sum(sum(count.values()) for count in flags.values()),
+        **_narrowest(vessels),
     }
+
+
+def _narrowest(vessels: list[StudyVessel]) -> dict[str, str | int | float]:
+    """The narrowest of the places that are suggested, and its vessel; nothing where none is."""
+    spots = [
+        (n, one.measured.profile.narrowest()) for n, one in enumerate(vessels) if one.measured is not None
+    ]
+    found = [(spot.diameter, n) for n, spot in spots if spot is not None]
+    if not found:
+        return {}
+    diameter, vessel = min(found)
+    return {"suggested_narrowest_mm": round(diameter, 4), "suggested_narrowest_vessel": vessel}

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import json
 import shutil
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import BinaryIO
 
-from lumencut._files import replace_whole
+from lumencut import _lumencut
+from lumencut._files import replace_whole, write_text
+from lumencut.cohort.contact_page import contact_page
 from lumencut.cohort.layout import Layout
 from lumencut.cohort.manifest import Manifest, Study
 from lumencut.cohort.record import Record
@@ -24,6 +27,8 @@ NUMBERS = (
     "not_measured_vessels",
     "sections",
     "flags",
+    "suggested_narrowest_mm",
+    "suggested_narrowest_vessel",
 )
 COLUMNS = (*BEGIN, *NUMBERS, "warnings")
 #: The tables of vessels and of sections, as they are called for a study and for the cohort.
@@ -36,7 +41,7 @@ def further_names(manifest: Manifest) -> tuple[str, ...]:
 
 
 def write_tables(layout: Layout, manifest: Manifest, records: Sequence[Record | None]) -> None:
-    """Write the tables of a cohort from what is there; each appears once it is whole.
+    """Write the tables and the contact sheet of a cohort from what is there; each appears once it is whole.
 
     Parameters
     ----------
@@ -49,16 +54,29 @@ def write_tables(layout: Layout, manifest: Manifest, records: Sequence[Record | 
     """
     rows = [[*COLUMNS, *further_names(manifest)]]
     rows += [_row(study, record) for study, record in zip(manifest.studies, records, strict=True)]
-    text = written(rows)
-    replace_whole(layout.out / "studies.csv", lambda whole: whole.write_text(text, "utf-8", newline="\n"))
+    write_text(layout.out / "studies.csv", written(rows))
     done = [
         study
         for study, record in zip(manifest.studies, records, strict=True)
         if record is not None and record.state == "done"
     ]
+    text_page = contact_page(layout, manifest, records)
+    for name, content in (("index.html", text_page), ("dataset_description.json", _description())):
+        write_text(layout.out / name, content)
     for name in OF_STUDIES:
         parts = [layout.folder(study) / f"{study.label}_{name}.csv" for study in done]
         replace_whole(layout.out / f"{name}.csv", _joined(parts))
+
+
+def _description() -> str:
+    """What the folder is, in the manner of the derived data sets of BIDS."""
+    told = {
+        "Name": "Vessels measured by Lumencut",
+        "BIDSVersion": "1.10.0",
+        "DatasetType": "derivative",
+        "GeneratedBy": [{"Name": "Lumencut", "Version": _lumencut.__version__}],
+    }
+    return json.dumps(told, indent=2) + "\n"
 
 
 def _row(study: Study, record: Record | None) -> list[str]:

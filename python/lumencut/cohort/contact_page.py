@@ -1,0 +1,152 @@
+"""The contact sheet of a cohort: one HTML file with a tile for each study, to filter and to rate."""
+
+from __future__ import annotations
+
+import base64
+import hashlib
+from collections.abc import Sequence
+from html import escape
+from pathlib import Path
+
+from lumencut import _lumencut
+from lumencut.cohort.layout import Layout
+from lumencut.cohort.manifest import Manifest, Study
+from lumencut.cohort.record import Record
+
+_FILTERS = ("all", "failed", "flagged", "doubtful", "unrated", "good", "redo", "exclude")
+_ORDERS = {
+    "row": "the manifest",
+    "id": "id",
+    "narrowest": "narrowest place",
+    "flags": "flags",
+    "doubtful": "doubtful vessels",
+    "seconds": "time",
+}
+#: So many tiles are shown at first, as the script has it too.
+_AT_ONCE = 200
+_HELP = (
+    "Click a tile, then rate it: g good, r redo, x exclude, u none; arrows go on. Ratings stay in this "
+    "browser until they are saved. Narrowest places are suggestions to look at. "
+    "Lumencut is not a medical device."
+)
+
+
+def contact_page(layout: Layout, manifest: Manifest, records: Sequence[Record | None]) -> str:
+    """Return the contact sheet of a cohort as HTML.
+
+    Pictures, style and script are part of it, it asks no server for anything, and its content policy lets no
+    other script run. Nothing of the patient stands in it but the pictures and the ids of the manifest.
+
+    Parameters
+    ----------
+    layout : Layout
+        Where the results lie; links lead to pictures there.
+    manifest : Manifest
+        The studies.
+    records : sequence of Record or None
+        What is told of each study, in the order of the manifest; None where it is not done yet.
+    """
+    style, script = (_beside(name) for name in ("contact_page.css", "contact_page.js"))
+    pairs = zip(manifest.studies, records, strict=True)
+    tiles = "\n".join(_tile(layout, row, study, record) for row, (study, record) in enumerate(pairs))
+    ids = "\0".join(study.id for study in manifest.studies)
+    cohort = hashlib.sha256(f"{layout.out}\0{ids}".encode()).hexdigest()[:16]
+    policy = (
+        f"default-src 'none'; img-src data:; style-src '{_hash(style)}'; script-src '{_hash(script)}'; "
+        "base-uri 'none'; form-action 'none'"
+    )
+    filters = "".join(f"<option>{name}</option>" for name in _FILTERS)
+    orders = "".join(f'<option value="{key}">{name}</option>' for key, name in _ORDERS.items())
+    return f"""<!doctype html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta http-equiv="Content-Security-Policy" content="{policy}">
+<meta name="viewport" content="width=device-width">
+<meta name="generator" content="Lumencut {_lumencut.__version__}">
+<title>Cohort of {len(manifest.studies)} studies</title>
+<style>{style}</style>
+</head>
+<body>
+<header>
+<h1>Cohort of {len(manifest.studies)} studies</h1>
+<label>Show <select id="filter">{filters}</select></label>
+<label>Order by <select id="order">{orders}</select></label>
+<label>Id <input id="search" type="search" size="12"></label>
+<button id="save" type="button">Save ratings as CSV</button>
+<span id="shown" role="status"></span>
+<p>{_HELP}</p>
+</header>
+<ol data-cohort="{cohort}">
+{tiles}
+</ol>
+<footer></footer>
+<script>{script}</script>
+</body>
+</html>
+"""
+
+
+def _tile(layout: Layout, row: int, study: Study, record: Record | None) -> str:
+    """A study: its thumbnail, how it ended, and what there is to look at."""
+    state = "skipped" if record is None else record.state
+    numbers = {} if record is None else record.numbers
+    narrowest, flags, doubtful = (
+        str(numbers.get(name, "")) for name in ("suggested_narrowest_mm", "flags", "doubtful_vessels")
+    )
+    data = {
+        "id": study.id,
+        "row": str(row),
+        "state": state,
+        "flags": flags,
+        "doubtful": doubtful,
+        "narrowest": narrowest,
+        "seconds": "" if record is None else f"{record.seconds:.3f}",
+    }
+    attributes = " ".join(f'data-{name}="{escape(value)}"' for name, value in data.items())
+    lines = _lines(record, narrowest, flags, doubtful)
+    told = "".join(f"<p>{escape(line)}</p>" for line in lines)
+    picture = _picture(layout, study) if state == "done" else f"<a>{state}</a>"
+    name = f'<b title="{escape(study.id)}">{escape(study.id)}</b>'
+    # The script shows more of them where the page is scrolled to its end.
+    hidden = "" if row < _AT_ONCE else ' class="hidden"'
+    return f'<li tabindex="0"{hidden} {attributes}>{picture}{name}{told}<p class="rating"></p></li>'
+
+
+def _lines(record: Record | None, narrowest: str, flags: str, doubtful: str) -> list[str]:
+    """What a tile says of a study."""
+    if record is None:
+        return ["not done yet"]
+    if record.state == "failed":
+        return [record.reason]
+    found = record.numbers
+    lines = [f"{found['vessels']} vessels, {float(found['length_mm']):.0f} mm"]
+    if narrowest:
+        lines.append(f"narrowest {float(narrowest):.2f} mm, vessel {found['suggested_narrowest_vessel']}")
+    notes = {"flags": flags, "doubtful vessels": doubtful, "warnings": str(len(record.warnings))}
+    told = [f"{count} {name}" for name, count in notes.items() if count not in ("", "0")]
+    return [*lines, ", ".join(told)] if told else lines
+
+
+def _picture(layout: Layout, study: Study) -> str:
+    """The thumbnail of a study, which leads to its first picture."""
+    folder = layout.folder(study)
+    thumbnail = folder / f"{study.label}_thumbnail.webp"
+    pictures = sorted(folder.glob("*.png"))
+    if not thumbnail.is_file() or not pictures:
+        return f'<a href="{escape(study.folder.as_posix())}/">files</a>'
+    encoded = base64.b64encode(thumbnail.read_bytes()).decode("ascii")
+    # Views come before reformations, and have a view in their names.
+    first = next((one for one in pictures if "_view-" in one.name), pictures[0])
+    address = escape((study.folder / first.name).as_posix())
+    image = f'<img loading="lazy" alt="{escape(study.id)}" src="data:image/webp;base64,{encoded}">'
+    return f'<a href="{address}" tabindex="-1">{image}</a>'
+
+
+def _beside(name: str) -> str:
+    return Path(__file__).with_name(name).read_text("utf-8")
+
+
+def _hash(text: str) -> str:
+    """The hash by which a content policy knows a style or a script."""
+    return f"sha256-{base64.b64encode(hashlib.sha256(text.encode()).digest()).decode('ascii')}"
