@@ -20,6 +20,7 @@ from lumencut.cli.measure import measure
 from lumencut.cli.render import render
 from lumencut.cli.report import reported, verbose_option
 from lumencut.cli.spiral import spiral
+from lumencut.cli.summarize import summarize
 from lumencut.cli.trace import trace
 from lumencut.cli.turntable import turntable
 from lumencut.cli.view import view
@@ -71,6 +72,7 @@ for _command in (
     trace,
     measure,
     batch,
+    summarize,
     settings,
     demo,
 ):

@@ -1,0 +1,86 @@
+"""``lumencut summarize``: how measures are distributed over a cohort, and how two runs of it agree."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import click
+
+from lumencut.cli.options import FILE, check_folder
+from lumencut.cli.report import say, verbose_option
+
+#: Reasons of failures that are told, the most frequent first.
+_REASONS = 10
+
+
+@click.command(short_help="Tell distributions over a cohort, or the agreement of two runs.")
+@click.argument("out", type=FILE)
+@click.argument("second", type=FILE, required=False)
+@click.option("-o", "--output", type=FILE, help="The same as a table (.csv).")
+@click.option("--plot", type=FILE, help="Bland-Altman plots of two runs (.png or .svg).")
+@verbose_option
+def summarize(out: Path, second: Path | None, output: Path | None, plot: Path | None) -> None:
+    """Tell how the measures of OUT, a folder that lumencut batch wrote, are distributed over its vessels.
+
+    With SECOND, another run or reader of the same studies, tell how both agree: the mean difference, its 95 %
+    confidence interval, and the limits of agreement, over the vessels of the same name or number, and over
+    sections at most 1 mm apart. --plot needs matplotlib.
+
+    \b
+    lumencut summarize results
+    lumencut summarize reader-a reader-b -o agreement.csv --plot agreement.png
+    """  # noqa: D301 - click needs the control character itself
+    _check(second, output, plot)
+    if second is None:
+        _tell_states(out)
+        from lumencut.cohort.distributions import COLUMNS, distributions
+
+        _tell([COLUMNS, *(one.row for one in distributions(out))], output)
+        return
+    from lumencut.cohort import agreement
+
+    found = agreement.agreements(out, second)
+    if not found:
+        raise click.UsageError(f"{out} and {second} have no vessel in common; name two runs of one cohort")
+    _tell([agreement.COLUMNS, *(one.row for one in found)], output)
+    if plot is not None:
+        from lumencut.cohort.agreement_plot import write_plot
+
+        write_plot(found, plot)
+        say(str(plot))
+
+
+def _check(second: Path | None, output: Path | None, plot: Path | None) -> None:
+    """Refuse files that could not be written, before any is read."""
+    if plot is not None and second is None:
+        raise click.UsageError("--plot without SECOND does nothing; name two runs, or leave it out")
+    for path, endings in ((output, (".csv",)), (plot, (".png", ".svg"))):
+        if path is None:
+            continue
+        if path.suffix.lower() not in endings:
+            found = f"{path}: found the ending {path.suffix!r}"
+            raise click.UsageError(f"{found}; expected {' or '.join(endings)}")
+        check_folder(path)
+
+
+def _tell_states(out: Path) -> None:
+    from lumencut.cohort.distributions import states_of
+
+    states, reasons = states_of(out)
+    say(", ".join(f"{count} {state}" for state, count in sorted(states.items())))
+    for reason, count in reasons.most_common(_REASONS):
+        say(f"  {count} × {reason}")
+
+
+def _tell(rows: Sequence[Sequence[str]], output: Path | None) -> None:
+    """Print rows as columns of equal width, and write them where that is asked for."""
+    widths = [max(len(row[n]) for row in rows) for n in range(len(rows[0]))]
+    for row in rows:
+        say("  ".join(word.ljust(width) for word, width in zip(row, widths, strict=True)).rstrip())
+    if output is not None:
+        from lumencut._files import write_text
+        from lumencut.cohort.study_tables import written
+
+        write_text(output, written(rows))
+        say(str(output))
