@@ -6,6 +6,7 @@ import csv
 import os
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import nibabel as nib
@@ -110,6 +111,15 @@ def run(manifest: Path, out: Path, *words: str) -> subprocess.CompletedProcess[s
         check=False,
         timeout=300,
     )
+
+
+def wait_for(is_so, process=None):
+    """Wait until something is so, while a process works."""
+    end = time.monotonic() + 30
+    while not is_so():
+        assert time.monotonic() < end, "it did not come"
+        assert process is None or process.poll() is None
+        time.sleep(0.02)
 
 
 def table(path: Path) -> list[dict[str, str]]:

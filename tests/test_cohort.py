@@ -12,7 +12,7 @@ import time
 import pytest
 
 import lumencut
-from cohort_scenes import BAD, command, environment, run, table, write_cohort
+from cohort_scenes import BAD, command, environment, run, table, wait_for, write_cohort
 
 pytestmark = pytest.mark.skipif(os.name != "posix", reason="processes are ended as POSIX does")
 
@@ -244,14 +244,6 @@ class _Started:
     def __exit__(self, *_):
         self.process.kill()
         self.process.wait()
-
-
-def wait_for(is_so, process=None):
-    end = time.monotonic() + 30
-    while not is_so():
-        assert time.monotonic() < end, "it did not come"
-        assert process is None or process.poll() is None
-        time.sleep(0.02)
 
 
 def children_of(process):

@@ -83,6 +83,12 @@ class _Part(_Type):
 @click.option("--memory", type=_Quantity("SIZE", _UNITS, "8GB"), help="The most memory of each study.")
 @click.option("--time-limit", type=_Quantity("TIME", _TIMES, "90min"), default="1h", show_default=True,
               help="The longest time of each study; 0 for no limit.")  # fmt: skip
+@click.option("--dask", metavar="ADDRESS", help="Do them on the workers of this scheduler of dask.")
+@click.option(
+    "--slurm",
+    metavar="NAME=VALUE,…",
+    help="Do them in --jobs jobs of SLURM, such as partition=long,memory=8GB,walltime=24:00:00,cores=2.",
+)
 @click.option("--one", metavar="ID", help="Do this study alone, in this process.")
 @device_option
 @verbose_option
@@ -100,6 +106,7 @@ def batch(manifest: str, output: Path | None, **chosen: Any) -> None:
     lumencut batch studies.csv -o results --jobs 4
     lumencut batch 'scans/{id}.nii.gz' --mask 'masks/{id}.nii.gz' -o results --time-limit 20min --memory 8GB
     lumencut batch studies.csv -o results --shard 3/40
+    lumencut batch studies.csv -o results --slurm partition=long,memory=8GB --jobs 20
     """  # noqa: D301 - click needs the control character itself
     from lumencut.cohort.recipe import read_cohort_recipe
 

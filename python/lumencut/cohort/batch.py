@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import shutil
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
@@ -26,8 +27,8 @@ from lumencut.errors import FileError, SettingsError
 
 #: Called with how many studies ended, how many were to do, and how the last one ended.
 Progress = Callable[[int, int, Outcome], object]
-#: Does jobs and yields how they ended; None now and then, so that the lock can be renewed.
-Engine = Callable[[Sequence[Job]], Iterator[Outcome | None]]
+#: Does jobs as long as a file, the lock, is there, and yields how they ended; now and then None.
+Engine = Callable[[Sequence[Job], Path], Iterator[Outcome | None]]
 
 #: An interpreter with its libraries needs this much address space.
 _LEAST_MEMORY = 256 << 20
@@ -89,6 +90,8 @@ def batch(
     time_limit: float | None = 3600.0,
     device: Literal["auto", "cpu", "gpu"] = "auto",
     sources: dict[str, str] | None = None,
+    dask: str | None = None,
+    slurm: str | None = None,
     progress: Progress | None = None,
 ) -> BatchSummary:
     """Do every study of a manifest in a process of its own, and write the tables of the cohort.
@@ -122,6 +125,12 @@ def batch(
         What computes pictures, as for :class:`lumencut.Renderer`.
     sources : dict of str, optional
         Beside a pattern of volumes that of their ``centerlines``, ``mask``, ``points`` or ``seeds``.
+    dask : str, optional
+        The address of a scheduler of dask.distributed, on whose workers studies are done: as many at once as
+        they have threads, whatever `jobs` is. They must see the same files. Needs ``lumencut[cluster]``.
+    slurm : str, optional
+        Start `jobs` jobs of SLURM, each of which does one study at a time, with options such as
+        ``"partition=long,memory=8GB,walltime=24:00:00,cores=2"``. Needs ``lumencut[cluster]``.
     progress : callable, optional
         Called after each study with how many ended, how many were to do, and how this one ended.
 
@@ -137,7 +146,9 @@ def batch(
     FileError
         For a folder that another batch writes into, and a full disk.
     SettingsError
-        For numbers out of range.
+        For numbers out of range, `dask` and `slurm` at once, and a scheduler that does not answer.
+    MissingPackageError
+        Without the packages of a cluster.
     """
     found = read_manifest(os.fspath(manifest), **(sources or {}))
     cohort = Cohort(found, read_cohort_recipe(recipe), Layout(checked_path(out, WRITABLE).absolute()))
@@ -148,9 +159,25 @@ def batch(
     words = [f"--device={device}", *(f"--{name}={path}" for name, path in (sources or {}).items())]
     if recipe is not None:
         words.append(f"--recipe={Path(recipe).absolute()}")
-    limits = _limits(side, threads, memory, time_limit)
-    start = partial(cohort.job, words=words, limits=limits)
-    return cohort.run(start, partial(side_by_side, count=side), Wanted(checked_shard(shard), retry), progress)
+    is_cluster = dask is not None or slurm is not None
+    limits = _limits(threads, 0 if is_cluster else _fair_threads(side), memory, time_limit)
+    start, wanted = partial(cohort.job, words=words, limits=limits), Wanted(checked_shard(shard), retry)
+    with _engine(side, dask, slurm) as engine:
+        return cohort.run(start, engine, wanted, progress)
+
+
+@contextmanager
+def _engine(jobs: int, dask: str | None, slurm: str | None) -> Iterator[Engine]:
+    """What does the studies: this machine, or a cluster as long as it is needed."""
+    if dask is not None and slurm is not None:
+        raise SettingsError("dask and slurm", "both", "one of them, or none for this machine alone")
+    if dask is None and slurm is None:
+        yield lambda asked, _: side_by_side(asked, jobs)
+        return
+    from lumencut.cohort.cluster import dask_cluster, slurm_cluster
+
+    with dask_cluster(dask) if dask is not None else slurm_cluster(slurm or "", jobs) as cluster:
+        yield cluster.do
 
 
 @dataclass(frozen=True)
@@ -222,7 +249,7 @@ class Cohort:
         """Do studies, and record of each that could not do so itself why it failed."""
         by_id = {one.study.id: one for one in tasks}
         ended, has_room = 0, True
-        for outcome in engine([job_of(one.study) for one in tasks]):
+        for outcome in engine([job_of(one.study) for one in tasks], lock.path):
             lock.renew()
             if outcome is None:
                 continue
@@ -264,11 +291,15 @@ def checked_shard(shard: tuple[int, int]) -> Shard:
     return Shard(number, count)
 
 
-def _limits(jobs: int, threads: int | None, memory: int | None, seconds: float | None) -> Limits:
-    """What each study may use, checked; without a number of threads a fair part of the cores."""
+def _fair_threads(jobs: int) -> int:
+    """How many threads each of some studies gets on this machine."""
     cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-    asked = max(1, cores // jobs) if threads is None else threads
-    (used,) = integers(SettingsError, "threads", [asked], 1, 1024, 1)
+    return max(1, cores // jobs)
+
+
+def _limits(threads: int | None, usual: int, memory: int | None, seconds: float | None) -> Limits:
+    """What each study may use, checked; `usual` threads where none are given."""
+    used = usual if threads is None else integers(SettingsError, "threads", [threads], 1, 1024, 1)[0]
     if memory is not None and memory < _LEAST_MEMORY:
         raise SettingsError("memory", f"{memory} bytes", f"at least {_LEAST_MEMORY} bytes")
     if seconds is not None and not 0 < number(SettingsError, "time_limit", seconds) < float("inf"):

@@ -37,7 +37,7 @@ class Job:
     log : Path
         Where it writes what it prints.
     threads : int
-        How many threads compute.
+        How many threads compute; on a cluster 0 stands for a fair part of the cores of the worker.
     seconds : float or None
         It is killed when it takes longer.
     """

@@ -52,14 +52,15 @@ class Lock:
     """The right of a batch to write into a folder, as long as `held` lasts."""
 
     def __init__(self, path: Path) -> None:
-        self._path = path
+        #: The file that is there as long as the right is held.
+        self.path = path
         self._last = time.monotonic()
 
     def renew(self) -> None:
         """Say now and then that this batch is alive, to those on other machines."""
         if time.monotonic() - self._last > _ALIVE_EVERY:
             self._last = time.monotonic()
-            os.utime(self._path)
+            os.utime(self.path)
 
 
 @contextmanager

@@ -1,0 +1,24 @@
+"""Two workers of dask.distributed in processes of their own, as long as the standard input is open.
+
+Prints the address of the scheduler, then the process of each worker.
+"""
+
+from __future__ import annotations
+
+import sys
+
+from distributed import LocalCluster
+
+
+def main() -> None:
+    """Start the workers and wait."""
+    with LocalCluster(
+        n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None, host="127.0.0.1"
+    ) as cluster:
+        print(cluster.scheduler_address, flush=True)
+        print(*(nanny.pid for nanny in cluster.workers.values()), flush=True)
+        sys.stdin.read()
+
+
+if __name__ == "__main__":
+    main()
