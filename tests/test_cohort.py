@@ -7,6 +7,7 @@ import os
 import random
 import signal
 import subprocess
+import sys
 import time
 
 import pytest
@@ -167,8 +168,9 @@ def test_children_end_with_their_parent(tmp_path, number):
     out = tmp_path / "out"
     with started(manifest, out) as batch:
         wait_for(lambda: list(out.glob(".lumencut/work/*")), batch)
-        children = children_of(batch.pid)
-        assert len(children) == 1
+        (nursery,) = children_of(batch.pid)
+        children = [nursery, *children_of(nursery)]
+        assert len(children) == 2
         batch.send_signal(number)
         code = batch.wait(30)
     wait_for(lambda: not any(map(is_there, children)))
@@ -176,6 +178,18 @@ def test_children_end_with_their_parent(tmp_path, number):
     if number != signal.SIGKILL:
         assert not list(out.glob(".lumencut/lock-*"))
         assert [row["state"] for row in table(out / "studies.csv")] == ["skipped"]
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="studies are forked on Linux alone")
+def test_studies_are_begun_again_where_the_process_that_forks_them_is_lost(tmp_path):
+    manifest = write_cohort(tmp_path, good=3, bad=False)
+    out = tmp_path / "out"
+    with started(manifest, out, "--jobs", "2") as batch:
+        wait_for(lambda: len(list(out.glob(".lumencut/work/*"))) == 2, batch)
+        (nursery,) = children_of(batch.pid)
+        os.kill(nursery, signal.SIGKILL)
+        assert batch.wait(60) == 0
+    assert [row["state"] for row in table(out / "studies.csv")] == ["done"] * 3
 
 
 def test_three_kills_at_random_moments_end_with_the_same_tables(tmp_path):

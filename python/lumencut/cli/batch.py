@@ -141,7 +141,8 @@ def _manifest(manifest: str, sources: dict[str, str]) -> Manifest:
 def _one(found: Manifest, recipe: CohortRecipe, output: Path, study_id: str, chosen: dict[str, Any]) -> None:
     """Do one study in this process."""
     from lumencut.cohort.layout import Layout
-    from lumencut.cohort.one import do_one, end_with_parent, limit_memory
+    from lumencut.cohort.one import do_one, limit_memory
+    from lumencut.cohort.parent import end_with_parent
 
     end_with_parent()
     limit_memory(None if chosen["memory"] is None else int(chosen["memory"]))

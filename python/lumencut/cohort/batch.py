@@ -13,8 +13,9 @@ from typing import Literal
 
 from lumencut._checks import choice, integers, number
 from lumencut._files import WRITABLE, checked_path
-from lumencut.cohort.child import Job, Outcome
+from lumencut.cohort.child import Outcome
 from lumencut.cohort.engine import side_by_side
+from lumencut.cohort.job import Job
 from lumencut.cohort.layout import Layout
 from lumencut.cohort.lock import Lock, Shard, held, one_at_a_time
 from lumencut.cohort.manifest import Manifest, Study, read_manifest

@@ -6,47 +6,25 @@ import os
 import re
 import signal
 import subprocess
-import sys
 import time
+from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Literal
+from typing import Literal, Protocol
 
-from lumencut.cohort.one import DONE, FAILED, NO_ROOM, PARENT
+from lumencut.cohort.job import DONE, FAILED, NO_ROOM, Job, launch_words
+from lumencut.cohort.parent import PARENT
 
 State = Literal["done", "failed", "no room"]
 
 #: A process that was asked to end is killed after so many seconds.
 _GRACE = 2.0
+#: How long to sleep between two looks at a process (s).
+_LOOK = 0.02
 _LONGEST_REASON = 400
 _TAIL = 8192
 _NO_MEMORY = re.compile(r"memory allocation of \d+ bytes failed|MemoryError|std::bad_alloc|not enough memory")
-
-
-@dataclass(frozen=True)
-class Job:
-    """What the process of a study is started with; it can be sent to another machine.
-
-    Attributes
-    ----------
-    id : str
-        The study.
-    words : tuple of str
-        What stands behind ``lumencut``.
-    log : Path
-        Where it writes what it prints.
-    threads : int
-        How many threads compute; on a cluster 0 stands for a fair part of the cores of the worker.
-    seconds : float or None
-        It is killed when it takes longer.
-    """
-
-    id: str
-    words: tuple[str, ...]
-    log: Path
-    threads: int
-    seconds: float | None
 
 
 @dataclass(frozen=True)
@@ -71,24 +49,40 @@ class Outcome:
     seconds: float
 
 
+class Started(Protocol):
+    """A process that was started."""
+
+    @property
+    def pid(self) -> int:
+        """Its number."""
+
+    def poll(self) -> int | None:
+        """Return the exit code, below 0 for a signal; None while it works."""
+
+
+def _fresh(job: Job) -> Started:
+    """Start the process of a study anew."""
+    environment = {**os.environ, PARENT: str(os.getpid()), "RAYON_NUM_THREADS": str(job.threads)}
+    with job.log.open("wb") as log:
+        return subprocess.Popen(
+            launch_words('from lumencut.cli import main; main(prog_name="lumencut")', *job.words),
+            stdin=subprocess.DEVNULL,
+            stdout=log,
+            stderr=subprocess.STDOUT,
+            env=environment,
+            # Ctrl-C in the terminal is for the batch, which then ends its processes.
+            start_new_session=True,
+        )
+
+
 class Child:
     """The process of one study while it works."""
 
-    def __init__(self, job: Job) -> None:
+    def __init__(self, job: Job, start: Callable[[Job], Started] | None = None) -> None:
         self.job = job
         self._start = time.monotonic()
         self._late = False
-        environment = {**os.environ, PARENT: str(os.getpid()), "RAYON_NUM_THREADS": str(job.threads)}
-        with job.log.open("wb") as log:
-            self._process = subprocess.Popen(
-                [sys.executable, "-m", "lumencut", *job.words],
-                stdin=subprocess.DEVNULL,
-                stdout=log,
-                stderr=subprocess.STDOUT,
-                env=environment,
-                # Ctrl-C in the terminal is for the batch, which then ends its processes.
-                start_new_session=True,
-            )
+        self._process = (start or _fresh)(job)
 
     def outcome(self) -> Outcome | None:
         """Tell how it ended; None while it works. One that takes too long is killed."""
@@ -105,17 +99,18 @@ class Child:
 
     def end(self, number: signal.Signals = signal.SIGTERM) -> None:
         """Send a signal to it and all that it started."""
-        # It may have ended by itself meanwhile.
-        with suppress(ProcessLookupError):
-            os.killpg(self._process.pid, number)
+        # It may have ended by itself meanwhile, or not have a group of its own yet.
+        for send in (os.killpg, os.kill):
+            with suppress(ProcessLookupError):
+                send(self._process.pid, number)
 
     def wait(self) -> None:
         """Wait until it is gone, and kill it where it does not heed that it was asked to end."""
-        try:
-            self._process.wait(_GRACE)
-        except subprocess.TimeoutExpired:
-            self.end(signal.SIGKILL)
-            self._process.wait()
+        end = time.monotonic() + _GRACE
+        while self._process.poll() is None:
+            if time.monotonic() > end:
+                self.end(signal.SIGKILL)
+            time.sleep(_LOOK)
 
     def _reason(self, code: int) -> str:
         """Why a process failed that could not record it."""
@@ -130,18 +125,6 @@ class Child:
         name = _signal_name(-code)
         hint = ", by the system where it has no memory left" if name == "SIGKILL" else ""
         return f"crashed: {name}{hint}" + (f" ({line})" if line else "")
-
-
-def run(job: Job) -> Outcome:
-    """Do a study in a process of its own and wait for it."""
-    child = Child(job)
-    try:
-        while (outcome := child.outcome()) is None:
-            time.sleep(0.02)
-    except BaseException:
-        child.end(signal.SIGKILL)
-        raise
-    return outcome
 
 
 def _signal_name(number: int) -> str:

@@ -10,7 +10,8 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from lumencut.cohort.child import Child, Job, Outcome
+from lumencut.cohort.child import Child, Outcome
+from lumencut.cohort.job import Job
 from lumencut.errors import MissingPackageError, SettingsError
 
 #: A study whose worker was lost is begun again on another one so many times.

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import ctypes
 import errno
 import logging
 import os
 import secrets
 import shutil
-import signal
 import sys
 import time
 import warnings
@@ -16,6 +14,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
+from lumencut.cohort.job import DONE, FAILED, NO_ROOM
 from lumencut.cohort.layout import Layout, flush
 from lumencut.cohort.manifest import Study
 from lumencut.cohort.recipe import CohortRecipe
@@ -23,23 +22,7 @@ from lumencut.cohort.record import Origin, Record, origin_of
 from lumencut.cohort.study import Device, do_study
 from lumencut.errors import LumencutError
 
-#: The exit codes of a process that does one study: whole, failed with a record of it, no room on the disk.
-DONE, FAILED, NO_ROOM = 0, 3, 4
-#: Says which process has started this one; without it this one ends.
-PARENT = "LUMENCUT_BATCH_PARENT"
-_PR_SET_PDEATHSIG = 1
 _MOST_WARNINGS = 20
-
-
-def end_with_parent() -> None:
-    """See that the system ends this process when the one that started it ends, however it ends."""
-    parent = os.environ.pop(PARENT, None)
-    if parent is None or not sys.platform.startswith("linux"):
-        return
-    ctypes.CDLL(None, use_errno=True).prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
-    # It may have ended before.
-    if os.getppid() != int(parent):
-        os._exit(1)
 
 
 def limit_memory(most: int | None) -> None:

@@ -1,0 +1,83 @@
+"""A process that has loaded all that studies need, and forks itself for each: a study then starts at once.
+
+Loading takes most of a second, a fork some milliseconds. The process computes nothing and starts no threads,
+so that a fork of it is sound. It ends with the batch, and what it forked ends with it.
+"""
+
+from __future__ import annotations
+
+import gc
+import importlib
+import json
+import os
+import select
+import sys
+from pathlib import Path
+from typing import Any, NoReturn
+
+from lumencut.cli import main
+from lumencut.cohort.parent import PARENT, end_with_parent
+
+#: How long the process sleeps between two looks at what it forked (s).
+_LOOK = 0.01
+#: Imported before the first fork; a study would import them by itself, each anew.
+_LOADED = (
+    *("lumencut.cohort.one", "lumencut.recipe", "nibabel", "pydicom", "tqdm", "numpy.ma"),
+    *("PIL.Image", "PIL.ImageDraw", "PIL.ImageFont", "PIL.WebPImagePlugin"),
+)
+
+
+def serve() -> NoReturn:
+    """Fork a process for each line of the standard input, and tell on the standard output who has ended."""
+    end_with_parent()
+    for name in _LOADED:
+        importlib.import_module(name)
+    # The formats that it writes, of which the library has many.
+    sys.modules["PIL.Image"].init()
+    # What is loaded is never collected, so that forks share its memory.
+    gc.freeze()
+    numbers: dict[int, int] = {}
+    asked = b""
+    while True:
+        if select.select([0], [], [], _LOOK)[0]:
+            read = os.read(0, 1 << 16)
+            if not read:
+                os._exit(0)
+            *lines, asked = (asked + read).split(b"\n")
+            for line in lines:
+                order = json.loads(line)
+                pid = os.fork()
+                if pid == 0:
+                    _become(order)
+                numbers[pid] = order["number"]
+                os.write(1, f"born {order['number']} {pid}\n".encode())
+        _tell_ended(numbers)
+
+
+def _tell_ended(numbers: dict[int, int]) -> None:
+    while numbers:
+        pid, status = os.waitpid(-1, os.WNOHANG)
+        if pid == 0:
+            return
+        os.write(1, f"ended {numbers.pop(pid)} {os.waitstatus_to_exitcode(status)}\n".encode())
+
+
+def _become(order: dict[str, Any]) -> NoReturn:
+    """Be the process of a study from here on, as if it had been started by its words."""
+    code = 1
+    try:
+        # All of this comes before anything of the study runs.
+        os.environ[PARENT] = str(os.getppid())
+        os.environ["RAYON_NUM_THREADS"] = str(order["threads"])
+        os.setsid()
+        log = os.open(Path(order["log"]), os.O_WRONLY | os.O_CREAT | os.O_TRUNC, 0o666)
+        for number in (1, 2):
+            os.dup2(log, number)
+        os.dup2(os.open(os.devnull, os.O_RDONLY), 0)
+        main(args=list(order["words"]), prog_name="lumencut")
+    except SystemExit as end:
+        code = end.code if isinstance(end.code, int) else 0 if end.code is None else 1
+    finally:
+        sys.stdout.flush()
+        sys.stderr.flush()
+        os._exit(code)

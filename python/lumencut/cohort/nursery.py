@@ -1,0 +1,90 @@
+"""The process that forks studies, as the batch sees it; `lumencut.cli.forking` is what runs in it."""
+
+from __future__ import annotations
+
+import json
+import os
+import select
+import subprocess
+
+from lumencut.cohort.job import Job, launch_words
+from lumencut.cohort.parent import PARENT
+
+
+class NurseryError(Exception):
+    """The process that forks studies is gone, and with it all that it had forked."""
+
+
+class Nursery:
+    """The process that forks studies, as the batch sees it."""
+
+    def __init__(self) -> None:
+        self._process = subprocess.Popen(
+            launch_words("from lumencut.cli.forking import serve; serve()"),
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            env={**os.environ, PARENT: str(os.getpid()), "OPENBLAS_NUM_THREADS": "1"},
+            # Ctrl-C in the terminal is for the batch, which then ends its processes.
+            start_new_session=True,
+        )
+        self._told = b""
+        self._born: dict[int, int] = {}
+        self._codes: dict[int, int] = {}
+        self._count = 0
+
+    def start(self, job: Job) -> Forked:
+        """Fork the process of a study.
+
+        Raises
+        ------
+        NurseryError
+            Where this process is gone.
+        """
+        self._count += 1
+        order = {"number": self._count, "words": job.words, "log": str(job.log), "threads": job.threads}
+        try:
+            assert self._process.stdin is not None
+            self._process.stdin.write(json.dumps(order).encode() + b"\n")
+            self._process.stdin.flush()
+        except OSError as error:
+            raise NurseryError from error
+        while self._count not in self._born:
+            self._hear(None)
+        return Forked(self, self._count, self._born.pop(self._count))
+
+    def code(self, number: int) -> int | None:
+        """Return the exit code of a process that was forked, below 0 for a signal; None while it works."""
+        self._hear(0.0)
+        return self._codes.pop(number, None)
+
+    def close(self) -> None:
+        """End the process."""
+        self._process.kill()
+        self._process.communicate()
+
+    def _hear(self, patience: float | None) -> None:
+        """Take in what the process tells: who is born and who has ended."""
+        assert self._process.stdout is not None
+        if not select.select([self._process.stdout], [], [], patience)[0]:
+            return
+        told = os.read(self._process.stdout.fileno(), 1 << 16)
+        if not told:
+            raise NurseryError
+        *lines, self._told = (self._told + told).split(b"\n")
+        for line in lines:
+            word, number, value = line.split()
+            (self._born if word == b"born" else self._codes)[int(number)] = int(value)
+
+
+class Forked:
+    """The process of one study, forked."""
+
+    def __init__(self, nursery: Nursery, number: int, pid: int) -> None:
+        self._nursery, self._number, self.pid = nursery, number, pid
+        self._code: int | None = None
+
+    def poll(self) -> int | None:
+        """Return the exit code, below 0 for a signal; None while it works."""
+        if self._code is None:
+            self._code = self._nursery.code(self._number)
+        return self._code
