@@ -42,7 +42,7 @@ test: ## Run every check; the last line is `N passed, N failed`.
 	@$(PYTHON) scripts/check.py
 
 test-long: develop tools ## Run what takes minutes by itself: uncertainties in 288 scenes, containers, and a million damaged files.
-	$(BIN)/python -m pytest --quiet --numprocesses=2 tests/long_calibration.py tests/long_containers.py
+	$(BIN)/python -m pytest --quiet --numprocesses=2 tests/long_calibration.py tests/long_cohort.py tests/long_containers.py
 	@$(PYTHON) scripts/fuzz.py --runs $(or $(RUNS),1000000)
 
 lint: ## Run only format, lint, types and documentation checks.

@@ -24,6 +24,8 @@ def hook(event, arguments):
             os.abort()
         if name == "hanging.nii.gz":
             time.sleep(1000)
+        if name == "sub-full_vessels.csv":
+            raise OSError(28, "No space left on device")
 sys.addaudithook(hook)
 """
 

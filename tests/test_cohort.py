@@ -224,6 +224,34 @@ def test_shards_share_a_folder(tmp_path):
     assert (out / "sections.csv").read_bytes() == (whole / "sections.csv").read_bytes()
 
 
+def test_a_full_disk_ends_the_batch_and_blames_no_study(tmp_path):
+    manifest = write_cohort(tmp_path, good=2, bad=False)
+    text = "id,volume\ngood-0,good-0.nii.gz\nfull,good-1.nii.gz\ngood-1,good-1.nii.gz\n"
+    manifest.write_text(text, "utf-8")
+    out = tmp_path / "out"
+    ended = run(manifest, out)
+    assert ended.returncode == 1
+    assert "found no room left on the disk" in ended.stderr
+    assert [row["state"] for row in table(out / "studies.csv")] == ["done", "skipped", "skipped"]
+    assert not list(out.glob(".lumencut/work/*"))
+    # There is room again.
+    (tmp_path / "site/sitecustomize.py").unlink()
+    again = run(manifest, out)
+    assert "2 of them now" in again.stdout
+    assert again.returncode == 0
+
+
+def test_a_study_alone_is_done_in_this_process(tmp_path):
+    manifest = write_cohort(tmp_path, good=2, bad=False)
+    out = tmp_path / "out"
+    assert run(manifest, out, "--one", "good-1").returncode == 0
+    assert [path.name for path in out.glob("sub-*")] == ["sub-good1"]
+    refused = run(manifest, out, "--one", "nobody")
+    assert refused.returncode == 2
+    assert "no study 'nobody'" in refused.stderr
+    assert "1 of them now" in run(manifest, out).stdout
+
+
 def test_a_batch_from_python(tmp_path):
     manifest = write_cohort(tmp_path, good=2, bad=False)
     (tmp_path / "good-1.nii.gz").unlink()

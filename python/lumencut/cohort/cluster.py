@@ -163,7 +163,8 @@ def slurm_cluster(options: str, jobs: int) -> Iterator[Cluster]:
         jobqueue.SLURMCluster(**given) as cluster,
         distributed.Client(cluster, set_as_default=False) as client,
     ):
-        cluster.scale(jobs=jobs)
+        # Jobs that end, by their time or with their node, are begun again.
+        cluster.adapt(minimum_jobs=jobs, maximum_jobs=jobs)
         yield Cluster(client)
 
 

@@ -20,7 +20,7 @@ from lumencut.cohort.manifest import Study
 from lumencut.cohort.recipe import CohortRecipe
 from lumencut.cohort.record import Origin, Record, origin_of
 from lumencut.cohort.study import Device, do_study
-from lumencut.errors import LumencutError
+from lumencut.errors import FileError, LumencutError
 
 _MOST_WARNINGS = 20
 
@@ -53,35 +53,52 @@ def do_one(study: Study, recipe: CohortRecipe, layout: Layout, device: Device) -
             work.mkdir()
             try:
                 numbers = do_study(study, recipe, work, device)
-                if origin_of(study, recipe.digest) != origin:
-                    raise LumencutError(
-                        str(study.volume), "other files than before", "files that do not change"
-                    )
-            except MemoryError:
-                reason = "not enough memory"
-            except LumencutError as error:
-                reason = str(error)
-            except OSError as error:
-                if error.errno in (errno.ENOSPC, errno.EDQUOT):
-                    raise
-                reason = str(error)
+                _check_unchanged(study, origin)
             except Exception as error:
-                logging.getLogger("lumencut").exception("unexpected")
-                reason = f"unexpected {type(error).__name__}: {error}"
-            else:
-                made = Record(study.id, "done", "", _seconds(start), origin, tuple(told), numbers)
-                made.write(work / layout.record(study).name)
-                put_in_place(work, layout, study)
-                return DONE
-        record_failure(layout, study, origin, reason, time.monotonic() - start, tuple(told))
-        return FAILED
-    except OSError as error:
-        if error.errno not in (errno.ENOSPC, errno.EDQUOT):
+                if _is_disk_full(error):
+                    raise
+                seconds = time.monotonic() - start
+                record_failure(layout, study, origin, _reason(error), seconds, tuple(told))
+                return FAILED
+            seconds = round(time.monotonic() - start, 3)
+            made = Record(study.id, "done", "", seconds, origin, tuple(told), numbers)
+            made.write(work / layout.record(study).name)
+            put_in_place(work, layout, study)
+            return DONE
+    except Exception as error:
+        if not _is_disk_full(error):
             raise
-        print(f"lumencut: error: {layout.out}: {error.strerror}", file=sys.stderr)
+        print(f"lumencut: error: {layout.out}: no room left on the disk", file=sys.stderr)
         return NO_ROOM
     finally:
         shutil.rmtree(work, ignore_errors=True)
+
+
+def _check_unchanged(study: Study, origin: Origin) -> None:
+    """Refuse results of files that were changed meanwhile."""
+    if origin_of(study, origin.recipe) != origin:
+        expected = "files that stay as they are while they are read"
+        raise FileError(str(study.volume), "other files than before", expected, "run the batch again")
+
+
+def _is_disk_full(error: BaseException | None) -> bool:
+    """Whether the disk has no room, or the user no more of it; errors of files have that as their cause."""
+    full = (errno.ENOSPC, errno.EDQUOT)
+    while error is not None:
+        if isinstance(error, OSError) and error.errno in full:
+            return True
+        error = error.__cause__
+    return False
+
+
+def _reason(error: Exception) -> str:
+    """Why a study failed, in words."""
+    if isinstance(error, MemoryError) or (isinstance(error, OSError) and error.errno == errno.ENOMEM):
+        return "not enough memory"
+    if isinstance(error, (LumencutError, OSError)):
+        return str(error)
+    logging.getLogger("lumencut").exception("unexpected")
+    return f"unexpected {type(error).__name__}: {error}"
 
 
 def put_in_place(work: Path, layout: Layout, study: Study) -> None:
@@ -111,10 +128,6 @@ def record_failure(
         former = layout.work / f"{study.label}.{secrets.token_hex(8)}.former"
         os.rename(place, former)
         shutil.rmtree(former, ignore_errors=True)
-
-
-def _seconds(start: float) -> float:
-    return round(time.monotonic() - start, 3)
 
 
 @contextmanager
