@@ -11,10 +11,13 @@ import pytest
 
 from cohort_scenes import write_cohort
 from lumencut.cohort.checking import trouble_of
-from lumencut.cohort.manifest import read_manifest
-from lumencut.cohort.recipe import CohortRecipe, read_cohort_recipe
+from lumencut.cohort.manifest import Study, read_manifest
+from lumencut.cohort.recipe import CohortRecipe, Reading, read_cohort_recipe
+from lumencut.cohort.sources import scan_of
 from lumencut.errors import FileError, FormatError
 from scene_files import bent_line, write_lines, write_volume
+from test_dicom import AXIAL
+from volume_samples import coded, write_stack
 
 
 def manifest_of(folder, text, name="studies.csv"):
@@ -148,7 +151,7 @@ def test_the_check_names_each_study_that_will_fail(tmp_path):
     }
     text = "id,volume,centerlines,mask,seeds,points\n" + "".join(f"{k},{v}\n" for k, v in rows.items())
     manifest = read_manifest(manifest_of(tmp_path, text))
-    troubles = {one.id: trouble_of(one) for one in manifest.studies}
+    troubles = {one.id: trouble_of(one, Reading()) for one in manifest.studies}
     assert [name for name, trouble in troubles.items() if not trouble] == ["good", "found", "seeded"]
     assert "no such file" in troubles["gone"]
     assert "500, 0, 0 (mm, LPS), outside of the volume" in troubles["beside"]
@@ -168,7 +171,7 @@ def test_a_mask_of_another_grid_is_found_by_its_header(tmp_path):
     moved[0, 3] += 0.5
     nib.save(nib.Nifti1Image((flipped > 100).astype(np.uint8), moved), tmp_path / "other.nii.gz")
     text = "id,volume,mask\na,ct.nii.gz,same.nii.gz\nb,ct.nii.gz,other.nii.gz\n"
-    first, second = map(trouble_of, read_manifest(manifest_of(tmp_path, text)).studies)
+    first, second = (trouble_of(one, Reading()) for one in read_manifest(manifest_of(tmp_path, text)).studies)
     assert first == ""
     assert "expected its grid" in second
 
@@ -180,7 +183,7 @@ def test_two_thousand_rows_are_checked_in_five_seconds(tmp_path):
     path = manifest_of(tmp_path, "id,volume,centerlines\n" + "".join(rows))
     start = time.process_time()
     manifest = read_manifest(path)
-    assert [trouble_of(study) for study in manifest.studies] == [""] * 2000
+    assert [trouble_of(study, Reading()) for study in manifest.studies] == [""] * 2000
     assert time.process_time() - start < 5
 
 
@@ -196,6 +199,17 @@ def test_the_command_checks_and_does_nothing(tmp_path):
     refused = subprocess.run(words, capture_output=True, text=True)
     assert refused.returncode == 2
     assert "which line 2 has" in refused.stderr
+
+
+def test_the_recipe_says_whether_missing_slices_are_filled(tmp_path):
+    folder = tmp_path / "ct"
+    write_stack(folder, coded((4, 3, 8)), AXIAL, lambda k, data: None)
+    (folder / "IM0003.dcm").unlink()
+    study = Study("a", folder)
+    assert "1 missing slice" in trouble_of(study, Reading())
+    how = recipe_of(tmp_path, "[reading]\nfill_gaps = true\n").reading
+    assert trouble_of(study, how) == ""
+    assert scan_of(study, how).filled_slices == (3,)
 
 
 def recipe_of(folder, text):

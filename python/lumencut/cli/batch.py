@@ -166,7 +166,7 @@ def _check(found: Manifest, recipe: CohortRecipe) -> None:
         warn(note)
     failing = 0
     for study in found.studies:
-        trouble = trouble_of(study)
+        trouble = trouble_of(study, recipe.reading)
         if trouble:
             failing += 1
             say(f"{study.id}: {trouble}")

@@ -7,20 +7,20 @@ import numpy.typing as npt
 
 from lumencut.centerline_file import CenterlineFile
 from lumencut.cohort.manifest import Study
-from lumencut.cohort.sources import labels_of, places_of
+from lumencut.cohort.recipe import Reading
+from lumencut.cohort.sources import labels_of, places_of, reading_of
 from lumencut.errors import LumencutError
 from lumencut.volume_files import open_volume
 from lumencut.volume_files.opened import VolumeFile
 
 
-def trouble_of(study: Study) -> str:
+def trouble_of(study: Study, how: Reading) -> str:
     """Return why a study will fail, as far as headers tell; empty where they tell nothing against it.
 
     The voxels of volumes and masks are not read; files of centerlines and points are.
     """
     try:
-        reading = study.reading
-        volume = open_volume(study.volume, series=reading.get("series"), phase=reading.get("phase"))
+        volume = open_volume(study.volume, **reading_of(study, how))
         match study.source:
             case "mask":
                 labels_of(study)

@@ -22,6 +22,22 @@ _LARGEST = 1 << 20
 
 
 @dataclass(frozen=True)
+class Reading:
+    """How DICOM series are read that are not regular; as for :func:`lumencut.read_volume`.
+
+    Attributes
+    ----------
+    fill_gaps : bool
+        Whether missing slices are interpolated.
+    resample_slices : bool
+        Whether slices of uneven distances are put on a regular grid.
+    """
+
+    fill_gaps: bool = False
+    resample_slices: bool = False
+
+
+@dataclass(frozen=True)
 class Centerlines:
     """How vessels are found or traced where a study brings no centerlines.
 
@@ -113,6 +129,7 @@ class Outputs:
 class CohortRecipe:
     """What is done with every study; without a file the tree, one view of the look *focus*, and measures."""
 
+    reading: Reading = field(default_factory=Reading)
     centerlines: Centerlines = field(default_factory=Centerlines)
     pictures: Pictures = field(default_factory=Pictures)
     measure: Measure = field(default_factory=Measure)
@@ -125,6 +142,7 @@ class CohortRecipe:
 
 
 _PARTS: dict[str, Any] = {
+    "reading": Reading,
     "centerlines": Centerlines,
     "pictures": Pictures,
     "measure": Measure,
@@ -138,8 +156,8 @@ def read_cohort_recipe(path: str | os.PathLike[str] | None) -> CohortRecipe:
     Parameters
     ----------
     path : str or path, optional
-        A TOML file with the tables ``centerlines``, ``pictures``, ``measure`` and ``outputs``, whose keys are
-        those of the classes here; what is left out has its default. Without a file all has.
+        A TOML file with the tables ``reading``, ``centerlines``, ``pictures``, ``measure`` and ``outputs``,
+        whose keys are those of the classes here; what is left out has its default. Without a file all has.
 
     Returns
     -------
@@ -194,7 +212,10 @@ def _unknown(path: Path, key: str, known: list[str], where: str = "the recipe") 
 
 
 #: What a key holds: a kind, and the range of a number.
-_FLAGS = {"doubtful", "all_parts", "bridge", "annotate", "vessels", "centerlines", "report"}
+_FLAGS = {
+    *("fill_gaps", "resample_slices", "doubtful", "all_parts", "bridge", "annotate", "vessels"),
+    *("centerlines", "report"),
+}
 _RANGES = {
     "smallest_radius": (0.0, 100.0),
     "shortest_branch": (0.0, 1000.0),

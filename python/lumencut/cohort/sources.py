@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from lumencut.centerlines import read_centerlines
 from lumencut.cohort.manifest import Study
-from lumencut.cohort.recipe import Centerlines
+from lumencut.cohort.recipe import Centerlines, Reading
 from lumencut.errors import FormatError, TracingError
 from lumencut.mask_tracing import trace_mask
 from lumencut.placement import check_meeting
@@ -49,9 +50,15 @@ class StudyVessels:
         return cls(one, tuple(doubtful))
 
 
-def scan_of(study: Study) -> Volume:
-    """Read the scan of a study as the manifest says."""
-    return read_volume(study.volume, series=study.reading.get("series"), phase=study.reading.get("phase"))
+def scan_of(study: Study, how: Reading) -> Volume:
+    """Read the scan of a study as the manifest and the recipe say."""
+    return read_volume(study.volume, **reading_of(study, how))
+
+
+def reading_of(study: Study, how: Reading) -> dict[str, Any]:
+    """Return how the scan of a study is read, as :func:`lumencut.read_volume` takes it."""
+    chosen = {name: study.reading.get(name) for name in ("series", "phase")}
+    return {**chosen, "fill_gaps": how.fill_gaps, "resample_slices": how.resample_slices}
 
 
 def vessels_of(study: Study, volume: Volume, how: Centerlines) -> StudyVessels:

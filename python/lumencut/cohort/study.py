@@ -60,7 +60,7 @@ def do_study(
     LumencutError
         For files that cannot be read, scans in which nothing is found, and lines outside of the scan.
     """
-    volume = scan_of(study)
+    volume = scan_of(study, recipe.reading)
     found = vessels_of(study, volume, recipe.centerlines)
     has_doubtful = recipe.centerlines.doubtful and bool(found.doubtful)
     tree = (
