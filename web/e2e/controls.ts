@@ -39,7 +39,7 @@ export const stenosis = (viewer: Viewer): Locator => viewer.page.getByTestId('st
 /** What the menu "Save" opens with. */
 export const menu = (viewer: Viewer): Locator => viewer.page.locator('summary', { hasText: 'Save' });
 
-export const REPORT = 'Report of the vessel (HTML)';
+export const REPORT = 'Report (HTML)';
 export const SESSION = 'Session (JSON)';
 
 /** A file of the page's own: its name, and its bytes. */

@@ -99,7 +99,7 @@ test('the millimetre that is assumed is kept in the session, and told with what 
   await expect(viewer.page.getByTestId('section-numbers')).toContainText('mm', { timeout: 30_000 });
   const words = '1 mm is assumed between voxels: the scan does not say how far they lie apart.';
   const numbers = 'Numbers of measured vessels';
-  for (const file of [`${numbers} (CSV)`, `${numbers} (JSON)`, 'Report of the vessel (HTML)']) {
+  for (const file of [`${numbers} (CSV)`, `${numbers} (JSON)`, 'Report (HTML)']) {
     expect(`${await saved(viewer, file)}`).toContain(words);
   }
   viewer.expectNoFault();

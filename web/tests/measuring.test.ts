@@ -97,18 +97,20 @@ async function answers(engine: Asked, line: number, length: number, { at, refere
 async function reported(engine: Asked, vessel: MeasuredVessel, length: number): Promise<string> {
   const { places } = await engine.ask('report_plan', vessel);
   return engine.ask('measured_report', {
-    vessel,
+    vessels: [
+      {
+        vessel,
+        view: { picture: 'QUJD', method: 'csr' },
+        strip: { picture: 'QUJD', size: [1344, 100], spacing: length / 1344 },
+        sections: places.map(() => 'QUJD'),
+      },
+    ],
     scan: null,
     saved: 'a day',
-    has_units: true,
+    stated: { has_units: true, has_orientation: true },
     is_millimetre_assumed: false,
-    has_orientation: true,
     window: [300, 700],
     settings: {},
-    view: { picture: 'QUJD', method: 'csr' },
-    strip: { picture: 'QUJD', size: [1344, 100], spacing: length / 1344 },
-    sections: places.map(() => 'QUJD'),
-    stretches: [],
     distances: [],
   });
 }

@@ -1,6 +1,6 @@
 //! The report of measured vessels: what Python made pictures of, for the facade.
 
-use lumencut::report::{self, Lengths, Plan, ReportMark, Shown, Strip, VesselPage};
+use lumencut::report::{self, Lengths, Plan, ReportMark, Shown, Stated, Strip, VesselPage};
 use pyo3::prelude::*;
 
 use crate::errors::to_python;
@@ -57,8 +57,7 @@ pub fn report_html(options: Options, window: [f64; 2], pages: Vec<PageParts>) ->
     let shown = Shown {
         scan: None,
         saved: None,
-        has_units: true,
-        has_orientation: true,
+        stated: Stated { has_units: true, has_orientation: true },
         asked: options.into(),
         window,
         settings: Vec::new(),

@@ -28,12 +28,11 @@ pub fn open(study: &mut Study, name: &str, scale: f64) -> Result<()> {
 pub fn phantom(name: &str, scale: f64) -> Result<Phantom> {
     let made = match name {
         "aorta" => lumencut_phantom::aorta(0, scale),
-        "runoff" => lumencut_phantom::runoff(0, scale),
         "cervical" => lumencut_phantom::cervical(0, scale),
         "stenosis" => lumencut_phantom::stenosis(50.0),
         "y_junction" => lumencut_phantom::y_junction(),
         other => {
-            let expected = "aorta, runoff, cervical, stenosis or y_junction";
+            let expected = "aorta, cervical, stenosis or y_junction";
             return Err(Failure::of_message("name of the phantom", &other, expected));
         }
     };

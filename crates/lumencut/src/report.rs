@@ -20,11 +20,13 @@ use crate::profile_marks::Measured;
 use crate::profile_record::{Asked, NOTICE};
 use crate::study::view::method_word;
 use findings::findings;
+pub use findings::{Sentence, distances, sentences};
 use markup::{escaped, figure, paragraph};
 pub use places::{Place, ReportMark};
 use places::{places, row, table, widest_row};
 pub use plan::{Plan, plan};
 use plot::Plot;
+pub use told::Stated;
 use told::{EXPLAINED, UNITLESS, told};
 
 const STYLE: &str = include_str!("report/style.css");
@@ -36,10 +38,8 @@ pub struct Shown {
     pub scan: Option<String>,
     /// When the report was saved, in words.
     pub saved: Option<String>,
-    /// Whether the file states how far its voxels lie apart, or a reader assumed it: lengths have no unit otherwise.
-    pub has_units: bool,
-    /// Whether the file states where the patient's left is: angles of a C-arm are not told otherwise.
-    pub has_orientation: bool,
+    /// What is known of the scan's grid.
+    pub stated: Stated,
     /// What was asked for.
     pub asked: Asked,
     /// Level and width of the window of its pictures.
@@ -122,8 +122,9 @@ fn name_of(measured: &Measured) -> String {
 
 fn page(shown: &Shown, vessel: &VesselPage) -> Result<String> {
     let (profile, places) = (vessel.measured.profile, places(&vessel.marks));
-    let plot = Plot { profile, places: &places, strip: vessel.strip.as_ref(), has_units: shown.has_units };
-    let units = if shown.has_units { vessel.measured.assumed() } else { Some(UNITLESS) };
+    let plot =
+        Plot { profile, places: &places, strip: vessel.strip.as_ref(), has_units: shown.stated.has_units };
+    let units = if shown.stated.has_units { vessel.measured.assumed() } else { Some(UNITLESS) };
     let units = units.map(|words| paragraph("small", words)).unwrap_or_default();
     Ok(format!(
         "<section>\n{}{}<figure class=\"plot\">\n{}<figcaption>Straightened CPR and diameter along the vessel, on \
@@ -139,7 +140,7 @@ fn page(shown: &Shown, vessel: &VesselPage) -> Result<String> {
 
 /// The name of the vessel, what the report is of, and what it is not.
 fn head(shown: &Shown, vessel: &VesselPage) -> String {
-    let length = shown.length(vessel.measured.profile.length(), 1);
+    let length = shown.stated.length(vessel.measured.profile.length(), 1);
     let mut name = name_of(&vessel.measured);
     name.replace_range(..1, "V");
     let mut head = format!("<h1>{}, {length}</h1>\n", escaped(&name));
@@ -176,12 +177,12 @@ fn tables(shown: &Shown, vessel: &VesselPage, places: &[Place]) -> Result<String
     text += &if marked.is_empty() {
         paragraph("", "No place is marked.")
     } else {
-        table(&marked, shown.has_units)
+        table(&marked, shown.stated.has_units)
     };
     text += &sections(shown, vessel, places, false)?;
     if !offered.is_empty() {
         text += "<h2>Suggestions, not looked at</h2>\n";
-        text += &table(&offered, shown.has_units);
+        text += &table(&offered, shown.stated.has_units);
         text += &sections(shown, vessel, places, true)?;
     }
     Ok(text)
@@ -191,7 +192,7 @@ fn tables(shown: &Shown, vessel: &VesselPage, places: &[Place]) -> Result<String
 fn sections(shown: &Shown, vessel: &VesselPage, places: &[Place], is_suggestion: bool) -> Result<String> {
     let with_pictures = places.iter().zip(&vessel.sections);
     let these = with_pictures.filter(|(place, _)| place.is_suggestion == is_suggestion);
-    let figures = these.map(|(place, picture)| figure(picture, &place.caption(shown.unit())));
+    let figures = these.map(|(place, picture)| figure(picture, &place.caption(shown.stated.unit())));
     let figures = figures.collect::<Result<Vec<_>>>()?.concat();
     if figures.is_empty() {
         return Ok(figures);

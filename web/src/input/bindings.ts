@@ -45,6 +45,7 @@ export type Action =
   | 'context'
   | 'silhouettes'
   | 'measure'
+  | 'report'
   | 'best view'
   | 'turn about place'
   | 'turn'
@@ -181,6 +182,7 @@ export const BINDINGS: readonly Binding[] = [
   key('c', 'context', 'context on and off'),
   key('s', 'silhouettes', 'silhouettes on and off'),
   key('m', 'measure', 'measure the picked vessel, or back to the layout before'),
+  key('e', 'report', 'report: what was found on all vessels, or back to the layout before'),
   key('f', 'best view', 'best view of the picked vessel'),
   key('o', 'turn about place', 'turn about the place of the section, or end that'),
   key(' ', 'turn', 'turn slowly, or stop'),
@@ -195,7 +197,7 @@ export const BINDINGS: readonly Binding[] = [
   withCtrl('Z', 'redo', 'redo'),
   withCtrl('y', 'redo', 'redo'),
   withCtrl('s', 'save session', 'save the session'),
-  withCtrl('S', 'save report', 'save the report of the picked vessel'),
+  withCtrl('S', 'save report', 'save the report'),
   key('?', 'help', 'show these keys'),
 ];
 

@@ -9,14 +9,18 @@ import { listedLines } from '../edit/shown';
 import { moveTo } from '../link/along';
 import { isArriving } from '../state/arriving';
 import type { VesselMarks } from '../state/document';
+import { document_ } from '../state/history';
 import { beingMeasured, forgetProfiles, measure, profiles, stopped } from '../state/profiles';
+import { rulerLength } from '../state/rulers';
 import * as store from '../state/store';
 import { type Answers, answers, currentMarks, currentProfile, currentVessel, NO_ANSWERS } from './current';
+import { listedFindings, markedVessel, stated, toldFindings } from './findings';
 import { comparedIn, mainPlace, NOTHING_SUGGESTED, placesOf, type Suggested } from './marks';
 
 /** Keeps profile and answers of the picked vessel up to date; the layout uses it once. */
 export function useMeasuring(): void {
   const latest = useRef(new Latest());
+  const latestFindings = useRef(new Latest());
   const answered = useRef<LineId | null>(null);
   const lines = useRef('');
   useSignalEffect(() => {
@@ -28,15 +32,16 @@ export function useMeasuring(): void {
     }
   });
   useSignalEffect(() => {
-    const vessel = currentVessel.value;
+    const known = profiles.value;
+    const line = wantedLines().find((one) => !known.has(one));
     // Read here, so that each of them lets the effect run again.
-    const isFree = beingMeasured.value === null && !profiles.value.has(vessel?.line ?? -1);
-    const isWanted = store.layout.value === 'measure' && store.hasVolume.value;
-    if (vessel && isWanted && isFree && stopped.value !== vessel.line) {
-      void measure(engine, vessel.line);
+    const isFree = beingMeasured.value === null && store.hasVolume.value;
+    if (line !== undefined && isFree && stopped.value !== line) {
+      void measure(engine, line);
     }
   });
   useSignalEffect(arrive);
+  useSignalEffect(() => tellFindings(latestFindings.current));
   useSignalEffect(() => {
     const [vessel, profile, marks] = [currentVessel.value, currentProfile.value, currentMarks.value];
     if (vessel?.line !== answered.current) {
@@ -57,6 +62,32 @@ export function useMeasuring(): void {
     }
   });
 }
+
+/** The lines whose profiles are shown: that of the picked vessel while it is measured, those of all findings in the report. */
+function wantedLines(): readonly LineId[] {
+  if (store.layout.value === 'report') {
+    return listedFindings.value.map(({ line }) => line);
+  }
+  const vessel = currentVessel.value;
+  return vessel && store.layout.value === 'measure' ? [vessel.line] : [];
+}
+
+/** Asks for what is told of the findings that are measured already, while the report is shown. */
+function tellFindings(latest: Latest): void {
+  if (store.layout.value !== 'report') {
+    return;
+  }
+  const message = {
+    vessels: listedFindings.value.filter(({ line }) => isMeasured(line)).map(markedVessel),
+    distances: document_.value.rulers.map(rulerLength),
+    stated: stated(),
+  };
+  latest.run(async () => {
+    toldFindings.value = (await engine.ask('findings', message).catch(unlessGone)) ?? toldFindings.value;
+  });
+}
+
+const isMeasured = (line: LineId): boolean => 'profile' in (profiles.value.get(line) ?? {});
 
 /** Shows the narrowest place, marked or suggested, as soon as it is known after measuring was opened. */
 function arrive(): void {

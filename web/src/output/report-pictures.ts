@@ -1,4 +1,4 @@
-/** The pictures of a report, drawn on canvases. */
+/** The pictures of a report and of its findings, drawn on canvases. */
 
 import { engine } from '../client/shared';
 import { pixelOf } from '../core/camera';
@@ -12,7 +12,7 @@ import type {
   Profile,
   ReportPlace,
   ReportPlan,
-  ReportRequest,
+  ReportStrip,
 } from '../core/messages';
 import { pixelOn } from '../core/planes';
 import { lyingPicture } from '../measure/lying';
@@ -23,9 +23,9 @@ import * as store from '../state/store';
 import { composed } from './pictures';
 
 /** The side of a picture of a section (pixels). */
-const SIDE = 300;
+export const SIDE = 300;
 
-function canvasOf(width: number, height: number): [HTMLCanvasElement, CanvasRenderingContext2D] {
+export function canvasOf(width: number, height: number): [HTMLCanvasElement, CanvasRenderingContext2D] {
   const canvas = document.createElement('canvas');
   [canvas.width, canvas.height] = [width, height];
   const context = canvas.getContext('2d');
@@ -38,7 +38,7 @@ function canvasOf(width: number, height: number): [HTMLCanvasElement, CanvasRend
 const pixelsOf = ({ size, bytes }: Picture): ImageData => new ImageData(bytes, size[0], size[1]);
 
 /** The content of a canvas as a PNG in base64. */
-const pngOf = (canvas: HTMLCanvasElement): string => canvas.toDataURL('image/png').split(',')[1] ?? '';
+export const pngOf = (canvas: HTMLCanvasElement): string => canvas.toDataURL('image/png').split(',')[1] ?? '';
 
 /** The turning view as it is shown, with its labels and with the marked places. */
 export async function viewPicture(profile: Profile, places: readonly ReportPlace[]): Promise<string> {
@@ -64,15 +64,21 @@ export async function viewPicture(profile: Profile, places: readonly ReportPlace
 }
 
 /** The straightened vessel from left to right. */
-export async function straightened(
+export async function straightened(vessel: number, plan: ReportPlan): Promise<ReportStrip> {
+  const canvas = await straightenedCanvas(vessel, plan);
+  return { picture: pngOf(canvas), size: [canvas.width, canvas.height], spacing: plan.spacing };
+}
+
+/** The straightened vessel from left to right, as a canvas. */
+export async function straightenedCanvas(
   vessel: number,
   { width, spacing }: ReportPlan,
-): Promise<ReportRequest['strip']> {
+): Promise<HTMLCanvasElement> {
   const cpr: Cpr = { vessel, angle: store.cprAngle.value, width, pixel_spacing: spacing, feature: null };
   const picture = lyingPicture(await engine.ask('straightened', { cpr: cpr, window: store.window_.value }));
   const [canvas, context] = canvasOf(...picture.size);
   context.putImageData(pixelsOf(picture), 0, 0);
-  return { picture: pngOf(canvas), size: picture.size, spacing };
+  return canvas;
 }
 
 /** The section at a place, with its contour on the left and without it on the right. */
@@ -80,7 +86,7 @@ export async function sectionPair(
   { vessel, line, side }: { readonly vessel: number; readonly line: LineId; readonly side: number },
   profile: Profile,
   at: number,
-): Promise<string> {
+): Promise<HTMLCanvasElement> {
   const number = nearestSection(profile, at);
   const plane = await planeOf(vessel, profile, { number, side });
   const [picture, section] = await Promise.all([
@@ -104,7 +110,7 @@ export async function sectionPair(
     const { bar } = await engine.ask('labels', { ...plane, width: SIDE });
     drawBar(context, bar);
   }
-  return pngOf(canvas);
+  return canvas;
 }
 
 /** The plane that was measured, with the lumen in its middle. */

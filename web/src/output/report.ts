@@ -1,68 +1,95 @@
-/** The report of the picked vessel: the engine writes it, the page gives its pictures. */
+/** The report of the findings: the engine writes it, the page gives its pictures. */
 import { signal } from '@preact/signals';
 import { engine } from '../client/shared';
 import { Failure } from '../core/failure';
-import type { MeasuredVessel, Profile } from '../core/messages';
-import { currentMarks, currentProfile, currentVessel } from '../measure/current';
+import type { Profile, ReportVessel } from '../core/messages';
+import { type Finding, findingOf, leftOut, listedFindings, markedVessel, stated } from '../measure/findings';
 import { notGradedWords } from '../measure/words';
 import { document_ } from '../state/history';
-import { hasMillimetres, isMillimetreAssumed } from '../state/millimetres';
+import { isMillimetreAssumed } from '../state/millimetres';
+import { profileOfLine, profiles } from '../state/profiles';
 import { rulerLength } from '../state/rulers';
 import * as store from '../state/store';
 import { fileName } from './file-names';
 import { saveAs } from './pictures';
-import { sectionPair, straightened, viewPicture } from './report-pictures';
+import { pngOf, sectionPair, straightened, viewPicture } from './report-pictures';
 
 /** Whether reports name their scan. */
 export const isScanNamed = signal(false);
 
-/** Saves the report of the picked vessel. */
+/** Saves the report. */
 export async function saveReport(): Promise<void> {
-  const [vessel, profile] = measuredVessel();
-  const html = await reportOf(vessel, profile);
-  const { not_graded: notGraded } = await engine.ask('grade', { line: vessel.line, marks: vessel.marks });
-  const name = fileName({ scan: namedScan(), content: 'report', ending: 'html' });
-  const words = notGraded === null ? '' : notGradedWords({ notGraded });
-  saveAs(new Blob([html], { type: 'text/html' }), name, words);
-}
-
-/** The picked vessel by the id that it has in tables, which is its number, and its profile. */
-function measuredVessel(): [MeasuredVessel, Profile] {
-  const [vessel, profile, marks] = [currentVessel.value, currentProfile.value, currentMarks.value];
-  const number = store.pickedVessel.value;
-  if (!vessel || !profile || !marks || number === null) {
-    const mend = 'press m to measure the picked one';
+  const findings = reported();
+  if (findings.length === 0) {
+    const mend = 'press m to measure the picked vessel, or take a finding into the report';
     throw new Failure('picture', 'report', 'no vessel that is measured', 'one', mend);
   }
-  const name = store.report.value?.vessels?.[number]?.name ?? '';
-  return [{ id: String(number), name, line: vessel.line, marks }, profile];
+  const html = await reportOf(findings);
+  const name = fileName({ scan: namedScan(), content: 'report', ending: 'html' });
+  saveAs(new Blob([html], { type: 'text/html' }), name, await remarkOn(findings));
+}
+
+/**
+ * The vessels of the report: those on which something is marked, but for those that the reader leaves out. The picked vessel comes
+ * with them where it is what is measured now, or where nothing is marked at all.
+ */
+function reported(): readonly Finding[] {
+  const marked = listedFindings.value.filter(({ line }) => !leftOut.value.has(line));
+  const picked = findingOf(store.pickedVessel.value ?? -1);
+  const isListed = marked.some(({ line }) => line === picked?.line);
+  const isShown = store.layout.value === 'measure' || listedFindings.value.length === 0;
+  const isMeasured = picked && 'profile' in (profiles.value.get(picked.line) ?? {});
+  return !picked || isListed || !isShown || !isMeasured
+    ? marked
+    : [...marked, picked].sort((a, b) => a.vessel - b.vessel);
+}
+
+/** What the reader is told of percentages that are missing. */
+async function remarkOn(findings: readonly Finding[]): Promise<string> {
+  const grades = findings.map(({ line, marks }) => engine.ask('grade', { line, marks }));
+  const missing = (await Promise.all(grades)).flatMap(({ not_graded: reason }) => (reason ? [reason] : []));
+  const [first] = missing;
+  if (first === undefined) {
+    return '';
+  }
+  return findings.length === 1
+    ? notGradedWords({ notGraded: first })
+    : `${missing.length} of ${findings.length} vessels have no percentage; the report says why`;
 }
 
 /** The scan by its name, where the reader wants the report to tell it. */
 const namedScan = (): string | null =>
   isScanNamed.value && store.studyName.value !== '' ? store.studyName.value : null;
 
-async function reportOf(vessel: MeasuredVessel, profile: Profile): Promise<string> {
-  const number = Number(vessel.id);
+async function reportOf(findings: readonly Finding[]): Promise<string> {
+  const vessels: ReportVessel[] = [];
+  for (const finding of findings) {
+    vessels.push(await pageOf(finding, await profileOfLine(engine, finding.line)));
+  }
+  return engine.ask('measured_report', {
+    vessels,
+    scan: namedScan(),
+    saved: new Date().toLocaleString('sv-SE', { dateStyle: 'short', timeStyle: 'short' }),
+    stated: stated(),
+    is_millimetre_assumed: isMillimetreAssumed.value,
+    window: store.window_.value,
+    settings: store.settings.value,
+    distances: document_.value.rulers.map(rulerLength),
+  });
+}
+
+/** A vessel with its pictures. */
+async function pageOf(finding: Finding, profile: Profile): Promise<ReportVessel> {
+  const vessel = markedVessel(finding);
   const plan = await engine.ask('report_plan', vessel);
   const sections: string[] = [];
   for (const { at } of plan.places) {
-    sections.push(await sectionPair({ vessel: number, line: vessel.line, side: plan.side }, profile, at));
+    sections.push(pngOf(await sectionPair({ ...finding, side: plan.side }, profile, at)));
   }
-  const { stretch, secondStretch } = currentMarks.value ?? {};
-  return engine.ask('measured_report', {
+  return {
     vessel,
-    scan: namedScan(),
-    saved: new Date().toLocaleString('sv-SE', { dateStyle: 'short', timeStyle: 'short' }),
-    has_units: hasMillimetres.value,
-    is_millimetre_assumed: isMillimetreAssumed.value,
-    has_orientation: store.states.value.orientation,
-    window: store.window_.value,
-    settings: store.settings.value,
     view: { picture: await viewPicture(profile, plan.places), method: store.method.value },
-    strip: await straightened(number, plan),
+    strip: await straightened(finding.vessel, plan),
     sections,
-    stretches: [stretch, secondStretch].flatMap((ends) => (ends ? [ends] : [])),
-    distances: document_.value.rulers.map(rulerLength),
-  });
+  };
 }

@@ -141,18 +141,22 @@ export async function showBestView(engine: Asked): Promise<void> {
   }
 }
 
-/** The layout from which measuring began. */
+/** The layout of a mode, which is left for the one before it. */
+type ModeLayout = 'measure' | 'report';
+const isOfMode = (layout: store.Layout): layout is ModeLayout => layout === 'measure' || layout === 'report';
+
+/** The layout from which measuring or the report began. */
 let layoutBefore: store.Layout = 'strip';
 
-/** Shows what measures the picked vessel; then the layout before it again. */
-export function toggleMeasuring(): void {
-  if (tool.value !== 'ruler') {
+/** Shows what measures the picked vessel, or what was found; where that is shown already, the layout before it again. */
+export function toggleLayout(wanted: ModeLayout): void {
+  if (tool.value !== 'ruler' || wanted === 'report') {
     // A click in what is measured sets no point of a vessel; what tracing had put aside comes back first.
     tool.value = 'look';
   }
   const now = store.layout.value;
-  showLayout(now === 'measure' ? layoutBefore : 'measure');
-  layoutBefore = now === 'measure' ? layoutBefore : now;
+  layoutBefore = isOfMode(now) ? layoutBefore : now;
+  showLayout(now === wanted ? layoutBefore : wanted);
 }
 
 /** Shows a layout; measuring begins at the narrowest place. */
@@ -192,7 +196,8 @@ function performSimple(engine: EngineClient, action: Action): void {
       setSetting('silhouettes', !settingOf('silhouettes'));
       break;
     case 'measure':
-      toggleMeasuring();
+    case 'report':
+      toggleLayout(action);
       break;
     case 'best view':
       void showBestView(engine);

@@ -1,5 +1,5 @@
 /** What the user made of a scan: vessels, stoppers and marks. It is never changed in place; `history.ts` keeps what was before. */
-import type { Marks, Pair, Vector, VesselDocument } from '../core/messages';
+import type { Marks, Vector, VesselDocument } from '../core/messages';
 
 /** A straight distance between two points. */
 export interface Ruler {
@@ -7,13 +7,8 @@ export interface Ruler {
   readonly to: Vector;
 }
 
-/** What was marked on a vessel beside the stenosis. */
-export interface VesselMarks extends Marks {
-  /** The ends of a stretch (mm): its length, its C-arm angles. */
-  readonly stretch: Pair | null;
-  /** The ends of another stretch: the angle between both. */
-  readonly secondStretch: Pair | null;
-}
+/** What was marked on a vessel: the same that the engine is asked with. */
+export type VesselMarks = Marks;
 
 export interface Document extends VesselDocument {
   /** By the id of the vessel. */

@@ -40,6 +40,18 @@ export async function measure(engine: Asked, line: LineId): Promise<void> {
   });
 }
 
+/** The profile of a line, measured where it is not known yet. */
+export async function profileOfLine(engine: Asked, line: LineId): Promise<Profile> {
+  const known = profiles.value.get(line);
+  if (known) {
+    if ('failure' in known) {
+      throw known.failure;
+    }
+    return known.profile;
+  }
+  return engine.ask('profile', { line, fwhm: givenFwhm.value });
+}
+
 /** The profile, or why there is none; nothing where it was stopped. */
 async function profileOf(engine: Asked, line: LineId, question: number): Promise<Measured | null> {
   try {

@@ -16,8 +16,8 @@ import type {
   Window,
 } from '../core/messages';
 
-export type Layout = 'one' | 'two' | 'four' | 'strip' | 'measure';
-export const LAYOUTS: readonly Layout[] = ['one', 'two', 'four', 'strip', 'measure'];
+export type Layout = 'one' | 'two' | 'four' | 'strip' | 'measure' | 'report';
+export const LAYOUTS: readonly Layout[] = ['one', 'two', 'four', 'strip', 'measure', 'report'];
 
 /** The views that a layout shows. */
 export type ViewName =
@@ -28,7 +28,8 @@ export type ViewName =
   | 'straightened'
   | 'section'
   | 'profile'
-  | 'numbers';
+  | 'numbers'
+  | 'findings';
 
 /** Where the cross-hair stands, and what is there. */
 export interface CrossHair {

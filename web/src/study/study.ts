@@ -8,6 +8,7 @@ import { addLoaded } from '../edit/files';
 import { forgetLines } from '../edit/lines';
 import { beginStudy, showAgain } from '../edit/shown';
 import { placeCrossHair } from '../link/cross-hair';
+import { forgetFindings } from '../measure/findings';
 import { document_, hasEdits } from '../state/history';
 import { openWith } from '../state/last-opened';
 import { dropLength } from '../state/length';
@@ -161,6 +162,7 @@ function longest(report: Report): number {
 
 function forget(): void {
   beginMeasuring();
+  forgetFindings();
   putRulerAway();
   dropLength();
   store.report.value = null;

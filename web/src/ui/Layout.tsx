@@ -9,6 +9,7 @@ import { SectionView } from '../views/SectionView';
 import { SliceView } from '../views/SliceView';
 import { TurningView } from '../views/TurningView';
 import { Divider } from './Divider';
+import { FindingsPanel } from './FindingsPanel';
 import { LooksBar } from './LooksBar';
 import { NumbersPanel } from './NumbersPanel';
 
@@ -18,6 +19,7 @@ const VIEWS: Readonly<Record<Name, readonly ViewName[]>> = {
   four: ['turning', 'axial', 'coronal', 'sagittal'],
   strip: ['turning', 'axial', 'straightened', 'section'],
   measure: ['turning', 'section', 'numbers', 'profile'],
+  report: ['turning', 'findings'],
 };
 const TITLES: Readonly<Record<ViewName, string>> = {
   turning: 'Vessels',
@@ -28,6 +30,7 @@ const TITLES: Readonly<Record<ViewName, string>> = {
   section: 'Section',
   profile: 'Profile',
   numbers: 'Numbers',
+  findings: 'Findings',
 };
 
 /** Where the panes of each layout meet, as parts of it. */
@@ -37,6 +40,7 @@ const columns: Readonly<Record<Name, Signal<number>>> = {
   four: signal(0.5),
   strip: signal(0.75),
   measure: signal(0.42),
+  report: signal(0.5),
 };
 const rows: Readonly<Partial<Record<Name, Signal<number>>>> = { four: signal(0.5), measure: signal(0.5) };
 
@@ -79,6 +83,8 @@ function viewOf(name: ViewName) {
       return <ProfilePane />;
     case 'numbers':
       return <NumbersPanel />;
+    case 'findings':
+      return <FindingsPanel />;
     default:
       return <SliceView name={name} />;
   }

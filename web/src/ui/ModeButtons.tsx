@@ -1,17 +1,18 @@
-/** What the page is used for now: looking, tracing or measuring. */
+/** What the page is used for now: looking, tracing, measuring or reporting. */
 import { isTracing } from '../edit/mode';
-import { toggleMeasuring } from '../state/actions';
+import { toggleLayout } from '../state/actions';
 import { hasVolume, layout } from '../state/store';
 import { tool } from '../state/tool';
 
-type Mode = 'look' | 'trace' | 'measure';
+type Mode = 'look' | 'trace' | 'measure' | 'report';
 
 /** The mode that the page is in. */
 function mode(): Mode {
   if (isTracing()) {
     return 'trace';
   }
-  return layout.value === 'measure' ? 'measure' : 'look';
+  const shown = layout.value;
+  return shown === 'measure' || shown === 'report' ? shown : 'look';
 }
 
 /** Goes to a mode, and from it back to looking where it is on already; each mode lays down what it took up. */
@@ -20,8 +21,10 @@ function change(wanted: Mode): void {
   const to = from === wanted ? 'look' : wanted;
   if (to === 'trace') {
     tool.value = 'trace';
-  } else if (to === 'measure' || from === 'measure') {
-    toggleMeasuring();
+  } else if (to === 'measure' || to === 'report') {
+    toggleLayout(to);
+  } else if (from === 'measure' || from === 'report') {
+    toggleLayout(from);
   } else {
     tool.value = 'look';
   }
@@ -31,6 +34,7 @@ const MODES: readonly (readonly [Mode, string, string, string])[] = [
   ['look', '◉', 'Look', 'Look at the vessels from all sides'],
   ['trace', '✎', 'Trace', 'Trace vessels by clicks (t)'],
   ['measure', '⟷', 'Measure', 'Measure the picked vessel (m)'],
+  ['report', '▤', 'Report', 'What was found on all vessels, to copy and to save (e)'],
 ];
 
 export function ModeButtons() {

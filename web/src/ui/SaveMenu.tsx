@@ -1,12 +1,14 @@
 /** What can be saved: the report and the session, pictures of the turning view, and what was measured. */
 import { currentProfile } from '../measure/current';
+import { listedFindings } from '../measure/findings';
 import { attempt } from '../output/attempt';
 import { savePng } from '../output/pictures';
-import { isScanNamed, saveReport } from '../output/report';
+import { saveReport } from '../output/report';
 import { saveSession } from '../output/session';
 import { saveNumbers } from '../output/tables';
 import { saveFilm, savePictures } from '../output/turntable';
 import { useClosing } from './closing-menu';
+import { ScanNamed } from './ScanNamed';
 import { keepWithin } from './within-window';
 
 export function SaveMenu() {
@@ -15,7 +17,7 @@ export function SaveMenu() {
     <details class="menu" onToggle={keepWithin} ref={useClosing()}>
       <summary>Save</summary>
       <div class="menu-body">
-        {isMeasured && <Report />}
+        {(isMeasured || listedFindings.value.length > 0) && <Report />}
         <Choice
           words="Session (JSON)"
           title="Vessels, marks and views, to go on later: open it after its scan"
@@ -51,21 +53,12 @@ function Choice({ words, title, save }: ChoiceProps) {
   );
 }
 
-/** The report of the picked vessel. */
+/** The report of all findings, or of the vessel that is measured. */
 function Report() {
   return (
     <>
-      <Choice words="Report of the vessel (HTML)" save={saveReport} />
-      <label class="with-name">
-        <input
-          type="checkbox"
-          checked={isScanNamed.value}
-          onChange={(event) => {
-            isScanNamed.value = event.currentTarget.checked;
-          }}
-        />
-        with the name of the scan
-      </label>
+      <Choice words="Report (HTML)" save={saveReport} />
+      <ScanNamed />
     </>
   );
 }

@@ -19,6 +19,7 @@ const LAYOUT_NAMES: Readonly<Record<store.Layout, string>> = {
   four: 'Four',
   strip: 'With strip',
   measure: 'Measure',
+  report: 'Report',
 };
 
 export function Toolbar() {

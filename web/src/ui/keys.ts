@@ -31,6 +31,8 @@ function follow(action: Action): void {
     focusSoon('[data-testid="coronal"]');
   } else if (action === 'measure' && layout.value === 'measure') {
     focusSoon('[data-testid="numbers"] button');
+  } else if (action === 'report' && layout.value === 'report') {
+    focusSoon('[data-testid="findings"] button');
   }
 }
 

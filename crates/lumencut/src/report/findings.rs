@@ -1,62 +1,97 @@
-//! What was found on a vessel, in words: never a percentage without its method, its references and mm.
+//! What was found on a vessel, in sentences: never a percentage without its method, its references and mm.
 
 use lumencut_vessels::measure::profile::Profile;
+use serde::Serialize;
 
 use super::markup::paragraph;
-use super::{Shown, VesselPage};
+use super::told::Stated;
+use super::{Lengths, Shown, VesselPage};
 use crate::measure_words::{of_c_arm, of_doubts, of_stenosis};
 use crate::not_suggested::not_suggested;
-use crate::profile_marks::Grade;
+use crate::profile_marks::{Grade, Measured};
 use crate::text::fixed;
 
-/// Stenosis with its doubts, or why it is not graded; group, stretches and distances, a paragraph each.
-pub fn findings(shown: &Shown, vessel: &VesselPage) -> String {
-    let mut text = String::new();
-    let paragraphs = |class: &str, words: &[String]| -> String {
-        words.iter().map(|words| paragraph(class, &shown.spoken(words))).collect()
-    };
-    match vessel.measured.grade {
-        Some(Grade::NotGraded(reason)) => {
-            text += &paragraphs("finding", &[format!("No percentage: {reason}")]);
-        }
-        Some(Grade::Graded { stenosis, group }) => {
-            text += &paragraphs("finding", &[of_stenosis(stenosis)]);
-            text += &paragraphs("doubt", &of_doubts(&stenosis.doubts));
-            let group = group.iter().map(|group| format!("Group of the field: {group}"));
-            text += &paragraphs("", &group.collect::<Vec<_>>());
-        }
-        None => text += &paragraphs("", &not_suggested(vessel.measured.profile, None, &[])),
-    }
-    for words in lengths(shown, vessel) {
-        text += &paragraph("", &words);
-    }
-    text
+/// What a sentence tells.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS), ts(rename = "SentenceKind"))]
+#[serde(rename_all = "snake_case")]
+pub enum Kind {
+    /// The percentage of a stenosis, or why there is none.
+    Finding,
+    /// What makes it doubtful.
+    Doubt,
+    /// What is told beside it, such as its group or a length.
+    Remark,
 }
 
-/// Stretches with their C-arms, the angle between them, and distances.
-fn lengths(shown: &Shown, vessel: &VesselPage) -> Vec<String> {
-    let (profile, lengths) = (vessel.measured.profile, &vessel.lengths);
-    let stretches = lengths.stretches.iter();
-    let mut words: Vec<String> = stretches.filter_map(|ends| stretch(shown, profile, *ends)).collect();
-    if let [first, second] = lengths.stretches[..]
+/// A sentence of what was found.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub struct Sentence {
+    /// What it tells.
+    pub kind: Kind,
+    /// Its words.
+    pub words: String,
+}
+
+/// Stenosis with its doubts, or why it is not graded; group and stretches.
+pub fn sentences(stated: Stated, measured: &Measured, stretches: &[[f64; 2]]) -> Vec<Sentence> {
+    let told = |kind, words: &str| Sentence { kind, words: stated.spoken(words) };
+    let graded = match measured.grade {
+        Some(Grade::NotGraded(reason)) => vec![told(Kind::Finding, &format!("No percentage: {reason}"))],
+        Some(Grade::Graded { stenosis, group }) => {
+            let doubts = of_doubts(&stenosis.doubts).into_iter().map(|words| told(Kind::Doubt, &words));
+            let group = group.iter().map(|group| told(Kind::Remark, &format!("Group of the field: {group}")));
+            [told(Kind::Finding, &of_stenosis(stenosis))].into_iter().chain(doubts).chain(group).collect()
+        }
+        None => {
+            not_suggested(measured.profile, None, &[]).iter().map(|words| told(Kind::Remark, words)).collect()
+        }
+    };
+    let lengths = stretch_words(stated, measured.profile, stretches).into_iter();
+    graded.into_iter().chain(lengths.map(|words| Sentence { kind: Kind::Remark, words })).collect()
+}
+
+/// Straight distances (mm) that a reader measured anywhere in the scan, a sentence each.
+pub fn distances(stated: Stated, lengths: &[f64]) -> Vec<String> {
+    let numbered = lengths.iter().enumerate();
+    numbered
+        .map(|(n, length)| format!("Straight distance {}: {}", n + 1, stated.length(*length, 1)))
+        .collect()
+}
+
+/// What was found on a vessel, a paragraph each.
+pub(super) fn findings(shown: &Shown, vessel: &VesselPage) -> String {
+    let Lengths { stretches, distances: straight } = &vessel.lengths;
+    let of_vessel = sentences(shown.stated, &vessel.measured, stretches);
+    let paragraphs = of_vessel.iter().map(|Sentence { kind, words }| match kind {
+        Kind::Finding => paragraph("finding", words),
+        Kind::Doubt => paragraph("doubt", words),
+        Kind::Remark => paragraph("", words),
+    });
+    let beside = distances(shown.stated, straight);
+    paragraphs.chain(beside.iter().map(|words| paragraph("", words))).collect()
+}
+
+/// Stretches with their C-arms, and the angle between them.
+fn stretch_words(stated: Stated, profile: &Profile, stretches: &[[f64; 2]]) -> Vec<String> {
+    let mut words: Vec<String> =
+        stretches.iter().filter_map(|ends| stretch(stated, profile, *ends)).collect();
+    if let [first, second] = *stretches
         && let Ok(angle) = profile.angle_between(first, second)
     {
         words.push(format!("Angle between both stretches: {}°", fixed(angle.to_degrees(), 0)));
     }
-    let distances = lengths.distances.iter().enumerate();
-    words.extend(
-        distances.map(|(n, distance)| format!("Straight distance {}: {}", n + 1, shown.length(*distance, 1))),
-    );
     words
 }
 
 /// A stretch in a sentence; None where its ends are not on the vessel.
-fn stretch(shown: &Shown, profile: &Profile, ends: [f64; 2]) -> Option<String> {
+fn stretch(stated: Stated, profile: &Profile, ends: [f64; 2]) -> Option<String> {
     let found = profile.stretch(ends).ok()?;
-    let arm = profile.c_arm(ends, None).ok().filter(|_| shown.has_orientation);
+    let arm = profile.c_arm(ends, None).ok().filter(|_| stated.has_orientation);
     let arm = arm.map_or_else(String::new, |arm| format!(", C-arm {}", of_c_arm(&arm)));
     let tortuosity = found.tortuosity();
     let tortuosity = if tortuosity.is_finite() { fixed(tortuosity, 3) } else { "–".to_owned() };
-    let [length, straight] = [found.length, found.straight].map(|mm| shown.length(mm, 1));
+    let [length, straight] = [found.length, found.straight].map(|mm| stated.length(mm, 1));
     Some(format!("Stretch: length {length}, straight {straight}, tortuosity {tortuosity}{arm}"))
 }

@@ -105,7 +105,7 @@ fn numbers(profile: &Profile, name: &str, at: f64, shown: &Shown) -> String {
         number(profile.area[n], 1),
     ];
     let cells: String = cells.iter().map(|text| format!("<td>{text}</td>")).collect();
-    let bounds = of_bounds(profile.bounds[n]).map(|words| shown.spoken(&words));
+    let bounds = of_bounds(profile.bounds[n]).map(|words| shown.stated.spoken(&words));
     let flags = of_flags(profile.flags[n]).into_iter().chain(bounds).collect::<Vec<_>>().join(", ");
     let flags = if flags.is_empty() { "none" } else { &flags };
     format!("<tr><td>{name}</td>{cells}<td class=\"words\">{flags}</td></tr>\n")

@@ -4,6 +4,7 @@ use lumencut_core::math::statistics::median;
 use lumencut_core::named::Named;
 use lumencut_vessels::measure::profile::Profile;
 use lumencut_vessels::measure::stenosis::Method;
+use serde::Deserialize;
 
 use super::{Shown, VesselPage, flag_rows};
 use crate::measure_words::{of_method, of_source, of_wall};
@@ -19,7 +20,17 @@ pub const EXPLAINED: &str = "Diameters are those of the lumen: thrombus and plaq
 pub const UNITLESS: &str =
     "The scan does not say how far its voxels lie apart: 1 mm is assumed, and lengths have no unit.";
 
-impl Shown {
+/// What a file states of its grid, or a reader assumed.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub struct Stated {
+    /// Whether it is known how far voxels lie apart: lengths have no unit otherwise.
+    pub has_units: bool,
+    /// Whether it is known where the patient's left is: angles of a C-arm are not told otherwise.
+    pub has_orientation: bool,
+}
+
+impl Stated {
     /// The unit of lengths behind a number; empty where none is known.
     pub(super) fn unit(&self) -> &'static str {
         if self.has_units { " mm" } else { "" }
@@ -46,8 +57,8 @@ pub fn told(shown: &Shown, vessel: &VesselPage) -> String {
         env!("CARGO_PKG_VERSION"),
         vessel.measured.scan.words(),
         settings(shown),
-        shown.length(profile.fwhm, 2),
-        shown.spoken(&of_source(&profile.fwhm_source)),
+        shown.stated.length(profile.fwhm, 2),
+        shown.stated.spoken(&of_source(&profile.fwhm_source)),
         of_wall(&profile.wall_source),
         profile.len(),
         flags(profile),
@@ -57,7 +68,7 @@ pub fn told(shown: &Shown, vessel: &VesselPage) -> String {
 
 fn settings(shown: &Shown) -> String {
     let asked = &shown.asked;
-    let length = |mm: &f64| format!("{}{}", shortest(*mm), shown.unit());
+    let length = |mm: &f64| format!("{}{}", shortest(*mm), shown.stated.unit());
     let lengths = |places: &Vec<f64>| places.iter().map(length).collect::<Vec<_>>().join(" and ");
     let [level, width] = shown.window.map(intensity);
     let named = [

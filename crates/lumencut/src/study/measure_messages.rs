@@ -121,9 +121,19 @@ pub struct MarksMessage {
     /// The territory whose groups are told.
     #[cfg_attr(test, ts(type = "Territory | null"))]
     group: Option<String>,
+    /// The ends of a stretch: its length, its C-arm.
+    stretch: Option<[f64; 2]>,
+    /// The ends of another stretch: the angle between both.
+    #[serde(rename = "secondStretch")]
+    second_stretch: Option<[f64; 2]>,
 }
 
 impl MarksMessage {
+    /// The stretches that were marked (mm).
+    pub fn stretches(&self) -> Vec<[f64; 2]> {
+        self.stretch.into_iter().chain(self.second_stretch).collect()
+    }
+
     /// What was marked.
     ///
     /// # Errors

@@ -3,6 +3,7 @@
 
 use lumencut_vessels::measure::profile::Profile;
 
+use crate::report::Stated;
 use crate::study::asking::{Answer, Answering, Asking, Turn, WrittenFile, questions, read};
 use crate::study::centerline_files::AskedMessage;
 use crate::study::content::Report;
@@ -21,7 +22,7 @@ use crate::study::open_study::{Picture, Study};
 use crate::study::picking::Pick;
 use crate::study::place_turn::PlaceTurn;
 use crate::study::planes::Plane;
-use crate::study::report_messages::ReportMessage;
+use crate::study::report_messages::{Findings, ReportMessage};
 use crate::study::session_files::SessionContent;
 use crate::study::settings::{LookRow, SettingRow, looks, rows};
 use crate::study::straightened::CprMessage;
@@ -165,11 +166,15 @@ of_the_study {
     [Turn::First] profiles_json { vessels: Vec<VesselMessage>, is_millimetre_assumed: bool } -> String =
         study.profiles_json(&vessels, is_millimetre_assumed, asking.watch.stop)?;
 
+    /// What was found on vessels, and the straight distances (mm) of the scan, in the sentences of the report.
+    [Turn::First] findings { vessels: Vec<VesselMessage>, distances: Vec<f64>, stated: Stated } -> Findings =
+        study.findings(&vessels, &distances, (stated, asking.watch.stop))?;
+
     /// The pictures that the report of a vessel asks for.
     [Turn::First] report_plan(vessel: VesselMessage) -> crate::report::Plan =
         study.report_plan(&vessel, asking.watch.stop)?;
 
-    /// The report as HTML, as `lumencut measure --report` writes it.
+    /// The report of vessels as HTML, as `lumencut measure --report` writes it.
     [Turn::First] measured_report(request: ReportMessage) -> String =
         study.measured_report(&request, asking.watch.stop)?;
 

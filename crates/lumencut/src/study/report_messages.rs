@@ -1,62 +1,95 @@
-//! The report of a measured vessel, as a viewer asks for it: it gives pictures, and the facade the rest.
+//! The report of measured vessels, and what was found on them in sentences, as a viewer asks for both: it gives pictures, and the
+//! facade the rest.
 
 use lumencut_core::stop::Stop;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value as Json};
 
 use crate::profile_record::Asked;
-use crate::report::{Lengths, Plan, ReportMark, Shown, Strip, VesselPage, View, html, plan};
+use crate::report::{
+    Lengths, Plan, ReportMark, Sentence, Shown, Stated, Strip, VesselPage, View, distances, html, plan,
+    sentences,
+};
 use crate::study::failure::Result;
 use crate::study::measure_messages::VesselMessage;
 use crate::study::open_study::Study;
 use crate::study::view::method_word;
 
-/// A report of one vessel.
+/// What was found on a vessel.
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub struct Finding {
+    /// Its line.
+    line: usize,
+    /// The same sentences that the report has, in their order.
+    sentences: Vec<Sentence>,
+}
+
+/// What was found in a scan.
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub struct Findings {
+    /// On each of the vessels, in their order.
+    vessels: Vec<Finding>,
+    /// Straight distances, a sentence each.
+    distances: Vec<String>,
+}
+
+/// A vessel of a report with its pictures, PNGs in base64.
+#[derive(Clone, Debug, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub struct ReportVessel {
+    /// The vessel, with its marks.
+    vessel: VesselMessage,
+    /// A view of all vessels.
+    view: View,
+    /// The straightened vessel.
+    strip: Strip,
+    /// A section for each place of the plan.
+    sections: Vec<String>,
+}
+
+/// A report of some vessels.
 #[derive(Clone, Debug, Deserialize)]
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename = "ReportRequest"))]
 pub struct ReportMessage {
-    /// The vessel, with its marks.
-    vessel: VesselMessage,
+    /// A page each, in this order.
+    vessels: Vec<ReportVessel>,
     /// The name of the scan, where the user wants it there.
     scan: Option<String>,
     /// When it was saved, in words.
     saved: String,
-    /// Whether the file of the scan states the sizes of its voxels, or the reader took them for 1 mm.
-    has_units: bool,
-    /// Whether it is the reader alone who says so.
+    /// What is known of the scan's grid.
+    stated: Stated,
+    /// Whether it is the reader alone who says how far its voxels lie apart.
     is_millimetre_assumed: bool,
-    /// Whether it states the sides of the patient.
-    has_orientation: bool,
     /// Level and width.
     window: [f64; 2],
     /// The settings of the view that differ from the usual ones.
     #[cfg_attr(test, ts(type = "Settings"))]
     settings: Map<String, Json>,
-    /// A view of all vessels.
-    view: View,
-    /// The straightened vessel.
-    strip: Strip,
-    /// A section for each place of the plan, PNGs in base64.
-    sections: Vec<String>,
-    /// Stretches from one arc length to another (mm).
-    stretches: Vec<[f64; 2]>,
-    /// Straight distances (mm).
+    /// Straight distances (mm), told on the first page.
     distances: Vec<f64>,
 }
 
 impl ReportMessage {
     fn shown(&self, asked: Asked) -> Shown {
-        let view = ["view".to_owned(), method_word(&self.view.method).to_owned()];
+        let view = |one: &ReportVessel| ["view".to_owned(), method_word(&one.view.method).to_owned()];
         let settings = self.settings.iter().map(|(name, value)| [name.replace('_', " "), words_of(value)]);
         Shown {
             scan: self.scan.clone(),
             saved: Some(self.saved.clone()),
-            has_units: self.has_units,
-            has_orientation: self.has_orientation,
+            stated: self.stated,
             asked,
             window: self.window,
-            settings: [view].into_iter().chain(settings).collect(),
+            settings: self.vessels.first().map(view).into_iter().chain(settings).collect(),
         }
+    }
+
+    /// What else was measured on a vessel of this number; distances belong to the scan, and stand on the first page.
+    fn lengths(&self, number: usize) -> Lengths {
+        let distances = if number == 0 { self.distances.clone() } else { Vec::new() };
+        Lengths { stretches: self.vessels[number].vessel.marks.stretches(), distances }
     }
 }
 
@@ -71,10 +104,29 @@ fn words_of(value: &Json) -> String {
 }
 
 impl Study {
-    /// The pictures that the report of a vessel asks for.
+    /// What was found on vessels, and the straight distances (mm) of the scan, in the sentences of the report.
     ///
     /// # Errors
     /// As [`Study::profile`]; `settings` for marks with another method or territory.
+    pub fn findings(
+        &mut self,
+        vessels: &[VesselMessage],
+        straight: &[f64],
+        (stated, stop): (Stated, Stop),
+    ) -> Result<Findings> {
+        let graded = self.graded(vessels, stop)?;
+        let rows = self.rows(vessels, &graded, false);
+        let found = rows.iter().zip(vessels).map(|(measured, one)| Finding {
+            line: one.line,
+            sentences: sentences(stated, measured, &one.marks.stretches()),
+        });
+        Ok(Findings { vessels: found.collect(), distances: distances(stated, straight) })
+    }
+
+    /// The pictures that the report of a vessel asks for.
+    ///
+    /// # Errors
+    /// As [`Study::findings`].
     pub fn report_plan(&mut self, vessel: &VesselMessage, stop: Stop) -> Result<Plan> {
         let marked = vessel.marks.marked()?;
         let profile = self.measured(vessel.line, stop)?;
@@ -82,28 +134,31 @@ impl Study {
         Ok(plan(profile, &marks))
     }
 
-    /// The report of a vessel as HTML.
+    /// The report of vessels as HTML.
     ///
     /// # Errors
     /// As [`Study::report_plan`], and `settings` for a picture that is not base64.
     pub fn measured_report(&mut self, message: &ReportMessage, stop: Stop) -> Result<String> {
-        let vessels = std::slice::from_ref(&message.vessel);
-        let graded = self.graded(vessels, stop)?;
-        let shown = message.shown(self.asked(vessels, &graded));
-        let marked = message.vessel.marks.marked()?;
-        let lengths = Lengths { stretches: message.stretches.clone(), distances: message.distances.clone() };
-        let pages: Vec<VesselPage> = self
-            .rows(vessels, &graded, message.is_millimetre_assumed)
+        let vessels: Vec<VesselMessage> = message.vessels.iter().map(|one| one.vessel.clone()).collect();
+        let graded = self.graded(&vessels, stop)?;
+        let shown = message.shown(self.asked(&vessels, &graded));
+        let rows = self.rows(&vessels, &graded, message.is_millimetre_assumed);
+        let pages: Vec<VesselPage> = rows
             .into_iter()
-            .map(|measured| VesselPage {
-                marks: marked.places(measured.profile).iter().map(ReportMark::from).collect(),
-                measured,
-                lengths: lengths.clone(),
-                view: Some(message.view.clone()),
-                strip: Some(message.strip.clone()),
-                sections: message.sections.clone(),
+            .zip(&message.vessels)
+            .enumerate()
+            .map(|(number, (measured, one))| {
+                let marked = one.vessel.marks.marked()?;
+                Ok(VesselPage {
+                    marks: marked.places(measured.profile).iter().map(ReportMark::from).collect(),
+                    measured,
+                    lengths: message.lengths(number),
+                    view: Some(one.view.clone()),
+                    strip: Some(one.strip.clone()),
+                    sections: one.sections.clone(),
+                })
             })
-            .collect();
+            .collect::<Result<_>>()?;
         Ok(html(&shown, &pages)?)
     }
 }

@@ -18,8 +18,7 @@ fn shown() -> Shown {
     Shown {
         scan: None,
         saved: None,
-        has_units: true,
-        has_orientation: true,
+        stated: Stated { has_units: true, has_orientation: true },
         asked: Asked { step_mm: 0.5, ..Asked::default() },
         window: [300.0, 700.0],
         settings: Vec::new(),
@@ -105,7 +104,10 @@ fn beside_calcium_a_diameter_is_told_from_both_sides() {
     let row =
         "<td class=\"words\">calcium, 7.00 mm if nothing brighter is lumen, 9.00 mm if all of it is</td>";
     assert_eq!(html_of(&shown(), &marked(Some(30.0), &[20.0])).matches(row).count(), 1);
-    let without = html_of(&Shown { has_units: false, ..shown() }, &marked(Some(30.0), &[20.0]));
+    let without = html_of(
+        &Shown { stated: Stated { has_units: false, has_orientation: true }, ..shown() },
+        &marked(Some(30.0), &[20.0]),
+    );
     assert!(without.contains("calcium, 7.00 if nothing brighter is lumen, 9.00 if all of it is"));
 }
 
@@ -132,7 +134,10 @@ fn the_scan_and_the_date_stand_in_it_only_where_they_are_given() {
 fn lengths_have_no_unit_where_the_file_states_no_spacing() {
     let with = html_of(&shown(), &marked(Some(30.0), &[20.0]));
     assert!(with.contains("<th>shortest (mm)</th>") && with.contains("<th>area (mm²)</th>"));
-    let without = html_of(&Shown { has_units: false, ..shown() }, &marked(Some(30.0), &[20.0]));
+    let without = html_of(
+        &Shown { stated: Stated { has_units: false, has_orientation: true }, ..shown() },
+        &marked(Some(30.0), &[20.0]),
+    );
     assert!(without.contains("<th>shortest</th>") && without.contains("<th>area</th>"));
     assert!(without.contains("4.00 ± ") && !without.contains(" mm at "));
     assert!(without.contains("Settings: step 0.5; window W 700 L 300"));
@@ -173,7 +178,10 @@ fn lengths_that_a_reader_measured_are_told() {
     assert!(text.contains("<p>Stretch: length 20.0 mm, straight 20.0 mm, tortuosity 1.000, C-arm "));
     assert!(text.contains("<p>Angle between both stretches: 0°</p>"));
     assert!(text.contains("<p>Straight distance 1: 12.3 mm</p>"));
-    assert!(!told(&Shown { has_orientation: false, ..shown() }).contains("C-arm"));
+    assert!(
+        !told(&Shown { stated: Stated { has_units: true, has_orientation: false }, ..shown() })
+            .contains("C-arm")
+    );
 }
 
 #[test]

@@ -204,6 +204,22 @@ export type Edited = {
 /** The features of CFA by their names. */
 export type Feature = "max" | "mean" | "min";
 
+/** What was found on a vessel. */
+export type Finding = {
+  /** Its line. */
+  readonly line: number;
+  /** The same sentences that the report has, in their order. */
+  readonly sentences: ReadonlyArray<Sentence>;
+};
+
+/** What was found in a scan. */
+export type Findings = {
+  /** On each of the vessels, in their order. */
+  readonly vessels: ReadonlyArray<Finding>;
+  /** Straight distances, a sentence each. */
+  readonly distances: ReadonlyArray<string>;
+};
+
 /** A flag of a section. */
 export type FlagLook = {
   /** What tables and reports call it, such as `no edge`. */
@@ -312,6 +328,10 @@ export type Marks = {
   readonly comparison: number | null;
   /** The territory whose groups are told. */
   readonly group: Territory | null;
+  /** The ends of a stretch: its length, its C-arm. */
+  readonly stretch: Pair | null;
+  /** The ends of another stretch: the angle between both. */
+  readonly secondStretch: Pair | null;
 };
 
 /** A section: its number, its wall, and the ends of its shortest and longest diameter (mm, LPS). */
@@ -490,33 +510,23 @@ export type ReportPlan = {
   readonly side: number;
 };
 
-/** A report of one vessel. */
+/** A report of some vessels. */
 export type ReportRequest = {
-  /** The vessel, with its marks. */
-  readonly vessel: MeasuredVessel;
+  /** A page each, in this order. */
+  readonly vessels: ReadonlyArray<ReportVessel>;
   /** The name of the scan, where the user wants it there. */
   readonly scan: string | null;
   /** When it was saved, in words. */
   readonly saved: string;
-  /** Whether the file of the scan states the sizes of its voxels, or the reader took them for 1 mm. */
-  readonly has_units: boolean;
-  /** Whether it is the reader alone who says so. */
+  /** What is known of the scan's grid. */
+  readonly stated: Stated;
+  /** Whether it is the reader alone who says how far its voxels lie apart. */
   readonly is_millimetre_assumed: boolean;
-  /** Whether it states the sides of the patient. */
-  readonly has_orientation: boolean;
   /** Level and width. */
   readonly window: Pair;
   /** The settings of the view that differ from the usual ones. */
   readonly settings: Settings;
-  /** A view of all vessels. */
-  readonly view: ReportView;
-  /** The straightened vessel. */
-  readonly strip: ReportStrip;
-  /** A section for each place of the plan, PNGs in base64. */
-  readonly sections: ReadonlyArray<string>;
-  /** Stretches from one arc length to another (mm). */
-  readonly stretches: ReadonlyArray<Pair>;
-  /** Straight distances (mm). */
+  /** Straight distances (mm), told on the first page. */
   readonly distances: ReadonlyArray<number>;
 };
 
@@ -528,6 +538,18 @@ export type ReportStrip = {
   readonly size: Pair;
   /** The side of a pixel (mm). */
   readonly spacing: number;
+};
+
+/** A vessel of a report with its pictures, PNGs in base64. */
+export type ReportVessel = {
+  /** The vessel, with its marks. */
+  readonly vessel: MeasuredVessel;
+  /** A view of all vessels. */
+  readonly view: ReportView;
+  /** The straightened vessel. */
+  readonly strip: ReportStrip;
+  /** A section for each place of the plan. */
+  readonly sections: ReadonlyArray<string>;
 };
 
 /** A view of all vessels. */
@@ -547,6 +569,17 @@ export type ScaleBar = {
   /** How many pixels it is long; those who draw whole pixels round it. */
   readonly pixels: number;
 };
+
+/** A sentence of what was found. */
+export type Sentence = {
+  /** What it tells. */
+  readonly kind: SentenceKind;
+  /** Its words. */
+  readonly words: string;
+};
+
+/** What a sentence tells. */
+export type SentenceKind = "finding" | "doubt" | "remark";
 
 /** A session as the page has it: lines by their numbers, and all else as the file has it but for what is known at each point. */
 export type SessionContent = {
@@ -588,6 +621,14 @@ export type Spot = {
   readonly at: number;
   /** mm */
   readonly diameter: number;
+};
+
+/** What a file states of its grid, or a reader assumed. */
+export type Stated = {
+  /** Whether it is known how far voxels lie apart: lengths have no unit otherwise. */
+  readonly has_units: boolean;
+  /** Whether it is known where the patient's left is: angles of a C-arm are not told otherwise. */
+  readonly has_orientation: boolean;
 };
 
 /** A stenosis that is graded. */
@@ -960,12 +1001,21 @@ export type Questions = {
     };
     readonly answer: string;
   };
+  /** What was found on vessels, and the straight distances (mm) of the scan, in the sentences of the report. */
+  readonly findings: {
+    readonly message: {
+      readonly vessels: ReadonlyArray<MeasuredVessel>;
+      readonly distances: ReadonlyArray<number>;
+      readonly stated: Stated;
+    };
+    readonly answer: Findings;
+  };
   /** The pictures that the report of a vessel asks for. */
   readonly report_plan: {
     readonly message: MeasuredVessel;
     readonly answer: ReportPlan;
   };
-  /** The report as HTML, as `lumencut measure --report` writes it. */
+  /** The report of vessels as HTML, as `lumencut measure --report` writes it. */
   readonly measured_report: {
     readonly message: ReportRequest;
     readonly answer: string;
@@ -1044,6 +1094,7 @@ export const TURNS = {
   angle_between: { when: 'first', words: null },
   profiles_csv: { when: 'first', words: null },
   profiles_json: { when: 'first', words: null },
+  findings: { when: 'first', words: null },
   report_plan: { when: 'first', words: null },
   measured_report: { when: 'first', words: null },
   write_session: { when: 'first', words: null },

@@ -1,0 +1,107 @@
+/** The mode "Report": the findings on all vessels, each with its sentence and its key image, to copy and to save. */
+import { readFileSync } from 'node:fs';
+import { type Browser, expect, type Locator, test } from '@playwright/test';
+import { button, rows, tabTo } from './controls';
+import { Viewer } from './page';
+
+const SIZE = { width: 1280, height: 800 };
+
+/** A scan of three vessels, the list of which is open. */
+async function threeVessels(browser: Browser, options = {}): Promise<Viewer> {
+  const viewer = await Viewer.open(browser, '?phantom=y_junction&device=cpu', { viewport: SIZE, ...options });
+  await viewer.rest();
+  await viewer.press('v');
+  return viewer;
+}
+
+const panel = (viewer: Viewer): Locator => viewer.page.getByTestId('findings');
+const findings = (viewer: Viewer): Locator => panel(viewer).locator('section[aria-label^="Finding on"]');
+const mode = (viewer: Viewer, words: string): Locator =>
+  viewer.page.locator('.modes').getByRole('button', { name: words });
+
+/** Marks a place on a vessel of the list, and a reference where none of a pair is wanted. */
+async function mark(viewer: Viewer, vessel: number): Promise<void> {
+  await rows(viewer).nth(vessel).getByRole('radio').check();
+  await mode(viewer, 'Measure').click();
+  await expect(viewer.page.getByTestId('row-place-0')).toBeVisible();
+  await button(viewer, 'Narrowest here').click();
+  await expect(viewer.page.getByTestId('row-place-0')).toContainText('marked place');
+  await mode(viewer, 'Measure').click();
+}
+
+/** What the page copies, where a browser is asked for it. */
+const WITH_CLIPBOARD = { permissions: ['clipboard-read', 'clipboard-write'], acceptDownloads: true };
+
+test('findings of all vessels stand in one list, are copied, and are saved as one report', async ({
+  browser,
+}) => {
+  const viewer = await threeVessels(browser, WITH_CLIPBOARD);
+  const before = await viewer.camera();
+  await mode(viewer, 'Report').click();
+  await expect(panel(viewer)).toContainText('Nothing is marked yet.');
+  await mode(viewer, 'Report').click();
+  await mark(viewer, 0);
+  await mark(viewer, 2);
+  await mode(viewer, 'Report').click();
+  await expect(findings(viewer)).toHaveCount(2);
+  expect((await viewer.camera()).direction).toEqual(before.direction);
+  const [first, second] = [findings(viewer).nth(0), findings(viewer).nth(1)];
+  await expect(first).toContainText('No percentage: Mark a reference: where the vessel is normal.');
+  for (const one of [first, second]) {
+    const picture = one.getByRole('img');
+    await expect(picture).toBeVisible();
+    expect(await picture.evaluate((image) => (image as HTMLImageElement).naturalWidth)).toBe(900);
+  }
+  await viewer.screenshot('report-mode');
+
+  await first.getByRole('button', { name: 'Copy sentence' }).click();
+  await expect(viewer.page.getByTestId('told')).toHaveText('The sentence is copied');
+  const copied = await viewer.page.evaluate(() => navigator.clipboard.readText());
+  expect(copied).toMatch(/: No percentage: Mark a reference/);
+  await second.getByRole('button', { name: 'Copy picture' }).click();
+  await expect(viewer.page.getByTestId('told')).toHaveText('The picture is copied');
+  const types = await viewer.page.evaluate(async () => (await navigator.clipboard.read())[0]?.types);
+  expect(types).toEqual(['image/png']);
+
+  const pages = async () => {
+    const [download] = await Promise.all([
+      viewer.page.waitForEvent('download'),
+      button(viewer, 'Save report').click(),
+    ]);
+    return readFileSync(await download.path(), 'utf-8').match(/<h1>/g)?.length;
+  };
+  expect(await pages()).toBe(2);
+  await first.getByLabel('in the report').uncheck();
+  expect(await pages()).toBe(1);
+
+  // "Show" leads back to the place, and a finding that is undone is gone.
+  await first.getByRole('button', { name: 'Show' }).click();
+  await expect(rows(viewer).nth(0).getByRole('radio')).toBeChecked();
+  await viewer.press('Control+z');
+  await expect(findings(viewer)).toHaveCount(1);
+  await viewer.press('Control+y');
+  await expect(findings(viewer)).toHaveCount(2);
+
+  // A vessel that is hidden has no pictures: its finding is told by its name.
+  await rows(viewer).nth(0).locator('.eye').click();
+  await expect(findings(viewer)).toHaveCount(1);
+  await expect(panel(viewer)).toContainText('Hidden, and so not in the report:');
+  viewer.expectNoFault();
+  await viewer.close();
+});
+
+test('the report is reached, read and saved by keys alone', async ({ browser }) => {
+  const viewer = await threeVessels(browser, { acceptDownloads: true });
+  await mark(viewer, 1);
+  await viewer.pane().focus();
+  await viewer.press('e');
+  await expect(mode(viewer, 'Report')).toHaveAttribute('aria-pressed', 'true');
+  await expect(findings(viewer)).toHaveCount(1);
+  await tabTo(viewer, /^Save report$/);
+  const [download] = await Promise.all([viewer.page.waitForEvent('download'), viewer.press('Enter')]);
+  expect(download.suggestedFilename()).toMatch(/-report-.*\.html$/);
+  await viewer.press('e');
+  await expect(mode(viewer, 'Look')).toHaveAttribute('aria-pressed', 'true');
+  viewer.expectNoFault();
+  await viewer.close();
+});

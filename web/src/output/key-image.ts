@@ -1,0 +1,86 @@
+/** The key image of a finding: the straightened vessel with its marked places, and beneath it the section at each of them. */
+import { engine } from '../client/shared';
+import { Failure } from '../core/failure';
+import type { Pair, Profile, ReportPlace } from '../core/messages';
+import { type Finding, markedVessel } from '../measure/findings';
+import { COLORS } from '../measure/PlaceHandles';
+import { nearestSection } from '../measure/sections';
+import { spread } from '../measure/words';
+import { profileOfLine } from '../state/profiles';
+import { canvasOf, SIDE, sectionPair, straightenedCanvas } from './report-pictures';
+
+/** So many sections stand side by side (pixels: three times their side). */
+const COLUMNS = 3;
+const WIDTH = COLUMNS * SIDE;
+/** The straightened vessel is no higher than this, and a line of words this high (pixels). */
+const HIGHEST = 260;
+const LINE = 36;
+
+/** Draws the key image of a finding. */
+export async function keyImage(finding: Finding): Promise<HTMLCanvasElement> {
+  const profile = await profileOfLine(engine, finding.line);
+  const plan = await engine.ask('report_plan', markedVessel(finding));
+  const places = plan.places.filter((place) => !place.is_suggestion);
+  const strip = await straightenedCanvas(finding.vessel, plan);
+  const scale = Math.min(WIDTH / strip.width, HIGHEST / strip.height);
+  const [width, height] = [strip.width * scale, strip.height * scale];
+  const rows = Math.ceil(places.length / COLUMNS);
+  const [canvas, context] = canvasOf(WIDTH, Math.ceil(LINE + height + rows * (SIDE + LINE)));
+  context.fillStyle = '#000';
+  context.fillRect(0, 0, canvas.width, canvas.height);
+  words(context, finding.name || `vessel ${finding.vessel + 1}`, [8, LINE - 11], '#fff');
+  context.drawImage(strip, 0, LINE, width, height);
+  for (const place of places) {
+    line(context, { place, x: (place.at / plan.spacing + 0.5) * scale, height });
+  }
+  for (const [number, place] of places.entries()) {
+    const pair = await sectionPair({ ...finding, side: plan.side }, profile, place.at);
+    const [x, y] = [(number % COLUMNS) * SIDE, LINE + height + Math.floor(number / COLUMNS) * (SIDE + LINE)];
+    const told = `${place.name} ${diameterAt(profile, place.at)}`;
+    words(context, told, [x + 8, y + LINE - 11], colorOf(place));
+    context.drawImage(pair, 0, 0, SIDE, SIDE, x, y + LINE, SIDE, SIDE);
+  }
+  return canvas;
+}
+
+/** The same as a PNG. */
+export async function keyPicture(finding: Finding): Promise<Blob> {
+  const canvas = await keyImage(finding);
+  const blob = await new Promise<Blob | null>((resolve) => canvas.toBlob(resolve, 'image/png'));
+  if (!blob) {
+    throw new Failure('picture', 'key image', 'no PNG', 'a browser that writes one', 'close other pages');
+  }
+  return blob;
+}
+
+const colorOf = ({ is_reference: isReference }: ReportPlace): string =>
+  COLORS[isReference ? 'reference' : 'place'];
+
+function diameterAt(profile: Profile, at: number): string {
+  const number = nearestSection(profile, at);
+  return spread(profile.diameter[number] ?? null, profile.uncertainty[number] ?? null);
+}
+
+function words(context: CanvasRenderingContext2D, text: string, [x, y]: Pair, color: string): void {
+  context.font = '600 20px system-ui, sans-serif';
+  context.fillStyle = color;
+  context.fillText(text, x, y);
+}
+
+/** Where a place lies along the straightened vessel: at both edges, so that the lumen stays free. */
+function line(
+  context: CanvasRenderingContext2D,
+  { place, x, height }: { readonly place: ReportPlace; readonly x: number; readonly height: number },
+): void {
+  context.strokeStyle = colorOf(place);
+  context.lineWidth = 2;
+  context.beginPath();
+  for (const [from, to] of [
+    [0, 0.2],
+    [0.8, 1],
+  ] as const) {
+    context.moveTo(x, LINE + from * height);
+    context.lineTo(x, LINE + to * height);
+  }
+  context.stroke();
+}

@@ -1,0 +1,17 @@
+/** The box that says whether reports name their scan. */
+import { isScanNamed } from '../output/report';
+
+export function ScanNamed() {
+  return (
+    <label class="with-name">
+      <input
+        type="checkbox"
+        checked={isScanNamed.value}
+        onChange={(event) => {
+          isScanNamed.value = event.currentTarget.checked;
+        }}
+      />
+      with the name of the scan
+    </label>
+  );
+}
