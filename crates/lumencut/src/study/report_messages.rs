@@ -162,3 +162,7 @@ impl Study {
         Ok(html(&shown, &pages)?)
     }
 }
+
+#[cfg(test)]
+#[path = "tests/report_messages.rs"]
+mod tests;

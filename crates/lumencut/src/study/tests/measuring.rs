@@ -12,7 +12,6 @@ use lumencut_vessels::measure::wall_level::WallRequest;
 use serde_json::{Value as Json, json};
 
 use super::*;
-use crate::report::Stated;
 use crate::study::lines::ListedLine;
 use crate::study::measure_messages::{
     GradeMessage, MarksMessage, ProfileMessage, SectionMessage, StretchMessage,
@@ -396,56 +395,4 @@ fn numbers_are_told_with_how_their_scan_was_made() {
     assert_eq!(words, "kernel B30f; series, phase, slice thickness not stated");
     let table = study.profiles_csv(&vessels, false, &go_on).expect("a table");
     assert!(table.lines().skip(1).all(|line| line.contains(",not stated,not stated,not stated,,B30f,")));
-}
-
-#[test]
-fn findings_are_told_in_the_sentences_of_the_report() {
-    let mut study = opened("y_junction");
-    let stated = Stated { has_units: true, has_orientation: true };
-    let vessels =
-        [vessel(&study, 0, json!({"at": 10.0})), vessel(&study, 2, json!({"stretch": [2.0, 12.0]}))];
-    let found = as_json(study.findings(&vessels, &[12.34], (stated, &go_on)).expect("findings"));
-    let [first, second] = [0, 1].map(|number| found["vessels"][number].clone());
-    assert_eq!(first["line"].as_u64(), Some(vessels[0].line as u64));
-    let reason = "No percentage: Mark a reference: where the vessel is normal.";
-    assert_eq!(first["sentences"][0], json!({"kind": "finding", "words": reason}));
-    let words: Vec<&str> = second["sentences"]
-        .as_array()
-        .expect("sentences")
-        .iter()
-        .filter_map(|one| one["words"].as_str())
-        .collect();
-    assert!(words.iter().any(|words| words.starts_with("Stretch: length 10.0 mm, straight ")), "{words:?}");
-    assert_eq!(found["distances"], json!(["Straight distance 1: 12.3 mm"]));
-
-    // Where the scan states no spacing, no length has a unit.
-    let stated = Stated { has_units: false, ..stated };
-    let without = as_json(study.findings(&vessels, &[12.34], (stated, &go_on)).expect("findings"));
-    assert!(!without.to_string().contains(" mm"), "{without}");
-}
-
-#[test]
-fn a_report_has_a_page_for_each_vessel_and_tells_distances_once() {
-    let mut study = opened("y_junction");
-    let lines = [0, 2].map(|number| line_of(&study, number));
-    let page = |(number, line): (usize, usize)| {
-        let marks = json!({"at": 10.0, "references": [], "method": "nascet", "original": null, "comparison": null, "group": null});
-        let strip = json!({"picture": "QUJD", "size": [100, 20], "spacing": 0.5});
-        json!({
-            "vessel": {"id": number.to_string(), "name": "", "line": line, "marks": marks},
-            "view": {"picture": "QUJD", "method": "csr"}, "strip": strip, "sections": ["QUJD", "QUJD", "QUJD"],
-        })
-    };
-    let message = json!({
-        "vessels": [page((0, lines[0])), page((2, lines[1]))],
-        "scan": null, "saved": "a day", "stated": {"has_units": true, "has_orientation": true},
-        "is_millimetre_assumed": false, "window": [300.0, 700.0], "settings": {}, "distances": [12.34],
-    });
-    let message = serde_json::from_value(message).expect("a message");
-    let html = study.measured_report(&message, &go_on).expect("a report");
-    assert!(html.contains("<title>Lumencut: lumen of 2 vessels</title>"));
-    assert_eq!(
-        (html.matches("<section>").count(), html.matches("Straight distance 1: 12.3 mm").count()),
-        (2, 1)
-    );
 }
