@@ -7,10 +7,11 @@ import { answerDoubt, placeOfDoubt, showDoubt, stepDoubt } from '../src/edit/dou
 import { chosenDoubt, isListOpen } from '../src/edit/mode';
 import { tree } from '../src/edit/shown';
 import { apart, followFacts, keepPart, marked, removeMarked } from '../src/edit/tidying';
+import { listedVessels } from '../src/edit/vessel-order';
 import { EMPTY } from '../src/state/document';
 import { begin, document_, undo } from '../src/state/history';
 import { pickedVessel } from '../src/state/store';
-import { markNone, shorterThan, thinnerThan } from '../src/state/tidy';
+import { isTreeShown, markNone, shorterThan, thinnerThan } from '../src/state/tidy';
 
 // The page's own engine runs in a worker, which there is none of here.
 vi.mock('../src/client/shared', () => ({ engine: {} }));
@@ -28,11 +29,11 @@ const vessel = (id: number, doubt: string | null = null): DocumentVessel => ({
 const SURE = [1, 2, 3, 4, 5].map((id) => vessel(id));
 const DOUBTFUL = [6, 7, 8].map((id) => vessel(id, `reason ${id}`));
 const FACTS: readonly LineFacts[] = [
-  { line: 11, length: 100, calibre: 20, part: 0 },
-  { line: 12, length: 30, calibre: 6, part: 0 },
-  { line: 13, length: 9, calibre: 1.5, part: 0 },
-  { line: 14, length: 40, calibre: 1.9, part: 1 },
-  { line: 15, length: 5, calibre: null, part: 2 },
+  { line: 11, length: 100, calibre: 20, part: 0, parent: null },
+  { line: 12, length: 30, calibre: 6, part: 0, parent: 13 },
+  { line: 13, length: 9, calibre: 1.5, part: 0, parent: 11 },
+  { line: 14, length: 40, calibre: 1.9, part: 1, parent: null },
+  { line: 15, length: 5, calibre: null, part: 2, parent: 11 },
 ];
 
 const asked: string[] = [];
@@ -54,7 +55,7 @@ const engine = {
     return name === 'edit'
       ? edited(message as EditRequest)
       : (message as { lines: readonly number[] }).lines.map(
-          (line) => told.get(line) ?? { line, length: 1, part: 9 },
+          (line) => told.get(line) ?? { line, length: 1, part: 9, parent: null },
         );
   },
 } as unknown as Asked;
@@ -109,6 +110,20 @@ test('only what hangs together with the picked vessel is kept; doubtful branches
   expect(apart.value).toEqual([4, 5]);
   await keepPart(engine);
   expect(ids()).toEqual([1, 2, 3, 6, 7, 8]);
+});
+
+test('the list is a tree where that is chosen: branches under what they hang on, the widest first', () => {
+  const rows = () => listedVessels.value.map(({ vessel, depth }) => [vessel.id, depth]);
+  expect(rows()).toEqual([1, 2, 3, 4, 5].map((id) => [id, 0]));
+  isTreeShown.value = true;
+  expect(rows()).toEqual([
+    [1, 0],
+    [3, 1],
+    [2, 2],
+    [5, 1],
+    [4, 0],
+  ]);
+  isTreeShown.value = false;
 });
 
 test('one walks through doubtful branches in a circle', async () => {

@@ -1,6 +1,6 @@
-//! Which lines hang together: those of which one ends at a point of the other.
+//! Which lines hang together, and which one hangs on which: those of which one ends at a point of the other.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, VecDeque};
 
 use glam::DVec3;
 use lumencut_core::math::arc_length::arc_lengths;
@@ -9,17 +9,8 @@ use lumencut_core::math::same_place::VESSEL_END;
 /// The numbers of the lines that hang together, rising, the parts by their length, the longest first. Lines hang together where an
 /// end of one is a point of the other, to [`VESSEL_END`].
 pub fn parts(lines: &[&[DVec3]]) -> Vec<Vec<usize>> {
-    let ends = ends(lines);
     let mut heads: Vec<usize> = (0..lines.len()).collect();
-    for (number, line) in lines.iter().enumerate() {
-        for point in *line {
-            for (end, owner) in ends.get(&cell(*point)).into_iter().flatten() {
-                if end.distance_squared(*point) <= VESSEL_END * VESSEL_END {
-                    join(&mut heads, number, *owner);
-                }
-            }
-        }
-    }
+    touching(lines, |number, owner| join(&mut heads, number, owner));
     let mut parts: HashMap<usize, Vec<usize>> = HashMap::new();
     for number in 0..lines.len() {
         parts.entry(head(&mut heads, number)).or_default().push(number);
@@ -30,6 +21,48 @@ pub fn parts(lines: &[&[DVec3]]) -> Vec<Vec<usize>> {
     let mut ranked: Vec<(f64, Vec<usize>)> = parts.into_values().map(|part| (length(&part), part)).collect();
     ranked.sort_by(|(a, first), (b, second)| b.total_cmp(a).then(first[0].cmp(&second[0])));
     ranked.into_iter().map(|(_, part)| part).collect()
+}
+
+/// The line that each one hangs on: from the widest line of a part the way leads to those that touch it, from these to the next, and
+/// so on. The widest one itself hangs on none. `widths` are those of the lines; those that are not known are the narrowest.
+pub fn parents(lines: &[&[DVec3]], widths: &[Option<f64>]) -> Vec<Option<usize>> {
+    let mut neighbors = vec![Vec::new(); lines.len()];
+    touching(lines, |number, owner| {
+        neighbors[number].push(owner);
+        neighbors[owner].push(number);
+    });
+    let mut parents = vec![None; lines.len()];
+    let mut is_reached = vec![false; lines.len()];
+    let width = |number: usize| widths[number].unwrap_or(0.0);
+    while let Some(root) =
+        (0..lines.len()).rev().filter(|n| !is_reached[*n]).max_by(|a, b| width(*a).total_cmp(&width(*b)))
+    {
+        is_reached[root] = true;
+        let mut way = VecDeque::from([root]);
+        while let Some(from) = way.pop_front() {
+            for to in neighbors[from].iter().copied() {
+                if !std::mem::replace(&mut is_reached[to], true) {
+                    parents[to] = Some(from);
+                    way.push_back(to);
+                }
+            }
+        }
+    }
+    parents
+}
+
+/// Hears of the numbers of two lines, each time that an end of the second one is a point of the first one.
+fn touching(lines: &[&[DVec3]], mut hear: impl FnMut(usize, usize)) {
+    let ends = ends(lines);
+    for (number, line) in lines.iter().enumerate() {
+        for point in *line {
+            for (end, owner) in ends.get(&cell(*point)).into_iter().flatten() {
+                if end.distance_squared(*point) <= VESSEL_END * VESSEL_END {
+                    hear(number, *owner);
+                }
+            }
+        }
+    }
 }
 
 /// A cube of space whose side is [`VESSEL_END`].
@@ -90,6 +123,21 @@ mod tests {
         assert_eq!(parts(&lines), [vec![1, 3], vec![0, 2, 4, 5]]);
         assert_eq!(parts(&lines[..2]), [vec![1], vec![0]]);
         assert!(parts(&[]).is_empty());
+    }
+
+    #[test]
+    fn a_line_hangs_on_the_wider_one_that_it_leads_back_to() {
+        let trunk = straight([0.0; 3], [0.0, 0.0, 100.0]);
+        let branch = straight([0.0, 0.0, 50.0], [30.0, 0.0, 50.0]);
+        let twig = straight([30.0, 5.0, 50.0], [30.0, 0.0, 50.0]);
+        let leg = straight([0.0, 0.0, 100.0], [0.0, 20.0, 130.0]);
+        let alone = straight([0.0, 40.0, 30.0], [0.0, 340.0, 30.0]);
+        let lines = [&twig, &branch, &trunk, &leg, &alone].map(Vec::as_slice);
+        let widths = [Some(2.0), Some(5.0), Some(20.0), Some(9.0), None];
+        assert_eq!(parents(&lines, &widths), [Some(1), Some(2), None, Some(2), None]);
+        // Without widths the first line of a part is its root.
+        assert_eq!(parents(&lines, &[None; 5]), [None, Some(0), Some(1), Some(2), None]);
+        assert!(parents(&[], &[]).is_empty());
     }
 
     #[test]

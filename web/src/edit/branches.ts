@@ -2,6 +2,7 @@
 import type { Asked } from '../core/asked';
 import type { Edit, Edited, GivenFile, Vector } from '../core/messages';
 import { notes } from '../state/store';
+import { isTreeShown } from '../state/tidy';
 import { commit, isDone } from './committing';
 
 /** Adds all branches that a seed reaches; doubtful ones wait until they are accepted. */
@@ -16,8 +17,13 @@ export const accept = (engine: Asked, ids: readonly number[]): Promise<boolean> 
 export const leaveOut = (engine: Asked, ids: readonly number[]): Promise<boolean> =>
   isDone(commit(engine, { kind: 'leave_out', ids }));
 
-/** Adds all vessels of the scan; doubtful ones wait until they are accepted. */
-export const findVessels = (engine: Asked): Promise<boolean> => addMany(engine, { kind: 'find_vessels' });
+/** Adds all vessels of the scan, listed as a tree; doubtful ones wait until they are accepted. */
+export async function findVessels(engine: Asked): Promise<boolean> {
+  const isFound = await addMany(engine, { kind: 'find_vessels' });
+  // Of many vessels the widest one is looked for first, and then what hangs on it.
+  isTreeShown.value ||= isFound;
+  return isFound;
+}
 
 /** Adds the vessels of a mask. */
 export const addMask = (engine: Asked, mask: readonly GivenFile[]): Promise<boolean> =>

@@ -5,6 +5,9 @@ import { signal } from '@preact/signals';
 export const shorterThan = signal(0);
 export const thinnerThan = signal(0);
 
+/** Whether the list shows the vessels as a tree. */
+export const isTreeShown = signal(false);
+
 /** The vessel of the document whose row the pointer is over. */
 export const lit = signal<number | null>(null);
 

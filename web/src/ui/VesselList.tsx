@@ -10,10 +10,12 @@ import { lengthOf } from '../edit/lines';
 import { chosenDoubt, isListOpen, isTracing, toggleTool } from '../edit/mode';
 import { performAny } from '../edit/performing';
 import { STOPPER } from '../edit/stoppers';
+import { listedVessels } from '../edit/vessel-order';
 import { remove } from '../edit/vessels';
 import { doubtful, nameOf } from '../state/changes';
 import { document_ } from '../state/history';
 import { hasMillimetres } from '../state/millimetres';
+import { isTreeShown } from '../state/tidy';
 import { CenterlineFiles } from './CenterlineFiles';
 import { TidyPart } from './TidyPart';
 import { lighting, NAMES_TO_OFFER, VesselRow } from './VesselRow';
@@ -30,9 +32,10 @@ export function VesselList() {
       <Doubtful vessels={doubtful(document_.value)} />
       <TidyPart />
       {vessels.length === 0 ? <p class="notice">No vessels yet.</p> : null}
+      {vessels.length > 1 && <TreeChoice />}
       <ul class="vessel-rows">
-        {vessels.map((vessel) => (
-          <VesselRow key={vessel.id} vessel={vessel} />
+        {listedVessels.value.map(({ vessel, depth }) => (
+          <VesselRow key={vessel.id} vessel={vessel} depth={depth} />
         ))}
       </ul>
       <datalist id={NAMES_TO_OFFER}>
@@ -57,6 +60,24 @@ export function VesselList() {
       )}
       <CenterlineFiles />
     </aside>
+  );
+}
+
+/** Shows the list as a tree, or as the vessels came. */
+function TreeChoice() {
+  return (
+    <div class="buttons">
+      <label title="Branches stand under the vessel that they hang on, the widest first">
+        <input
+          type="checkbox"
+          checked={isTreeShown.value}
+          onChange={(event) => {
+            isTreeShown.value = event.currentTarget.checked;
+          }}
+        />
+        As a tree, the widest first
+      </label>
+    </div>
   );
 }
 

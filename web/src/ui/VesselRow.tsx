@@ -5,7 +5,7 @@ import { engine } from '../client/shared';
 import type { DocumentVessel } from '../core/messages';
 import { lengthOf } from '../edit/lines';
 import { pickedId, tree } from '../edit/shown';
-import { marked } from '../edit/tidying';
+import { factsOf, marked, sure } from '../edit/tidying';
 import { cut, hide, join, recolor, remove, rename } from '../edit/vessels';
 import { placeCrossHair } from '../link/cross-hair';
 import { nameOf } from '../state/changes';
@@ -14,7 +14,7 @@ import { document_ } from '../state/history';
 import { hasMillimetres } from '../state/millimetres';
 import { PALETTE } from '../state/palette';
 import { pickedPlace, pickedVessel, report } from '../state/store';
-import { lit } from '../state/tidy';
+import { isTreeShown, lit } from '../state/tidy';
 import { active, tool } from '../state/tool';
 import { BestViewButton } from './BestViewButton';
 
@@ -25,11 +25,20 @@ interface RowProps {
   readonly vessel: DocumentVessel;
 }
 
-export function VesselRow({ vessel }: RowProps) {
+/** The indents of a tree that the narrow list has room for. */
+const DEEPEST = 4;
+
+export function VesselRow({ vessel, depth }: RowProps & { readonly depth: number }) {
   const isPicked = vessel.id === pickedId();
   const name = nameOf(vessel);
   return (
-    <li class={rowClass(isPicked, marked.value.has(vessel.id))} data-vessel={vessel.id} {...lighting(vessel)}>
+    <li
+      class={rowClass(isPicked, marked.value.has(vessel.id))}
+      data-vessel={vessel.id}
+      data-depth={depth}
+      style={{ marginLeft: `${10 * Math.min(depth, DEEPEST)}px` }}
+      {...lighting(vessel)}
+    >
       <input
         type="radio"
         name="picked-vessel"
@@ -40,7 +49,9 @@ export function VesselRow({ vessel }: RowProps) {
       />
       <ColorChoice vessel={vessel} />
       <NameField vessel={vessel} />
-      <span class="length">{`${lengthText(vessel)}${hasMillimetres.value ? ' mm' : ''}`}</span>
+      <span class="length" title={calibreWords(vessel)}>
+        {`${isTreeShown.value ? calibreText(vessel) : ''}${lengthText(vessel)}${hasMillimetres.value ? ' mm' : ''}`}
+      </span>
       <button
         type="button"
         class="eye"
@@ -96,6 +107,21 @@ function lengthText({ id, line }: DocumentVessel): string {
   const now = shown.find((vessel) => vessel.line === line)?.length ?? lengthOf(line);
   const length = now || (before?.length ?? 0);
   return length > 0 ? length.toFixed(1) : '…';
+}
+
+/** The median diameter of a vessel before its length, where it is known. */
+function calibreText(vessel: DocumentVessel): string {
+  const calibre = factsOf(vessel)?.calibre ?? null;
+  return calibre === null ? '' : `${calibre.toFixed(1)} × `;
+}
+
+function calibreWords(vessel: DocumentVessel): string {
+  const { calibre = null, parent = null } = factsOf(vessel) ?? {};
+  const trunk = sure.value.find((one) => one.line === parent);
+  return [
+    ...(calibre === null ? [] : [`median diameter ${calibre.toFixed(1)}`]),
+    ...(trunk ? [`hangs on ${nameOf(trunk)}`] : []),
+  ].join(', ');
 }
 
 function ColorChoice({ vessel }: RowProps) {

@@ -1,12 +1,10 @@
-//! What a reader tidies vessels by: how long and how wide each one is, and which hang together.
-
-use std::sync::Arc;
+//! What a reader tidies vessels by: how long and how wide each one is, which hang together, and which one hangs on which.
 
 use lumencut_core::math::arc_length::arc_lengths;
 use lumencut_core::math::statistics::median;
 use serde::Serialize;
 
-use crate::parts::parts;
+use crate::parts::{parents, parts};
 use crate::study::failure::Result;
 use crate::study::lines::Line;
 use crate::study::open_study::Study;
@@ -23,6 +21,8 @@ pub struct LineFacts {
     pub calibre: Option<f64>,
     /// Which of the parts that hang together it belongs to; 0 is the longest.
     pub part: usize,
+    /// The line among them that it hangs on, as a branch on its trunk; null for the widest line of a part.
+    pub parent: Option<usize>,
 }
 
 impl Study {
@@ -37,13 +37,16 @@ impl Study {
         for (rank, part) in parts(&points).into_iter().enumerate() {
             part.into_iter().for_each(|line| part_of[line] = rank);
         }
-        let fact = |((line, number), part): ((&Arc<Line>, &usize), usize)| LineFacts {
-            line: *number,
-            length: arc_lengths(&line.points).last().copied().unwrap_or_default(),
-            calibre: calibre(line),
-            part,
+        let widths: Vec<Option<f64>> = lines.iter().map(|line| calibre(line)).collect();
+        let parents = parents(&points, &widths);
+        let fact = |n: usize| LineFacts {
+            line: numbers[n],
+            length: arc_lengths(&lines[n].points).last().copied().unwrap_or_default(),
+            calibre: widths[n],
+            part: part_of[n],
+            parent: parents[n].map(|parent| numbers[parent]),
         };
-        Ok(lines.iter().zip(numbers).zip(part_of).map(fact).collect())
+        Ok((0..lines.len()).map(fact).collect())
     }
 }
 

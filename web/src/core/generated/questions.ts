@@ -282,6 +282,8 @@ export type LineFacts = {
   readonly calibre: number | null;
   /** Which of the parts that hang together it belongs to; 0 is the longest. */
   readonly part: number;
+  /** The line among them that it hangs on, as a branch on its trunk; null for the widest line of a part. */
+  readonly parent: number | null;
 };
 
 /** A line as a viewer lists it. One that is hidden is not drawn; it is measured among all the same, so that hiding a vessel changes no number. */

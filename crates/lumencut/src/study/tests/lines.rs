@@ -235,6 +235,8 @@ fn lines_are_told_by_length_calibre_and_what_they_hang_together_with() {
     let told = facts.iter().map(|facts| (facts.line, facts.length, facts.calibre, facts.part));
     // The radius of the trunk grows from 1 to 2 mm.
     assert!(told.eq([(piece, 3.0, None, 1), (trunk, 10.0, Some(3.0), 0), (branch, 7.0, None, 0)]));
+    let parents = facts.iter().map(|facts| facts.parent);
+    assert!(parents.eq([None, None, Some(trunk)]), "the branch hangs on the trunk");
     let alone = study.line_facts(&[branch, piece]).expect("lines");
     assert_eq!([alone[0].part, alone[1].part], [0, 1], "without the trunk they are two parts");
     assert_eq!(study.line_facts(&[branch + 1]).expect_err("no line").kind, "vessel tree");
