@@ -43,6 +43,26 @@ test('finding tells how far it is, and Escape stops it', async ({ browser }) => 
   await viewer.close();
 });
 
+test('branches from a place that is no lumen by its value are refused at once, with what lies there', async ({
+  browser,
+}) => {
+  const viewer = await untraced(browser, 'aorta');
+  for (const place of [
+    [0.52, 0.66],
+    [0.52, 0.57],
+  ] as const) {
+    await viewer.click([...place], 'axial');
+    await viewer.press('b');
+    await expect(viewer.problem).toContainText('expected lumen', { timeout: 20_000 });
+    await viewer.screenshot(`no-lumen-${place[1]}`);
+    await viewer.press('Escape');
+    await expect(viewer.problem).toHaveCount(0);
+  }
+  await expect(rows(viewer)).toHaveCount(0);
+  viewer.expectNoFault();
+  await viewer.close();
+});
+
 test('a tree is cleaned in a few actions: short vessels by a slider, doubtful branches by keys', async ({
   browser,
 }) => {

@@ -1,7 +1,7 @@
 import { afterEach, beforeEach, expect, test, vi } from 'vitest';
 import type { Asked } from '../src/core/asked';
-import type { Progress } from '../src/core/messages';
-import { commit, dropEdits } from '../src/edit/committing';
+import type { Edit, Progress } from '../src/core/messages';
+import { commit, dropEdits, isLong } from '../src/edit/committing';
 import { EMPTY } from '../src/state/document';
 import { progress } from '../src/state/store';
 
@@ -30,9 +30,9 @@ afterEach(() => {
   vi.useRealTimers();
 });
 
-async function begun(): Promise<{ slow: Slow; done: Promise<unknown> }> {
+async function begun(edit: Edit = { kind: 'find_vessels' }): Promise<{ slow: Slow; done: Promise<unknown> }> {
   const slow = new Slow();
-  const done = commit(slow.asked, { kind: 'find_vessels' });
+  const done = commit(slow.asked, edit);
   await vi.advanceTimersByTimeAsync(0);
   return { slow, done };
 }
@@ -64,4 +64,28 @@ test('an edit that is done at once shows no progress', async () => {
   await done;
   await vi.advanceTimersByTimeAsync(1000);
   expect(progress.value).toBeNull();
+});
+
+test('branches that take long are asked about after 20 s, and go on meanwhile', async () => {
+  const { slow, done } = await begun({ kind: 'add_branches', seed: [0, 0, 0] });
+  await vi.advanceTimersByTimeAsync(19_900);
+  expect(isLong.value).toBe(false);
+  await vi.advanceTimersByTimeAsync(200);
+  expect(isLong.value).toBe(true);
+  slow.end();
+  await done;
+  expect(isLong.value).toBe(false);
+});
+
+test('nobody is asked about a search of the whole scan, nor about branches that were found in time', async () => {
+  const whole = await begun();
+  await vi.advanceTimersByTimeAsync(30_000);
+  expect(isLong.value).toBe(false);
+  whole.slow.end();
+  await whole.done;
+  const branches = await begun({ kind: 'add_branches', seed: [0, 0, 0] });
+  branches.slow.end();
+  await branches.done;
+  await vi.advanceTimersByTimeAsync(30_000);
+  expect(isLong.value).toBe(false);
 });

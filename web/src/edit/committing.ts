@@ -25,6 +25,12 @@ export const refusal = signal<Refusal | null>(null);
 /** Work is shown as progress only where it takes longer than this (ms). */
 const SHOWN_AFTER = 250;
 
+/** Branches from a place within a vessel are found sooner than this (ms): the reader is asked whether that is where the place lies. */
+const ASKED_AFTER = 20_000;
+
+/** Whether the edit under way takes so long that the reader is asked. */
+export const isLong = signal(false);
+
 let last: Promise<unknown> = Promise.resolve();
 /** Which edits still count: a stop, a refusal and another study end all that are under way. */
 let generation = 0;
@@ -167,11 +173,26 @@ export async function commit(engine: Asked, edit: Edit, beside: Beside = {}): Pr
     return { words: edited.words, after: afterEdit(document_.value, edited), result: edited };
   };
   const again = () => void commit(engine, edit, { ...beside, bridging: true });
-  const edited = await inTurn(work, again);
+  const edited = await inTurn(edit.kind === 'add_branches' ? askedAbout(work) : work, again);
   if (edited) {
     then?.(edited);
   }
   return edited;
+}
+
+/** Work about which the reader is asked where it takes long. */
+function askedAbout<T>(work: Work<T>): Work<T> {
+  return async (told) => {
+    const timer = setTimeout(() => {
+      isLong.value = true;
+    }, ASKED_AFTER);
+    try {
+      return await work(told);
+    } finally {
+      clearTimeout(timer);
+      isLong.value = false;
+    }
+  };
 }
 
 /** What comes of an edit of the vessels that there are when it comes: it is asked for again after a redo meanwhile. */

@@ -2,7 +2,7 @@
 
 import { engine } from '../client/shared';
 import type { Failure } from '../core/failure';
-import { refusal } from '../edit/committing';
+import { isLong, refusal } from '../edit/committing';
 import { performAny } from '../edit/performing';
 import { problem, progress } from '../state/store';
 import { told } from '../state/telling';
@@ -32,10 +32,28 @@ function Loading() {
     <div class="message" role="status">
       <span>{share === null ? `${told.words} …` : `${told.words}: ${(100 * share).toFixed(0)} %`}</span>
       <progress aria-label={told.words} {...(share === null ? {} : { value: share })} />
+      {isLong.value && <LongWork />}
       <button type="button" onClick={() => performAny(engine, 'cancel')}>
-        Cancel
+        {isLong.value ? 'Stop' : 'Cancel'}
       </button>
     </div>
+  );
+}
+
+/** What the reader is asked where branches take long; it goes on meanwhile. */
+function LongWork() {
+  return (
+    <>
+      <strong>This takes long. Does the place lie in a vessel, and not in bone?</strong>
+      <button
+        type="button"
+        onClick={() => {
+          isLong.value = false;
+        }}
+      >
+        Go on
+      </button>
+    </>
   );
 }
 

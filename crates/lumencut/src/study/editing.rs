@@ -73,6 +73,8 @@ impl Study {
     }
 
     fn add_branches(&mut self, draft: &mut Draft, seed: Place, watch: Watch) -> Result<()> {
+        // A place in bone or fat is refused at once: the search would look through all of the scan before it says so.
+        self.check_click(seed)?;
         for branch in self.trace_from(seed, watch)? {
             draft.add_named(branch.line, "", "Branch").doubt = branch.doubt.map(str::to_owned);
         }

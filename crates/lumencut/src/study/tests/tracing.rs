@@ -6,6 +6,8 @@ use lumencut_phantom::Phantom;
 use serde_json::{Value as Json, json};
 
 use super::opened;
+use crate::study::document::Document;
+use crate::study::edits::EditMessage;
 use crate::study::open_study::Study;
 use crate::study::tracing::{PathMessage, TraceRequest, Watch};
 
@@ -124,6 +126,21 @@ fn a_click_that_no_vessel_can_begin_at_is_refused_alone() {
     let outside = corner + 2.0 * (corner - DVec3::from_array(lumen));
     let failure = study.check_click(outside.to_array()).expect_err("outside");
     assert!(failure.found.contains("outside the volume"), "{failure:?}");
+}
+
+#[test]
+fn branches_from_a_place_that_is_no_lumen_by_its_value_are_refused_before_anything_is_searched() {
+    let mut study = opened("y_junction");
+    let corner = study.content.held.as_ref().expect("a volume").volume().expect("one").corners()[0];
+    let fat = corner.lerp(DVec3::from_array(clicks(&study, 0, 3)[0]), 0.05).to_array();
+    let message = json!({
+        "document": Document::default(), "edit": {"kind": "add_branches", "seed": fat}, "bridging": false,
+    });
+    let message: EditMessage = serde_json::from_value(message).expect("a message");
+    // A search would hear the stop, and end as interrupted.
+    let watch = Watch { stop: &|| true, progress: &Progress::default() };
+    let failure = study.edit(&message, watch).expect_err("no lumen");
+    assert_eq!((failure.kind, failure.more.seen.map(|seen| seen.place)), ("tracing", Some(fat)));
 }
 
 #[test]
