@@ -47,14 +47,15 @@ test('branches from a place that is no lumen by its value are refused at once, w
   browser,
 }) => {
   const viewer = await untraced(browser, 'aorta');
-  for (const place of [
-    [0.52, 0.66],
-    [0.52, 0.57],
+  for (const [row, words] of [
+    [0.66, 'P 62.9'],
+    [0.57, 'P 29.0'],
   ] as const) {
-    await viewer.click([...place], 'axial');
+    await viewer.click([0.52, row], 'axial');
+    await expect(viewer.readOut).toContainText(words);
     await viewer.press('b');
     await expect(viewer.problem).toContainText('expected lumen', { timeout: 20_000 });
-    await viewer.screenshot(`no-lumen-${place[1]}`);
+    await viewer.screenshot(`no-lumen-${row}`);
     await viewer.press('Escape');
     await expect(viewer.problem).toHaveCount(0);
   }
