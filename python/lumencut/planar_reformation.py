@@ -13,6 +13,7 @@ from lumencut import _lumencut
 from lumencut._checked_settings import checked
 from lumencut._checks import choice, number, numbers
 from lumencut.errors import CameraError, SettingsError, VesselTreeError, VolumeError
+from lumencut.profile import Profile
 from lumencut.reformation import Reformation
 from lumencut.reformation_recipe import ReformationRecipe
 from lumencut.renderer import Renderer
@@ -168,6 +169,7 @@ def cpr(
     degrees: float | None = None,
     normal: npt.ArrayLike | None = None,
     roll: Literal["narrowest", "widest"] | None = None,
+    profile: Profile | None = None,
 ) -> PlanarReformation:
     """Return one vessel laid out as an image: Curved Planar Reformation (Kanitsar et al. 2002).
 
@@ -218,6 +220,8 @@ def cpr(
         wrong angle (ours). The vessel is measured for it. The angle changes by at most 3.75° each 0.5 mm, and
         is smoothed along the vessel by a Gaussian with a standard deviation of 2 mm;
         :attr:`PlanarReformation.roll` tells it.
+    profile : Profile, optional
+        What :func:`lumencut.measure` found for this vessel, so that it need not be measured again for a roll.
 
     Raises
     ------
@@ -248,6 +252,7 @@ def cpr(
         settings=settings,
         normal=normal,
         roll=roll,
+        profile=profile,
     )
 
 
@@ -265,6 +270,7 @@ def cpr_of(
     settings: Settings | None = None,
     normal: npt.ArrayLike | None = None,
     roll: Literal["narrowest", "widest"] | None = None,
+    profile: Profile | None = None,
 ) -> PlanarReformation:
     """Return the CPR of a vessel by a renderer, whose window it has; parameters are those of :func:`cpr`."""
     check_vessel(vessel)
@@ -304,11 +310,11 @@ def cpr_of(
     }
     if roll is None:
         return PlanarReformation(renderer, core, given, parameters)
-    rolled = _rolled(volume, vessel, parameters)
+    rolled = _rolled(volume, vessel, parameters, profile)
     return PlanarReformation(renderer, core.rolled(*rolled), given, parameters, rolled)
 
 
-def _rolled(volume: Volume, vessel: Vessel, parameters: dict[str, Any]) -> _Rolled:
+def _rolled(volume: Volume, vessel: Vessel, parameters: dict[str, Any], profile: Profile | None) -> _Rolled:
     """Arc lengths (mm) and angles (radians) at which the side that is asked for is cut."""
     from lumencut.measuring import measure
 
@@ -319,9 +325,9 @@ def _rolled(volume: Volume, vessel: Vessel, parameters: dict[str, Any]) -> _Roll
             raise CameraError(
                 "roll of the CPR", found, f"{name} {expected!r}", "leave roll out, or the other"
             )
-    profile = measure(volume, vessel)._core
+    known = profile or measure(volume, vessel)
     smoothing, up = parameters["smoothing"], parameters["up"]
-    wall = _lumencut.LumenWall(volume, (vessel.points, vessel.radius), smoothing, up, profile)
+    wall = _lumencut.LumenWall(volume, (vessel.points, vessel.radius), smoothing, up, known._core)
     return wall.roll(parameters["roll"])
 
 

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use glam::{DVec2, DVec3};
+use glam::{DVec2, DVec3, Vec3};
 use rayon::prelude::*;
 
 use lumencut_core::error::Result;
@@ -86,17 +86,23 @@ pub fn thickness(volume: &Volume, map: &LumenMap, band: [f64; 2], level: f64) ->
     let steps = ((band[1] - band[0]) / (SAMPLE * voxels.sampling_side)).ceil().max(1.0);
     let step = (band[1] - band[0]) / steps;
     let own = map.parameters().beyond;
-    let through = |(position, direction): (&DVec3, &glam::Vec3)| {
+    let through = |values: &mut Vec<f32>, (position, direction): (&DVec3, &Vec3)| {
         let ray = direction.as_dvec3();
         let start = index.transform_point3(*position + ray * (band[0] - own + 0.5 * step));
-        let stride = index.transform_vector3(ray) * step;
-        let values = (0..steps as usize).map(|n| f64::from(voxels.at_index(start + stride * n as f64)));
-        let count = values.fold(0.0, |count, value| {
-            if value.is_nan() { f64::NAN } else { count + f64::from(u8::from(value > level)) }
-        });
-        (count * step) as f32
+        if !start.is_finite() {
+            return f32::NAN;
+        }
+        values.clear();
+        while values.len() < steps as usize {
+            voxels.along(start, index.transform_vector3(ray) * step, values);
+        }
+        let values = &values[..steps as usize];
+        let is_outside = values.iter().any(|value| value.is_nan());
+        let bright = values.iter().filter(|value| f64::from(**value) > level).count();
+        if is_outside { f32::NAN } else { (bright as f64 * step) as f32 }
     };
-    Ok(curved.position().par_iter().zip(curved.slab_direction()).map(through).collect())
+    let pixels = curved.position().par_iter().zip(curved.slab_direction());
+    Ok(pixels.map_init(Vec::new, through).collect())
 }
 
 /// The direction in which most lies at the wall (radians): a map with it in the middle is cut open on the other side. 0 where nothing

@@ -119,18 +119,36 @@ impl LumenMap {
         self.each(|at, around| self.wall.is_open(at, around))
     }
 
-    /// How bright the wall is at each pixel, lit from the middle of the vessel: 1 where it is met at right angles.
+    /// How bright the wall is at each pixel, lit from the middle of the vessel: 1 where it is met at right angles. Its slope is that
+    /// between the pixels on both sides.
     pub fn shades(&self) -> Vec<f32> {
-        let step = self.parameters.pixel_spacing / 2.0;
-        let turn = TAU / self.columns[0] as f64 / 2.0;
-        let wall = |at: f64, around: f64| self.point(at, around, 0.0);
-        self.each(|at, around| {
-            let along = wall(at + step, around) - wall(at - step, around);
-            let across = wall(at, around + turn) - wall(at, around - turn);
+        let [width, height] = self.size();
+        let rows: Vec<(Vec<DVec3>, Vec<DVec3>)> =
+            (0..height + 2).into_par_iter().map(|j| self.wall_row(j)).collect();
+        let shade = |j: usize, i: usize| {
+            let [before, here, after] = [0, 1, 2].map(|step| &rows[j + step]);
+            let along = after.0[i + 1] - before.0[i + 1];
+            let across = here.0[i + 2] - here.0[i];
             let normal = along.cross(across).normalize_or_zero();
-            let facing = normal.dot(self.ray(at, around)).abs();
-            (SHADES[0] + SHADES[1] * facing) as f32
-        })
+            (SHADES[0] + SHADES[1] * normal.dot(here.1[i + 1]).abs()) as f32
+        };
+        let shade = &shade;
+        (0..height).into_par_iter().flat_map_iter(|j| (0..width).map(move |i| shade(j, i))).collect()
+    }
+
+    /// The points of the wall and the directions to them in a row before the first one, in the first one, and so on, each with one
+    /// column more on both sides.
+    fn wall_row(&self, number: usize) -> (Vec<DVec3>, Vec<DVec3>) {
+        let at = (number as f64 - 1.0) * self.parameters.pixel_spacing;
+        let (middle, frame) = (self.path.at(at), self.straightened.frame(at));
+        let columns = 0..self.size()[0] + 2;
+        let ray = |i: usize| {
+            let around = self.around(i as f64 - 1.0);
+            let (sine, cosine) = around.sin_cos();
+            let ray = frame.across * cosine + frame.ahead * sine;
+            (middle + ray * self.wall.radius(at, around), ray)
+        };
+        columns.map(ray).unzip()
     }
 
     /// Where a direction around the vessel (radians) lies: the column of its middle, with fractions.
@@ -154,13 +172,6 @@ impl LumenMap {
     /// How far a place beyond the wall is from the middle of the vessel (mm); no place lies beyond the middle.
     fn distance(&self, at: f64, around: f64, beyond: f64) -> f64 {
         (self.wall.radius(at, around) + beyond).max(0.0)
-    }
-
-    /// The direction from the middle of the vessel to the wall.
-    fn ray(&self, at: f64, around: f64) -> DVec3 {
-        let frame = self.straightened.frame(at);
-        let (sine, cosine) = around.sin_cos();
-        frame.across * cosine + frame.ahead * sine
     }
 
     /// What a function of arc length and direction says of each pixel, row by row.
