@@ -49,7 +49,8 @@ pub struct Connections {
 impl Connections {
     /// The connections of the vessels of `level`, to tell which places lie within `threshold` mm of each other.
     pub fn new(level: &Level, threshold: f64) -> Self {
-        let ends = Ends::of(level);
+        let slots = level.first_slot.windows(2).flat_map(|slots| [slots[0], slots[1] - 1]);
+        let ends = Ends::of(slots.map(|slot| level.points[slot as usize]));
         let (mut meetings, mut first_of_vessel) = (Vec::new(), vec![0]);
         let mut of_junction = vec![Vec::new(); ends.count as usize];
         for (vessel, slots) in (0..).zip(level.first_slot.windows(2)) {
@@ -157,19 +158,17 @@ impl Connections {
 }
 
 /// The ends of all vessels; those in the same place are one junction.
-struct Ends {
+pub(super) struct Ends {
     places: PlaceMap<u32>,
-    count: u32,
+    /// How many junctions there are.
+    pub count: u32,
 }
 
 impl Ends {
-    fn of(level: &Level) -> Self {
+    /// The junctions of these ends of vessels.
+    pub fn of(places: impl Iterator<Item = DVec3>) -> Self {
         let mut ends = Self { places: PlaceMap::new(VESSEL_END), count: 0 };
-        for slots in level.first_slot.windows(2) {
-            for slot in [slots[0], slots[1] - 1] {
-                ends.add(level.points[slot as usize]);
-            }
-        }
+        places.for_each(|end| ends.add(end));
         ends
     }
 
@@ -182,7 +181,7 @@ impl Ends {
     }
 
     /// The junction at `point`.
-    fn at(&self, point: DVec3) -> Option<u32> {
+    pub fn at(&self, point: DVec3) -> Option<u32> {
         self.places.at(point).copied()
     }
 }

@@ -9,6 +9,7 @@ mod layout;
 pub mod lumen_map;
 pub mod mpcpr;
 pub mod spiral;
+pub mod untangled;
 mod wall;
 
 pub use connections::Connections;

@@ -1,0 +1,376 @@
+//! Untangled CPR: every vessel of a tree cut open in one image, none before another, with true lengths.
+//!
+//! Kanitsar, Wegenkittl, Fleischmann and Gröller, "Advanced Curved Planar Reformation: Flattening of Vascular Structures", IEEE
+//! Visualization 2003, doi:10.1109/VISUAL.2003.1250353, show an entire tree by least rotations at branching points. Of that method
+//! only the abstract could be read: layout and search are ours.
+
+mod growth;
+mod hull;
+mod pieces;
+mod sectors;
+mod segments;
+mod sheet;
+mod strip;
+mod turning;
+
+use std::sync::{Arc, OnceLock};
+
+use glam::{DVec2, DVec3, Vec3};
+use rayon::prelude::*;
+
+use self::growth::{Growth, Part};
+use self::hull::Disc;
+use self::pieces::{Piece, pieces_of};
+use self::sheet::{Place, Sheet, placed};
+use self::strip::Strip;
+use self::turning::{BEYOND_NEAR, Tree, Turning, untangle};
+use super::found::NO_VESSEL;
+use super::layout::Layout;
+use crate::camera::{Camera, MAX_PIXEL_SPACING, MAX_PIXELS, MAX_SIZE};
+use crate::error::{Error, ErrorKind, Mend, Result};
+use crate::geometry::Curved;
+use crate::limits::Limits;
+use crate::stop::{Stop, go_on};
+use crate::vessel_tree::VesselTree;
+
+const WIDTH: Limits = Limits::new(1e-3, 1e4, "mm");
+const HULL_MARGIN: Limits = Limits::new(0.0, 1e3, "mm");
+const SMOOTHING: Limits = Limits::new(0.0, 1e3, "mm");
+const PIXEL_SPACING: Limits = Limits::new(1e-6, MAX_PIXEL_SPACING, "mm");
+const UNKNOWN_RADIUS: Limits = Limits::new(0.0, 1e6, "mm");
+
+/// How far the hulls of parts that do not hang together are set apart (mm), where the image is wide enough.
+const BETWEEN_PARTS: f64 = 10.0;
+
+/// The side of the squares of pixels that look for the nearest vessel together.
+const TILE: usize = 8;
+
+/// Where no segment is near.
+const NONE: u32 = u32::MAX;
+
+/// How a tree is laid out.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct UntangledParameters {
+    /// How far the image shows what lies beside vessels (mm), on each side.
+    pub width: f64,
+    /// How much wider than the lumen the hulls are that must not overlap (mm).
+    pub hull_margin: f64,
+    /// The standard deviation by which directions of vessels are smoothed along them (mm).
+    pub smoothing: f64,
+    /// The side of a pixel (mm).
+    pub pixel_spacing: f64,
+    /// What takes the place of radii that are not known (mm).
+    pub unknown_radius: f64,
+    /// Near the end of the vessel from which the tree grows (mm, LPS); parts without it grow from the free end of the largest
+    /// mean radius over 10 mm.
+    pub root: Option<DVec3>,
+}
+
+impl UntangledParameters {
+    /// The defaults, in pixels with a side of `pixel_spacing` mm.
+    pub fn new(pixel_spacing: f64) -> Self {
+        Self { width: 25.0, hull_margin: 2.0, smoothing: 4.0, pixel_spacing, unknown_radius: 1.0, root: None }
+    }
+
+    fn check(&self) -> Result<()> {
+        let lengths = [
+            (WIDTH, "width", self.width),
+            (HULL_MARGIN, "hull_margin", self.hull_margin),
+            (SMOOTHING, "smoothing", self.smoothing),
+            (PIXEL_SPACING, "pixel_spacing", self.pixel_spacing),
+        ];
+        for (limits, name, value) in lengths {
+            let checked = limits.check(&format!("{name} of the untangled CPR"), value);
+            checked.map_err(|error| Error { kind: ErrorKind::Camera, ..error })?;
+        }
+        UNKNOWN_RADIUS.check("unknown_radius", self.unknown_radius)?;
+        if self.root.is_some_and(|root| !root.is_finite()) {
+            let found = "numbers that are not finite";
+            return Err(Error::new(ErrorKind::Camera, "root of the untangled CPR", found, "a finite point"));
+        }
+        Ok(())
+    }
+}
+
+/// A part of a vessel, between two places where vessels meet or end, in the image.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LaidOut {
+    /// The id of the vessel.
+    pub vessel: usize,
+    /// Where along the vessel its places are (mm), rising.
+    pub arc_length: Vec<f64>,
+    /// Those places in the image: column and row.
+    pub pixels: Vec<DVec2>,
+    /// By how much it is turned where it begins, with all that follows it (radians, counter-clockwise in the image).
+    pub turn: f64,
+    /// Whether it begins at its last place.
+    pub is_reversed: bool,
+}
+
+/// A tree laid out without overlap, seen along the direction of a camera. Clones share what was found.
+#[derive(Clone)]
+pub struct Untangled {
+    parameters: UntangledParameters,
+    sheet: Arc<Sheet>,
+    laid_out: Arc<Vec<LaidOut>>,
+    vessels: usize,
+    near: f64,
+    overlaps: Vec<usize>,
+    closures: Vec<[DVec2; 2]>,
+    /// The centre of the first pixel (mm).
+    origin: DVec2,
+    size: [usize; 2],
+    /// The segment that each pixel shows.
+    segments: Arc<OnceLock<Vec<u32>>>,
+}
+
+impl Untangled {
+    /// Lays out a tree; of the camera the directions count.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Camera`] for a length outside its range or too many pixels, [`ErrorKind::VesselTree`] for a vessel without
+    /// length or a part without a free end, [`ErrorKind::Settings`] for an invalid unknown radius,
+    /// [`ErrorKind::Interrupted`] once `stop` says so.
+    pub fn new(
+        tree: &VesselTree,
+        camera: &Camera,
+        parameters: UntangledParameters,
+        stop: Stop,
+    ) -> Result<Self> {
+        parameters.check()?;
+        let (pieces, nodes) = pieces_of(tree, parameters.unknown_radius)?;
+        let growth = Growth::new(&pieces, nodes, parameters.root)?;
+        let strip = |piece: &Piece| {
+            go_on(stop)?;
+            Ok(Strip::new(piece, camera, parameters.smoothing))
+        };
+        let strips = pieces.par_iter().map(strip).collect::<Result<Vec<_>>>()?;
+        let found =
+            Tree { pieces: &pieces, strips: &strips, growth: &growth, hull_margin: parameters.hull_margin };
+        let turning = untangle(found, stop)?;
+        let roots = roots(&growth.parts, &turning.hulls, camera, parameters.width);
+        let places = placed(&pieces, &growth, &turning.places, &turning.turns, &roots);
+        let sheet = Sheet::new(&pieces, &strips, &places, parameters.width);
+        let (origin, size) = extent(&places, &parameters)?;
+        let mut made = Self {
+            parameters,
+            sheet: Arc::new(sheet),
+            laid_out: Arc::default(),
+            vessels: tree.vessels().len(),
+            near: turning.near,
+            overlaps: vessels_of(&pieces, &turning.overlaps),
+            closures: Vec::new(),
+            origin,
+            size,
+            segments: Arc::default(),
+        };
+        made.laid_out =
+            Arc::new((0..pieces.len()).map(|n| made.laid(n, &pieces, &growth, &turning)).collect());
+        made.closures = growth.closures.iter().map(|closure| made.closure(&growth, closure)).collect();
+        Ok(made)
+    }
+
+    /// How it is laid out.
+    pub fn parameters(&self) -> &UntangledParameters {
+        &self.parameters
+    }
+
+    /// All vessels, in parts between the places where they meet or end, in their order and along them.
+    pub fn laid_out(&self) -> &[LaidOut] {
+        &self.laid_out
+    }
+
+    /// By how much each vessel is turned where a part of it begins (radians, counter-clockwise in the image): of several turns the
+    /// largest one.
+    pub fn rotations(&self) -> Vec<f64> {
+        let mut rotations = vec![0.0f64; self.vessels];
+        for part in self.laid_out.iter() {
+            let known = &mut rotations[part.vessel];
+            if part.turn.abs() > known.abs() {
+                *known = part.turn;
+            }
+        }
+        rotations
+    }
+
+    /// How far around a branching point vessels may overlap (mm) where the widest hull that meets it has a radius of `hull` mm:
+    /// vessels that part begin as one.
+    pub fn may_overlap_within(&self, hull: f64) -> f64 {
+        self.near * hull + BEYOND_NEAR
+    }
+
+    /// The vessels whose hulls overlap those of others, or fold over themselves, nevertheless.
+    pub fn overlaps(&self) -> &[usize] {
+        &self.overlaps
+    }
+
+    /// Where cycles are cut open: the two places in the image that are one place of the body.
+    pub fn closures(&self) -> &[[DVec2; 2]] {
+        &self.closures
+    }
+
+    /// The vessel that each pixel shows, row by row; [`NO_VESSEL`] where nothing is shown.
+    pub fn vessel(&self) -> Vec<i32> {
+        self.each(NO_VESSEL, |place| self.laid_out[self.sheet.piece(place)].vessel as i32)
+    }
+
+    fn laid(&self, n: usize, pieces: &[Piece], growth: &Growth, turning: &Turning) -> LaidOut {
+        let stations = self.sheet.stations_of(n);
+        LaidOut {
+            vessel: pieces[n].vessel,
+            arc_length: stations.iter().map(|station| station.at).collect(),
+            pixels: stations.iter().map(|station| self.pixel(station.place)).collect(),
+            turn: turning.turns[n],
+            is_reversed: growth.is_reversed[n],
+        }
+    }
+
+    fn closure(&self, growth: &Growth, &(piece, there, end): &(usize, usize, usize)) -> [DVec2; 2] {
+        let at = |piece: usize, end: usize| {
+            let pixels = &self.laid_out[piece].pixels;
+            pixels[if end == 0 { 0 } else { pixels.len() - 1 }]
+        };
+        [at(piece, usize::from(!growth.is_reversed[piece])), at(there, end)]
+    }
+
+    /// Where a place of the image (mm) is in pixels.
+    fn pixel(&self, seen: DVec2) -> DVec2 {
+        let from = (seen - self.origin) / self.parameters.pixel_spacing;
+        DVec2::new(from.x, -from.y)
+    }
+
+    /// Where a pixel is in the image (mm).
+    fn seen(&self, pixel: DVec2) -> DVec2 {
+        self.origin + DVec2::new(pixel.x, -pixel.y) * self.parameters.pixel_spacing
+    }
+
+    /// The segment that each pixel shows, found at the first call.
+    fn segments(&self) -> &[u32] {
+        // Made outside the lock: a thread of the pool that waited for its part could wait for itself.
+        if let Some(known) = self.segments.get() {
+            return known;
+        }
+        let [width, height] = self.size;
+        let mut segments = vec![NONE; width * height];
+        segments.par_chunks_mut(TILE * width).enumerate().for_each(|(n, rows)| {
+            (0..width).step_by(TILE).for_each(|first| self.fill_tile([first, n * TILE], rows));
+        });
+        self.segments.get_or_init(|| segments)
+    }
+
+    /// Finds the segments of a square of pixels; `rows` begin with its first row.
+    fn fill_tile(&self, [first, top]: [usize; 2], rows: &mut [u32]) {
+        let width = self.size[0];
+        let side = (TILE - 1) as f64 / 2.0;
+        let middle = self.seen(DVec2::new(first as f64 + side, top as f64 + side));
+        let near = self.sheet.near(middle, side * std::f64::consts::SQRT_2 * self.parameters.pixel_spacing);
+        if near.is_empty() {
+            return;
+        }
+        for (j, row) in rows.chunks_mut(width).enumerate() {
+            for (i, segment) in row.iter_mut().enumerate().skip(first).take(TILE) {
+                let seen = self.seen(DVec2::new(i as f64, (top + j) as f64));
+                if let Some(found) = self.sheet.nearest_among(&near, seen) {
+                    *segment = found as u32;
+                }
+            }
+        }
+    }
+
+    /// What a function says of the place that each pixel shows, row by row, and `nothing` where none is shown.
+    fn each<T: Clone + Send + Sync>(&self, nothing: T, told: impl Fn(&Place) -> T + Sync) -> Vec<T> {
+        let width = self.size[0];
+        let pixels = self.segments().par_iter().enumerate();
+        pixels
+            .map(|(n, segment)| {
+                if *segment == NONE {
+                    return nothing.clone();
+                }
+                let seen = self.seen(DVec2::new((n % width) as f64, (n / width) as f64));
+                told(&self.sheet.on_segment(*segment as usize, seen))
+            })
+            .collect()
+    }
+}
+
+impl Layout for Untangled {
+    fn size(&self) -> [usize; 2] {
+        self.size
+    }
+
+    fn pixel_spacing(&self) -> f64 {
+        self.parameters.pixel_spacing
+    }
+
+    fn curved(&self) -> Result<Curved> {
+        let nothing = (DVec3::NAN, Vec3::ZERO);
+        let looked = |place: &Place| (self.sheet.point(place), self.sheet.slab_direction(place).as_vec3());
+        let (position, direction) = self.each(nothing, looked).into_iter().unzip();
+        Curved::new(self.size, position, direction)
+    }
+
+    fn arc_length(&self) -> Vec<f64> {
+        self.each(f64::NAN, |place| self.sheet.arc_length(place))
+    }
+
+    fn folded(&self) -> Vec<bool> {
+        self.each(false, |place| self.sheet.is_folded(place))
+    }
+
+    fn world_from_pixel(&self, pixel: DVec2) -> DVec3 {
+        self.sheet.place(self.seen(pixel)).map_or(DVec3::NAN, |place| self.sheet.point(&place))
+    }
+
+    fn pixel_from_world(&self, point: DVec3) -> DVec2 {
+        self.sheet.place_of(point).map_or(DVec2::NAN, |place| self.pixel(self.sheet.seen(&place)))
+    }
+}
+
+/// The vessels of pieces, each once.
+fn vessels_of(pieces: &[Piece], numbers: &[usize]) -> Vec<usize> {
+    let mut vessels: Vec<usize> = numbers.iter().map(|n| pieces[*n].vessel).collect();
+    vessels.sort_unstable();
+    vessels.dedup();
+    vessels
+}
+
+/// Where the roots of parts lie in the image (mm): as they are seen, but from left to right none nearer to the one before it
+/// than to be clear of its hull.
+fn roots(parts: &[Part], hulls: &[Vec<Disc>], camera: &Camera, width: f64) -> Vec<DVec2> {
+    let mut roots: Vec<DVec2> =
+        parts.iter().map(|part| camera.view_from_world(part.root).truncate()).collect();
+    let mut order: Vec<usize> = (0..parts.len()).collect();
+    order.sort_by(|a, b| roots[*a].x.total_cmp(&roots[*b].x));
+    let mut right = f64::NEG_INFINITY;
+    for n in order {
+        let [low, high] = hulls[n].iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], disc| {
+            [low.min(disc.center.x - disc.radius), high.max(disc.center.x + disc.radius)]
+        });
+        roots[n].x = roots[n].x.max(right - low);
+        right = roots[n].x + high + BETWEEN_PARTS.min(width);
+    }
+    roots
+}
+
+/// The centre of the first pixel (mm), and the size that holds all vessels and what lies beside them.
+fn extent(places: &[Vec<DVec2>], parameters: &UntangledParameters) -> Result<(DVec2, [usize; 2])> {
+    let all = places.iter().flatten();
+    let (low, high) = all.fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(low, high), place| {
+        (low.min(*place), high.max(*place))
+    });
+    let pixels = (high - low + 2.0 * parameters.width) / parameters.pixel_spacing;
+    let [width, height] = pixels.to_array().map(|length| length.ceil() + 1.0);
+    if width.max(height) > MAX_SIZE as f64 || width * height > MAX_PIXELS as f64 {
+        let found = format!("{width} × {height} pixels");
+        let expected = format!("at most {MAX_SIZE} along each side and {MAX_PIXELS} in all");
+        let error = Error::new(ErrorKind::Camera, "size of the untangled CPR", found, expected);
+        return Err(error.mended_by(Mend::FewerPixels));
+    }
+    let origin = DVec2::new(low.x - parameters.width, high.y + parameters.width);
+    // Whole numbers within the limits.
+    Ok((origin, [width as usize, height as usize]))
+}
+
+#[cfg(test)]
+#[path = "tests/untangled.rs"]
+mod tests;

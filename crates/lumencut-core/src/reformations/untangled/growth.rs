@@ -1,0 +1,214 @@
+//! How pieces of vessels grow from a root: which piece follows which, which close a cycle, and which parts hang together.
+
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
+use glam::DVec3;
+
+use super::pieces::Piece;
+use crate::error::{Error, ErrorKind, Result};
+
+/// Over which length the radius of a free end is averaged (mm).
+const MEAN_OVER: f64 = 10.0;
+
+/// Radii that differ by less are the same (mm).
+const SAME_RADIUS: f64 = 1e-6;
+
+/// Pieces that hang together.
+#[derive(Clone, Debug)]
+pub(super) struct Part {
+    /// Where it grows from (mm, LPS).
+    pub root: DVec3,
+    /// Its pieces, each after the one that it follows.
+    pub order: Vec<usize>,
+    /// Those of them that begin at the root.
+    pub first: Vec<usize>,
+}
+
+/// What follows which, for every piece.
+#[derive(Clone, Debug)]
+pub(super) struct Growth {
+    /// The parts, in the order of their smallest piece.
+    pub parts: Vec<Part>,
+    /// Whether each piece grows from its last station to its first.
+    pub is_reversed: Vec<bool>,
+    /// The pieces that follow each piece.
+    pub children: Vec<Vec<usize>>,
+    /// The pieces that close a cycle, and for each the piece and the end of it (0 or 1) at which the cycle closes.
+    pub closures: Vec<(usize, usize, usize)>,
+}
+
+impl Growth {
+    /// Grows from the end of a vessel that is nearest to `root`; parts without it, and all where there is none, from the free
+    /// end of the largest mean radius.
+    ///
+    /// # Errors
+    /// [`ErrorKind::VesselTree`] for a part without a free end, where `root` does not name one.
+    pub fn new(pieces: &[Piece], nodes: usize, root: Option<DVec3>) -> Result<Self> {
+        let graph = Graph::new(pieces, nodes);
+        let mut growth = Self {
+            parts: Vec::new(),
+            is_reversed: vec![false; pieces.len()],
+            children: vec![Vec::new(); pieces.len()],
+            closures: Vec::new(),
+        };
+        let named = root.map(|root| graph.nearest_end(root));
+        let mut is_known = vec![false; pieces.len()];
+        for piece in 0..pieces.len() {
+            if is_known[piece] {
+                continue;
+            }
+            let members = graph.reached_from(piece);
+            members.iter().for_each(|member| is_known[*member] = true);
+            let own = named.filter(|(piece, _)| members.binary_search(piece).is_ok());
+            let root = match own {
+                Some(root) => root,
+                None => graph.widest_free_end(&members)?,
+            };
+            growth.grow(&graph, root);
+        }
+        Ok(growth)
+    }
+
+    /// Adds the part that grows from an end of a piece, along shortest ways.
+    fn grow(&mut self, graph: &Graph, (piece, end): (usize, usize)) {
+        let pieces = graph.pieces;
+        let root = pieces[piece].nodes[end];
+        let point = if end == 0 { pieces[piece].points[0] } else { *last_of(&pieces[piece].points) };
+        let mut part = Part { root: point, order: Vec::new(), first: Vec::new() };
+        // Which piece led to each junction; the root is its own beginning.
+        let mut led: Vec<Option<Option<usize>>> = vec![None; graph.ends.len()];
+        let mut is_used = vec![false; pieces.len()];
+        let mut late = Vec::new();
+        // Lengths are not negative, so their bits have their order.
+        let mut waiting = BinaryHeap::from([Reverse((0.0f64.to_bits(), None, root))]);
+        while let Some(Reverse((bits, by, node))) = waiting.pop() {
+            if led[node].is_some() {
+                continue;
+            }
+            led[node] = Some(by);
+            if let Some(by) = by {
+                is_used[by] = true;
+                self.attach(&mut part, by, led[graph.pieces[by].nodes[self.start(by)]].flatten());
+            }
+            for &(piece, end) in &graph.ends[node] {
+                let other = pieces[piece].nodes[1 - end];
+                if led[other].is_none() {
+                    // A piece waits once at most: from its other end it leads back. One that loses is set anew below.
+                    let length = f64::from_bits(bits) + pieces[piece].length();
+                    self.is_reversed[piece] = end == 1;
+                    waiting.push(Reverse((length.to_bits(), Some(piece), other)));
+                } else if !is_used[piece] {
+                    late.push((piece, if other == node { 0 } else { 1 - end }));
+                }
+            }
+        }
+        for (piece, near) in late {
+            if !std::mem::replace(&mut is_used[piece], true) {
+                self.close(&mut part, pieces, piece, near, &led);
+            }
+        }
+        self.parts.push(part);
+    }
+
+    /// The end of a piece (0 or 1) at which it begins to grow.
+    fn start(&self, piece: usize) -> usize {
+        usize::from(self.is_reversed[piece])
+    }
+
+    /// Lets a piece follow another one, or the root.
+    fn attach(&mut self, part: &mut Part, piece: usize, after: Option<usize>) {
+        part.order.push(piece);
+        match after {
+            Some(before) => self.children[before].push(piece),
+            None => part.first.push(piece),
+        }
+    }
+
+    /// Adds a piece whose both ends are reached without it: it begins at its end `near`, which was reached first, and ends free
+    /// beside its other junction.
+    fn close(
+        &mut self,
+        part: &mut Part,
+        pieces: &[Piece],
+        piece: usize,
+        near: usize,
+        led: &[Option<Option<usize>>],
+    ) {
+        self.is_reversed[piece] = near == 1;
+        self.attach(part, piece, led[pieces[piece].nodes[near]].flatten());
+        let far = pieces[piece].nodes[1 - near];
+        // The other place is the end of the piece that led there, or the beginning of one at the root.
+        let there = match led[far].flatten() {
+            Some(by) => (by, 1 - self.start(by)),
+            None => (part.first[0], self.start(part.first[0])),
+        };
+        self.closures.push((piece, there.0, there.1));
+    }
+}
+
+/// Pieces as edges between junctions.
+struct Graph<'a> {
+    pieces: &'a [Piece],
+    /// The pieces that end at each junction, and by which end (0 or 1).
+    ends: Vec<Vec<(usize, usize)>>,
+}
+
+impl<'a> Graph<'a> {
+    fn new(pieces: &'a [Piece], nodes: usize) -> Self {
+        let mut ends = vec![Vec::new(); nodes];
+        for (n, piece) in pieces.iter().enumerate() {
+            (0..2).for_each(|end| ends[piece.nodes[end]].push((n, end)));
+        }
+        Self { pieces, ends }
+    }
+
+    /// All pieces that hang together with one, in their order.
+    fn reached_from(&self, piece: usize) -> Vec<usize> {
+        let mut is_found = vec![false; self.pieces.len()];
+        let (mut found, mut waiting) = (Vec::new(), vec![piece]);
+        while let Some(piece) = waiting.pop() {
+            if !std::mem::replace(&mut is_found[piece], true) {
+                found.push(piece);
+                let nodes = self.pieces[piece].nodes.iter();
+                waiting.extend(nodes.flat_map(|node| self.ends[*node].iter().map(|(other, _)| *other)));
+            }
+        }
+        found.sort_unstable();
+        found
+    }
+
+    /// The end of a piece that is nearest to a point, the first one of several.
+    fn nearest_end(&self, point: DVec3) -> (usize, usize) {
+        let ends = self.pieces.iter().enumerate().flat_map(|(n, piece)| {
+            [((n, 0), piece.points[0]), ((n, 1), *last_of(&piece.points))]
+                .map(|(end, place)| (end, place.distance_squared(point)))
+        });
+        ends.fold(((0, 0), f64::INFINITY), |best, end| if end.1 < best.1 { end } else { best }).0
+    }
+
+    /// The free end of the largest mean radius, the first one of several.
+    fn widest_free_end(&self, members: &[usize]) -> Result<(usize, usize)> {
+        let mut widest: Option<((usize, usize), f64)> = None;
+        for &piece in members {
+            for end in 0..2 {
+                let is_free = self.ends[self.pieces[piece].nodes[end]].len() == 1;
+                let radius = self.pieces[piece].mean_radius(end, MEAN_OVER);
+                if is_free && widest.is_none_or(|(_, most)| radius > most + SAME_RADIUS) {
+                    widest = Some(((piece, end), radius));
+                }
+            }
+        }
+        widest.map(|(end, _)| end).ok_or_else(|| {
+            let vessel = self.pieces[members[0]].vessel;
+            let found = "a loop without a free end to begin at";
+            let expected = "a free end in every part that hangs together";
+            Error::new(ErrorKind::VesselTree, format!("vessel {vessel} of the tree"), found, expected)
+                .mend("name a point to begin at as the root, or leave this vessel out")
+        })
+    }
+}
+
+fn last_of<T>(values: &[T]) -> &T {
+    &values[values.len() - 1]
+}

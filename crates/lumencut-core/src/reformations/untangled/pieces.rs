@@ -1,0 +1,141 @@
+//! Vessels cut where they meet, each piece with stations close enough to each other for an image.
+
+use glam::DVec3;
+
+use crate::error::{Error, ErrorKind, Result};
+use crate::math::arc_length::LinePlace;
+use crate::math::same_place::VESSEL_END;
+use crate::reformations::connections::Ends;
+use crate::vessel_tree::{Vessel, VesselTree};
+
+/// How far stations lie apart at most (mm).
+const STEP: f64 = 0.5;
+
+/// Into how many parts a short piece is cut at least.
+const FEWEST: f64 = 4.0;
+
+/// A point of the vessel nearer to the last station than this share of a step is no station.
+const TOO_NEAR: f64 = 0.1;
+
+/// A part of a vessel between two places where vessels meet or end. Stations follow the vessel's own order.
+#[derive(Clone, Debug)]
+pub(super) struct Piece {
+    /// The id of the vessel.
+    pub vessel: usize,
+    /// The junctions at the first and the last station.
+    pub nodes: [usize; 2],
+    /// The stations (mm, LPS).
+    pub points: Vec<DVec3>,
+    /// Where along the vessel each station is (mm).
+    pub at: Vec<f64>,
+    /// The radius at each station (mm).
+    pub radius: Vec<f64>,
+}
+
+impl Piece {
+    /// The length along the vessel (mm).
+    pub fn length(&self) -> f64 {
+        self.at[self.at.len() - 1] - self.at[0]
+    }
+
+    /// The mean radius over the first `reach` mm from one of its ends (0 or 1).
+    pub fn mean_radius(&self, end: usize, reach: f64) -> f64 {
+        let reach = reach.min(self.length());
+        let (mut sum, mut walked) = (0.0, 0.0);
+        for n in 0..self.at.len() - 1 {
+            let segment = if end == 0 { n } else { self.at.len() - 2 - n };
+            let step = (self.at[segment + 1] - self.at[segment]).min(reach - walked);
+            sum += step * f64::midpoint(self.radius[segment], self.radius[segment + 1]);
+            walked += step;
+            if walked >= reach {
+                break;
+            }
+        }
+        sum / walked
+    }
+}
+
+/// The pieces of all vessels, in the order of vessels and along them, and how many junctions they have. A radius that is not
+/// known is `unknown_radius`.
+///
+/// # Errors
+/// [`ErrorKind::VesselTree`] for a vessel without length.
+pub(super) fn pieces_of(tree: &VesselTree, unknown_radius: f64) -> Result<(Vec<Piece>, usize)> {
+    let first_and_last = |vessel: &Vessel| [vessel.points()[0], vessel.points()[vessel.points().len() - 1]];
+    let ends = Ends::of(tree.vessels().iter().flat_map(first_and_last));
+    let mut pieces = Vec::new();
+    for (id, vessel) in tree.vessels().iter().enumerate() {
+        let cuts = cuts(vessel, &ends);
+        if cuts.len() < 2 {
+            let found = "all points within 0.001 mm of each other";
+            let subject = format!("vessel {id} of the tree");
+            let error = Error::new(ErrorKind::VesselTree, subject, found, "a vessel with a length");
+            return Err(error.mend("leave this vessel out"));
+        }
+        for cut in cuts.windows(2) {
+            let nodes = [cut[0].1, cut[1].1];
+            pieces.push(Stations { vessel, unknown_radius }.piece(id, nodes, cut[0].0, cut[1].0));
+        }
+    }
+    Ok((pieces, ends.count as usize))
+}
+
+/// The points of a vessel at which it is cut, its ends among them, and the junction at each; between two of them it has a length.
+fn cuts(vessel: &Vessel, ends: &Ends) -> Vec<(usize, usize)> {
+    let (points, at) = (vessel.points(), vessel.arc_length());
+    let last = points.len() - 1;
+    let mut cuts: Vec<(usize, usize)> = Vec::new();
+    for (i, point) in points.iter().enumerate() {
+        let Some(node) = ends.at(*point) else { continue };
+        // Points within the same junction make one cut; at its end the vessel is cut at its last point.
+        let is_same = |&(n, _): &(usize, usize)| at[i] - at[n] <= 2.0 * VESSEL_END;
+        match cuts.last() {
+            Some(cut) if is_same(cut) && i == last && cuts.len() > 1 => {
+                cuts.pop();
+                cuts.push((i, node as usize));
+            }
+            Some(cut) if is_same(cut) => {}
+            _ => cuts.push((i, node as usize)),
+        }
+    }
+    cuts
+}
+
+/// Makes the stations of a vessel.
+struct Stations<'a> {
+    vessel: &'a Vessel,
+    unknown_radius: f64,
+}
+
+impl Stations<'_> {
+    /// The piece between two points of the vessel.
+    fn piece(&self, id: usize, nodes: [usize; 2], first: usize, last: usize) -> Piece {
+        let along = self.vessel.arc_length();
+        let step = STEP.min((along[last] - along[first]) / FEWEST);
+        let mut at = vec![along[first]];
+        let mut previous = along[first];
+        for (i, place) in along.iter().enumerate().take(last + 1).skip(first + 1) {
+            let is_apart = |other: f64| (place - other).abs() >= TOO_NEAR * step;
+            if i == last || (is_apart(previous) && is_apart(along[last])) {
+                let parts = ((place - previous) / step).ceil().max(1.0);
+                let between = (1..parts as usize).map(|n| previous + (place - previous) * (n as f64 / parts));
+                at.extend(between);
+                at.push(*place);
+                previous = *place;
+            }
+        }
+        let places: Vec<_> = at.iter().map(|at| LinePlace::at(along, *at)).collect();
+        let mut points: Vec<_> = places.iter().map(|place| place.point(self.vessel.points())).collect();
+        // Of points at one arc length the vessel's own ones count.
+        points[0] = self.vessel.points()[first];
+        let end = points.len() - 1;
+        points[end] = self.vessel.points()[last];
+        let radius = places.iter().map(|place| self.radius(*place)).collect();
+        Piece { vessel: id, nodes, points, at, radius }
+    }
+
+    fn radius(&self, place: LinePlace) -> f64 {
+        let known = self.vessel.radius().map_or(0.0, |radius| place.value(radius));
+        if known > 0.0 { known } else { self.unknown_radius }
+    }
+}

@@ -1,0 +1,327 @@
+//! The strips of all pieces where they lie in the image, and the way between a place there and the world.
+
+use glam::{DVec2, DVec3};
+
+use super::growth::Growth;
+use super::pieces::Piece;
+use super::segments::Segments;
+use super::strip::{Strip, normals};
+use crate::math::same_place::ON_PICTURE;
+
+/// A place belongs to another part of the tree where that is nearer by more than this share.
+const NEARER: f64 = 0.05;
+
+/// How often an interval is halved at most to find a section: below what a number can tell.
+const HALVINGS: usize = 60;
+
+/// How often a place is handed on to the next segment of its piece at most.
+const STEPS: usize = 4;
+
+/// A station of a strip in the image and in the world.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Station {
+    /// Its place in the image (mm).
+    pub place: DVec2,
+    /// To the right in the image.
+    pub normal: DVec2,
+    /// Its place in the world (mm, LPS), and what lies to the right there.
+    pub point: DVec3,
+    pub across: DVec3,
+    /// Where along the vessel it is (mm).
+    pub at: f64,
+}
+
+/// A place on a sheet: a segment, the share of it that lies before the place, and how far to its right the place is (mm). At free
+/// ends the share goes on beyond 0 and 1.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Place {
+    pub segment: usize,
+    pub share: f64,
+    pub aside: f64,
+}
+
+/// All strips side by side.
+#[derive(Clone, Debug)]
+pub(super) struct Sheet {
+    /// The stations, piece by piece, in the order of vessels and along them.
+    stations: Vec<Station>,
+    /// The first station of each segment.
+    start: Vec<usize>,
+    /// The piece of each segment.
+    piece: Vec<usize>,
+    /// The segments in the image and in the world.
+    seen: Segments,
+    world: Segments,
+    /// How far from the vessels the sheet reaches (mm), and how far places of it lie from vessels in the world.
+    width: f64,
+    reach: f64,
+}
+
+impl Sheet {
+    /// The sheet of strips whose stations have these places in the image.
+    pub fn new(pieces: &[Piece], strips: &[Strip], places: &[Vec<DVec2>], width: f64) -> Self {
+        let (mut stations, mut start, mut piece_of) = (Vec::new(), Vec::new(), Vec::new());
+        for (n, piece) in pieces.iter().enumerate() {
+            let first = stations.len();
+            let normals = normals(&places[n]);
+            stations.extend((0..piece.at.len()).map(|i| Station {
+                place: places[n][i],
+                normal: normals[i],
+                point: piece.points[i],
+                across: strips[n].across[i],
+                at: piece.at[i],
+            }));
+            start.extend(first..stations.len() - 1);
+            piece_of.resize(start.len(), n);
+        }
+        let ends = |place: &dyn Fn(&Station) -> DVec3| {
+            Segments::new(start.iter().map(|n| [place(&stations[*n]), place(&stations[n + 1])]).collect())
+        };
+        let seen = ends(&|station| station.place.extend(0.0));
+        let world = ends(&|station| station.point);
+        let longest = stations.iter().map(|station| station.across.length()).fold(1.0, f64::max);
+        let reach = width * longest * (1.0 + ON_PICTURE) + ON_PICTURE;
+        Self { seen, world, reach, stations, start, piece: piece_of, width }
+    }
+
+    pub fn stations_of(&self, piece: usize) -> &[Station] {
+        let [first, end] = [piece, piece + 1].map(|n| self.piece.partition_point(|of| *of < n));
+        &self.stations[self.start[first]..self.start[end - 1] + 2]
+    }
+
+    /// The piece that a place belongs to.
+    pub fn piece(&self, place: &Place) -> usize {
+        self.piece[place.segment]
+    }
+
+    /// The segments that may be nearest to some place no farther than `radius` (mm) from a point of the image.
+    pub fn near(&self, middle: DVec2, radius: f64) -> Vec<usize> {
+        let middle = middle.extend(0.0);
+        let Some((_, squared)) = self.seen.nearest(middle, self.width + radius) else { return Vec::new() };
+        // A little more, for rounding.
+        self.seen.within(middle, (squared.sqrt() + 2.0 * radius) * (1.0 + 1e-9) + ON_PICTURE)
+    }
+
+    /// What a point of the image (mm) shows: the nearest segment, the first one of several.
+    pub fn place(&self, seen: DVec2) -> Option<Place> {
+        self.place_within(seen, self.width)
+    }
+
+    /// The same, no farther than `limit` (mm) from a vessel.
+    fn place_within(&self, seen: DVec2, limit: f64) -> Option<Place> {
+        let (segment, _) = self.seen.nearest(seen.extend(0.0), limit)?;
+        Some(self.on_segment(segment, seen))
+    }
+
+    /// The nearest segment, the first one of several, where it is known to be one of those named, which are in their order.
+    pub fn nearest_among(&self, segments: &[usize], seen: DVec2) -> Option<usize> {
+        let mut best = (None, self.width * self.width);
+        for segment in segments {
+            let squared = self.seen.squared_distance(*segment, seen.extend(0.0));
+            if squared < best.1 || (squared == best.1 && best.0.is_none()) {
+                best = (Some(*segment), squared);
+            }
+        }
+        best.0
+    }
+
+    /// The place at a point of the image to which a segment is nearest; at corners it may belong to the next segment.
+    pub fn on_segment(&self, mut segment: usize, seen: DVec2) -> Place {
+        let mut place = self.across_segment(segment, seen);
+        for _ in 0..STEPS {
+            let next = if place.share > 1.0 { segment + 1 } else { segment.wrapping_sub(1) };
+            let is_inside = (0.0..=1.0).contains(&place.share);
+            if is_inside || self.piece.get(next) != self.piece.get(segment) {
+                break;
+            }
+            let other = self.across_segment(next, seen);
+            let comes_back = if next > segment { other.share < 0.0 } else { other.share > 1.0 };
+            if comes_back {
+                place.share = place.share.clamp(0.0, 1.0);
+                break;
+            }
+            (segment, place) = (next, other);
+        }
+        self.ended(place)
+    }
+
+    /// The place with a share within its segment, unless the piece ends there.
+    fn ended(&self, place: Place) -> Place {
+        let is_same = |other: usize| self.piece.get(other) == self.piece.get(place.segment);
+        let low = if is_same(place.segment.wrapping_sub(1)) { 0.0 } else { f64::NEG_INFINITY };
+        let high = if is_same(place.segment + 1) { 1.0 } else { f64::INFINITY };
+        Place { share: place.share.clamp(low, high), ..place }
+    }
+
+    /// Where a segment has a point of the image: the line across it that runs through the point.
+    fn across_segment(&self, segment: usize, seen: DVec2) -> Place {
+        let [a, b] = self.ends(segment);
+        let step = b.place - a.place;
+        let length = step.length();
+        let along = step / length;
+        let right = DVec2::new(along.y, -along.x);
+        let from = seen - a.place;
+        let aside = from.dot(right);
+        // Lines across end as far from the segment at both of its ends, so they move evenly between them.
+        let start = aside * a.normal.dot(along);
+        let end = length + aside * b.normal.dot(along);
+        let share = if end > start { (from.dot(along) - start) / (end - start) } else { 0.5 };
+        if share > 1.0 {
+            return Place { segment, share: 1.0 + (from.dot(along) - end) / length, aside };
+        }
+        if share < 0.0 {
+            return Place { segment, share: (from.dot(along) - start) / length, aside };
+        }
+        Place { segment, share, aside }
+    }
+
+    fn ends(&self, segment: usize) -> [Station; 2] {
+        let start = self.start[segment];
+        [self.stations[start], self.stations[start + 1]]
+    }
+
+    /// The world point of a place (mm, LPS).
+    pub fn point(&self, place: &Place) -> DVec3 {
+        let [a, b] = self.ends(place.segment);
+        self.center(place) + a.across.lerp(b.across, place.share.clamp(0.0, 1.0)) * place.aside
+    }
+
+    /// The point of the vessel beside a place; at ends straight on.
+    fn center(&self, place: &Place) -> DVec3 {
+        let [a, b] = self.ends(place.segment);
+        a.point.lerp(b.point, place.share)
+    }
+
+    /// Across the sheet at a place, into the scene where the vessel is seen from its side.
+    pub fn slab_direction(&self, place: &Place) -> DVec3 {
+        let [a, b] = self.ends(place.segment);
+        let across = a.across.lerp(b.across, place.share.clamp(0.0, 1.0));
+        (b.point - a.point).cross(across).normalize_or_zero()
+    }
+
+    /// The arc length of a place (mm); that of the end beyond it.
+    pub fn arc_length(&self, place: &Place) -> f64 {
+        let [a, b] = self.ends(place.segment);
+        a.at + (b.at - a.at) * place.share.clamp(0.0, 1.0)
+    }
+
+    /// Where the image has a place (mm).
+    pub fn seen(&self, place: &Place) -> DVec2 {
+        let [a, b] = self.ends(place.segment);
+        let share = place.share.clamp(0.0, 1.0);
+        a.place.lerp(b.place, place.share) + a.normal.lerp(b.normal, share) * place.aside
+    }
+
+    /// Whether the sheet runs backwards at a place, or another part of the tree is nearer to what it shows.
+    pub fn is_folded(&self, place: &Place) -> bool {
+        let [a, b] = self.ends(place.segment);
+        let along = b.point - a.point;
+        let is_beyond = !(0.0..=1.0).contains(&place.share);
+        let advance = along + (b.across - a.across) * place.aside;
+        if !is_beyond && advance.dot(along) <= 0.0 {
+            return true;
+        }
+        let excess = (place.share - place.share.clamp(0.0, 1.0)) * along.length();
+        let nearer = place.aside.hypot(excess) * (1.0 - NEARER) - ON_PICTURE;
+        nearer > 0.0 && self.world.any_within(self.point(place), nearer)
+    }
+
+    /// Where the image shows a world point: of the places that are shown those on the sheet first, then the one nearest to its
+    /// vessel, then the first one.
+    pub fn place_of(&self, point: DVec3) -> Option<Place> {
+        let mut best: Option<(Place, [f64; 2])> = None;
+        for segment in self.world.within(point, self.reach) {
+            for place in self.sections(segment, point) {
+                let off = self.point(&place).distance(point);
+                let rank = [if off > ON_PICTURE { 1.0 } else { 0.0 }, self.center(&place).distance(point)];
+                let is_better = best
+                    .is_none_or(|(_, best)| rank[0] < best[0] || (rank[0] == best[0] && rank[1] < best[1]));
+                if is_better && self.is_shown(&place) {
+                    best = Some((place, rank));
+                }
+            }
+        }
+        best.map(|(place, _)| place)
+    }
+
+    /// Whether the image shows a place where it would lie.
+    fn is_shown(&self, place: &Place) -> bool {
+        // At its very edge rounding does not take a place away.
+        let there = self.place_within(self.seen(place), self.width + ON_PICTURE);
+        let Some(there) = there else { return false };
+        self.piece(&there) == self.piece(place)
+            && (self.arc_length(&there) - self.arc_length(place)).abs() < ON_PICTURE.sqrt()
+    }
+
+    /// The places of a segment in whose sections a world point lies; where the piece ends, beyond it too.
+    fn sections(&self, segment: usize, point: DVec3) -> Vec<Place> {
+        let [a, b] = self.ends(segment);
+        let along = b.point - a.point;
+        // How far the point lies beyond the section at a share of the segment, and to the right there.
+        let ahead = |share: f64| {
+            let across = a.across.lerp(b.across, share);
+            let normal = along * across.length_squared() - across * along.dot(across);
+            (point - a.point.lerp(b.point, share)).dot(normal)
+        };
+        let aside = |share: f64, inner: f64| {
+            let across = a.across.lerp(b.across, inner);
+            (point - a.point.lerp(b.point, share)).dot(across) / across.length_squared()
+        };
+        let place = |share: f64| Place { segment, share, aside: aside(share, share.clamp(0.0, 1.0)) };
+        let (first, last) = (ahead(0.0), ahead(1.0));
+        let mut found = Vec::new();
+        if (first >= 0.0) != (last >= 0.0) {
+            let (mut low, mut high) = (0.0, 1.0);
+            for _ in 0..HALVINGS {
+                let middle = f64::midpoint(low, high);
+                let half = if (ahead(middle) >= 0.0) == (first >= 0.0) { &mut low } else { &mut high };
+                *half = middle;
+            }
+            found.push(place(f64::midpoint(low, high)));
+        }
+        // Sections beside each other may leave a gap for points off the sheet, and rounding one for those on it.
+        let beyond = |share: f64, towards: DVec3| {
+            share + (point - a.point.lerp(b.point, share)).dot(towards) / along.length_squared()
+        };
+        if first <= 0.0 {
+            let share = beyond(0.0, perpendicular(along, a.across));
+            found.push(self.ended(place(share)));
+        }
+        if last >= 0.0 {
+            found.push(self.ended(place(beyond(1.0, perpendicular(along, b.across)))));
+        }
+        found.retain(|place| place.aside.abs() <= self.width);
+        found
+    }
+}
+
+/// The part of a segment that is perpendicular to the line across its end.
+fn perpendicular(along: DVec3, across: DVec3) -> DVec3 {
+    along - across * (along.dot(across) / across.length_squared())
+}
+
+/// Where the stations of all pieces lie in the image (mm): each piece begins where that before it ends, turned with it.
+pub(super) fn placed(
+    pieces: &[Piece],
+    growth: &Growth,
+    places: &[Vec<DVec2>],
+    turns: &[f64],
+    roots: &[DVec2],
+) -> Vec<Vec<DVec2>> {
+    let mut placed: Vec<Vec<DVec2>> = vec![Vec::new(); pieces.len()];
+    let mut turned = turns.to_vec();
+    let mut begin = vec![DVec2::ZERO; pieces.len()];
+    for (part, root) in growth.parts.iter().zip(roots) {
+        part.first.iter().for_each(|piece| begin[*piece] = *root);
+        for &piece in &part.order {
+            let turn = DVec2::from_angle(turned[piece]);
+            placed[piece] = places[piece].iter().map(|place| begin[piece] + turn.rotate(*place)).collect();
+            let end = if growth.is_reversed[piece] { 0 } else { placed[piece].len() - 1 };
+            for child in &growth.children[piece] {
+                begin[*child] = placed[piece][end];
+                turned[*child] += turned[piece];
+            }
+        }
+    }
+    placed
+}

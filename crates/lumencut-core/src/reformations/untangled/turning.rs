@@ -1,0 +1,219 @@
+//! Which branches of a tree turn, and by how much, so that no vessel lies before another in the image.
+
+use std::f64::consts::PI;
+
+use glam::DVec2;
+use rayon::prelude::*;
+
+use super::growth::Growth;
+use super::hull::{Disc, Hull, beyond, discs};
+use super::pieces::Piece;
+use super::sectors::{Sector, turns};
+use super::strip::Strip;
+use crate::error::{Error, Result};
+use crate::stop::{Stop, go_on};
+
+/// How far around a branching point branches may overlap, in radii of their hulls there, from the least on; beyond it by a little.
+const NEAR: [f64; 5] = [1.5, 2.5, 4.0, 7.0, 12.0];
+pub(super) const BEYOND_NEAR: f64 = 2.0;
+
+/// How much of the bends of vessels is left, from the most on.
+const STIFFNESS: [f64; 4] = [1.0, 0.6, 0.3, 0.0];
+
+/// Into how many steps turns are cut, from the least on, and how often the first one that suffices is halved.
+const STEPS: usize = 16;
+const HALVINGS: usize = 16;
+
+/// What is laid out.
+#[derive(Clone, Copy)]
+pub(super) struct Tree<'a> {
+    pub pieces: &'a [Piece],
+    pub strips: &'a [Strip],
+    pub growth: &'a Growth,
+    /// How much wider than the lumen a hull is (mm).
+    pub hull_margin: f64,
+}
+
+/// A way to lay out all pieces.
+#[derive(Clone, Debug)]
+pub(super) struct Turning {
+    /// The places of the stations of each piece, from where it begins to grow, not turned (mm).
+    pub places: Vec<Vec<DVec2>>,
+    /// By how much each piece turns where it begins, with all that follows it (radians, counter-clockwise).
+    pub turns: Vec<f64>,
+    /// The hull of each part, from its root, not moved.
+    pub hulls: Vec<Vec<Disc>>,
+    /// How far around a branching point branches may overlap, in radii of their hulls there, beside [`BEYOND_NEAR`].
+    pub near: f64,
+    /// The pieces that overlap others, or themselves, nevertheless.
+    pub overlaps: Vec<usize>,
+}
+
+/// The first way by which no vessels overlap; else, of those tried, the first one with the fewest pieces that do.
+///
+/// # Errors
+/// [`crate::error::ErrorKind::Interrupted`] once `stop` says so.
+pub(super) fn untangle(tree: Tree, stop: Stop) -> Result<Turning> {
+    let mut best: Option<Turning> = None;
+    for near in NEAR {
+        let tried: Vec<Turning> = STIFFNESS
+            .into_par_iter()
+            .map(|stiffness| attempt(tree, near, stiffness, stop))
+            .collect::<Result<_>>()?;
+        for turning in tried {
+            if best.as_ref().is_none_or(|best| turning.overlaps.len() < best.overlaps.len()) {
+                best = Some(turning);
+            }
+        }
+        if best.as_ref().is_some_and(|best| best.overlaps.is_empty()) {
+            break;
+        }
+    }
+    best.ok_or_else(Error::interrupted)
+}
+
+fn attempt(tree: Tree, near: f64, stiffness: f64, stop: Stop) -> Result<Turning> {
+    let Tree { pieces, strips, growth, hull_margin } = tree;
+    let bent = |n: usize| strips[n].bent(&pieces[n], growth.is_reversed[n], stiffness);
+    let mut turning = Turning {
+        places: (0..pieces.len()).map(bent).collect(),
+        turns: vec![0.0; pieces.len()],
+        hulls: Vec::new(),
+        near,
+        overlaps: Vec::new(),
+    };
+    // All that follows each piece, and it itself, from where it begins, turned already beyond that place.
+    let mut units: Vec<Vec<Disc>> = vec![Vec::new(); pieces.len()];
+    for part in &growth.parts {
+        for &piece in part.order.iter().rev() {
+            go_on(stop)?;
+            let own = discs(piece, &pieces[piece], &turning.places[piece], hull_margin);
+            if Hull::new(own.clone()).overlaps_itself() {
+                turning.overlaps.push(piece);
+            }
+            let end = turning.places[piece][if growth.is_reversed[piece] { 0 } else { own.len() - 1 }];
+            let moved = |discs: &[Disc], by: DVec2| -> Vec<Disc> {
+                discs.iter().map(|disc| Disc { center: disc.center + by, ..*disc }).collect()
+            };
+            let children = &growth.children[piece];
+            let forward = forward_of(&turning.places[piece], growth.is_reversed[piece]);
+            let parent = Some((moved(&own, -end), forward));
+            let mut unit = own;
+            for discs in turn_apart(&mut turning, &mut units, children, parent, near) {
+                unit.extend(moved(&discs, end));
+            }
+            units[piece] = unit;
+        }
+        let hull = turn_apart(&mut turning, &mut units, &part.first, None, near);
+        turning.hulls.push(hull.concat());
+    }
+    turning.overlaps.sort_unstable();
+    turning.overlaps.dedup();
+    Ok(turning)
+}
+
+/// The direction in which a piece ends that begins to grow at its first, or its last, station.
+fn forward_of(places: &[DVec2], is_reversed: bool) -> DVec2 {
+    let last = places.len() - 1;
+    let step = if is_reversed { places[0] - places[1] } else { places[last] - places[last - 1] };
+    step.normalize_or(DVec2::NEG_Y)
+}
+
+/// Turns the units of pieces that begin at one place, after a piece that ends there in a direction, and returns them.
+fn turn_apart(
+    turning: &mut Turning,
+    units: &mut [Vec<Disc>],
+    children: &[usize],
+    parent: Option<(Vec<Disc>, DVec2)>,
+    near: f64,
+) -> Vec<Vec<Disc>> {
+    let own: Vec<Hull> = children.iter().map(|child| Hull::new(std::mem::take(&mut units[*child]))).collect();
+    let node = Node::new(&own, parent, near);
+    let wanted = node.wanted_turns();
+    let share = node.smallest_share(&wanted);
+    node.add_overlaps(&wanted, share, &mut turning.overlaps);
+    let turned = children.iter().zip(&own).zip(&wanted);
+    turned
+        .map(|((child, hull), wanted)| {
+            turning.turns[*child] = share * wanted;
+            hull.turned(share * wanted).discs().to_vec()
+        })
+        .collect()
+}
+
+/// A place where branches begin, as seen from there.
+struct Node {
+    /// The hulls beyond the place in which all may overlap: those of the branches.
+    branches: Vec<Hull>,
+    /// That of the piece which ends there; empty where there is none.
+    parent: Hull,
+    forward: DVec2,
+}
+
+impl Node {
+    fn new(branches: &[Hull], parent: Option<(Vec<Disc>, DVec2)>, near: f64) -> Self {
+        let (parent, forward) = parent.map_or((Vec::new(), None), |(discs, forward)| (discs, Some(forward)));
+        let all = branches.iter().map(Hull::discs).chain([parent.as_slice()]);
+        // The disc at the place itself is the first or the last one of each piece that meets it.
+        let at_node = |discs: &[Disc]| {
+            let here = discs.iter().filter(|disc| disc.center == DVec2::ZERO).map(|disc| disc.radius);
+            here.fold(0.0, f64::max)
+        };
+        let distance = near * all.map(at_node).fold(0.0, f64::max) + BEYOND_NEAR;
+        let outer = |discs: &[Disc]| Hull::new(beyond(discs, distance));
+        let branches: Vec<Hull> = branches.iter().map(|branch| outer(branch.discs())).collect();
+        let middle = || {
+            let places = branches.iter().flat_map(|branch| branch.discs().iter().map(|disc| disc.center));
+            places.map(DVec2::normalize_or_zero).sum::<DVec2>().normalize_or(DVec2::NEG_Y)
+        };
+        let forward = forward.unwrap_or_else(middle);
+        Self { branches, parent: outer(&parent), forward }
+    }
+
+    /// The turns that set all sectors apart.
+    fn wanted_turns(&self) -> Vec<f64> {
+        let behind = Sector::of(self.parent.discs(), -self.forward).unwrap_or(Sector { low: 0.0, high: 0.0 });
+        let room = Sector { low: behind.high - PI, high: PI + behind.low };
+        let sectors: Vec<Option<Sector>> =
+            self.branches.iter().map(|branch| Sector::of(branch.discs(), self.forward)).collect();
+        let known: Vec<Sector> = sectors.iter().flatten().copied().collect();
+        let mut found = turns(&known, room).into_iter();
+        // A branch that ends near the place has no sector, and stays.
+        sectors.iter().map(|sector| sector.and_then(|_| found.next()).unwrap_or(0.0)).collect()
+    }
+
+    /// The smallest share of turns by which nothing overlaps; all of them where nothing helps.
+    fn smallest_share(&self, wanted: &[f64]) -> f64 {
+        let mut shares = (0..=STEPS).map(|step| step as f64 / STEPS as f64);
+        let Some(mut enough) = shares.find(|share| self.is_apart(wanted, *share)) else { return 1.0 };
+        if enough == 0.0 {
+            return 0.0;
+        }
+        let mut too_small = enough - 1.0 / STEPS as f64;
+        for _ in 0..HALVINGS {
+            let middle = f64::midpoint(too_small, enough);
+            let half = if self.is_apart(wanted, middle) { &mut enough } else { &mut too_small };
+            *half = middle;
+        }
+        enough
+    }
+
+    fn is_apart(&self, wanted: &[f64], share: f64) -> bool {
+        let hulls = self.turned(wanted, share);
+        !pairs(&hulls).any(|(a, b)| a.overlaps(b))
+    }
+
+    fn add_overlaps(&self, wanted: &[f64], share: f64, pieces: &mut Vec<usize>) {
+        let hulls = self.turned(wanted, share);
+        pairs(&hulls).for_each(|(a, b)| a.add_overlapping(b, pieces));
+    }
+
+    fn turned(&self, wanted: &[f64], share: f64) -> Vec<Hull> {
+        let branches = self.branches.iter().zip(wanted).map(|(branch, wanted)| branch.turned(share * wanted));
+        branches.chain([self.parent.clone()]).collect()
+    }
+}
+
+fn pairs<T>(values: &[T]) -> impl Iterator<Item = (&T, &T)> {
+    values.iter().enumerate().flat_map(|(n, value)| values[n + 1..].iter().map(move |other| (value, other)))
+}
