@@ -25,7 +25,7 @@ from lumencut import (
     evaluate,
 )
 from lumencut.cli import main
-from lumencut.evaluation.methods import METHODS
+from lumencut.evaluation.methods import METHODS, USUAL
 from scene_files import write_lines, write_volume
 from scenes import wandering
 
@@ -196,12 +196,10 @@ def test_methods_differ_in_their_settings_alone():
 
 def test_there_is_a_row_for_each_method_and_for_each_view():
     found = evaluate(None, crossing_tubes(), **SMALL)
-    assert [row["method"] for row in found.table] == list(METHODS)
-    assert list(METHODS) == ["csr", "csr-paper", "cpr", "mpcpr", "cr"]
+    assert [row["method"] for row in found.table] == list(USUAL)
+    assert list(USUAL) == ["csr", "csr-paper", "cpr", "mpcpr", "cr"]
     assert [row["views"] for row in found.table] == [4] * 5
-    assert [(row["method"], row["view"]) for row in found.views] == [
-        (m, v) for m in METHODS for v in range(4)
-    ]
+    assert [(row["method"], row["view"]) for row in found.views] == [(m, v) for m in USUAL for v in range(4)]
     assert len(found.cameras) == 4
     pixels = sum(row["lumen_pixels"] for row in found.views if row["method"] == "csr")
     assert pixels == found.table[0]["lumen_pixels"]
@@ -268,7 +266,7 @@ def test_the_table_as_csv(found, tmp_path):
     found.to_csv(tmp_path / "table.csv")
     with (tmp_path / "table.csv").open(newline="") as file:
         rows = list(csv.DictReader(file))
-    assert [row["method"] for row in rows] == list(METHODS)
+    assert [row["method"] for row in rows] == list(USUAL)
     assert float(rows[0]["tissue_percent"]) == found.table[0]["tissue_percent"]
     assert int(rows[0]["leaps"]) == found.table[0]["leaps"]
     with pytest.raises(lumencut.FileError, match="nowhere"):
@@ -293,7 +291,7 @@ def test_the_table_as_markdown(found):
 
 def test_pictures_of_the_worst_views(found, block, tmp_path):
     paths = found.save_pictures(tmp_path / "worst")
-    assert [path.name for path in paths] == [f"{name}.png" for name in METHODS]
+    assert [path.name for path in paths] == [f"{name}.png" for name in USUAL]
     expected = Renderer(block, crossing_tubes()).render(found.cameras[found.worst_view("csr")], Settings())
     assert np.array_equal(np.asarray(Image.open(paths[0])), expected.image)
     (tmp_path / "file").write_text("")
@@ -340,7 +338,7 @@ def test_the_command_writes_files(scene, tmp_path):
     assert result.exit_code == 0, result.output
     assert names[0].read_text().startswith("method,views,lumen_within_0.05_mm_percent,")
     assert names[1].read_text().startswith("| method ")
-    assert sorted(path.name for path in names[2].iterdir()) == sorted(f"{name}.png" for name in METHODS)
+    assert sorted(path.name for path in names[2].iterdir()) == sorted(f"{name}.png" for name in USUAL)
     assert [line.partition(":")[0] for line in result.stdout.splitlines()[:2]] == list(map(str, names[:2]))
     assert "| method" not in result.stdout
 

@@ -66,6 +66,8 @@ if TYPE_CHECKING:
     from lumencut.tree_reformations import cr, mpcpr
     from lumencut.turntables import fitted_turn, save_animation, turntable
     from lumencut.unrolled_wall import LumenMap, Ostium
+    from lumencut.untangled_tree import UntangledTree
+    from lumencut.untangling import untangled
     from lumencut.vessel import Vessel
     from lumencut.vessel_finding import find_vessels
     from lumencut.vessel_gap import Gap
@@ -106,6 +108,8 @@ _HOME = {
     "focus": ("Focus",),
     "frame": ("Frame",),
     "lumen_mapping": ("lumen_map",),
+    "untangled_tree": ("UntangledTree",),
+    "untangling": ("untangled",),
     "unrolled_wall": ("LumenMap", "Ostium"),
     "mask_tracing": ("trace_mask",),
     "measurements": ("Measurements",),
@@ -181,6 +185,7 @@ __all__ = [
     "Tracer",
     "TracingError",
     "TransferFunction",
+    "UntangledTree",
     "Vessel",
     "VesselTree",
     "VesselTreeError",
@@ -216,6 +221,7 @@ __all__ = [
     "trace_from",
     "trace_mask",
     "turntable",
+    "untangled",
     "write_centerlines",
 ]
 

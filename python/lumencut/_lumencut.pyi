@@ -287,6 +287,26 @@ class LumenMap(Layout):
     ) -> list[tuple[int, float, tuple[float, float, float], tuple[float, float]]]: ...
 
 @final
+class Untangled(Layout):
+    def __new__(
+        cls,
+        vessels: list[_Arrays],
+        camera: Any,
+        lengths: tuple[float, ...],
+        root: Sequence[float] | None,
+    ) -> Untangled: ...
+    @property
+    def rotations(self) -> list[float]: ...
+    @property
+    def overlaps(self) -> list[int]: ...
+    @property
+    def closures(self) -> list[tuple[tuple[float, float], tuple[float, float]]]: ...
+    def vessel(self) -> npt.NDArray[np.int32]: ...
+    def laid_out(
+        self,
+    ) -> list[tuple[int, npt.NDArray[np.float64], npt.NDArray[np.float64], float, bool]]: ...
+
+@final
 class Tracer:
     def __new__(cls) -> Tracer: ...
     def trace(

@@ -66,12 +66,18 @@ def panels(
     ]
 
 
-def side_by_side(shown: Sequence[Panel], pictures: Sequence[npt.NDArray[np.uint8]]) -> npt.NDArray[np.uint8]:
+def side_by_side(
+    shown: Sequence[Panel],
+    pictures: Sequence[npt.NDArray[np.uint8]],
+    further: Sequence[tuple[str, npt.NDArray[np.uint8]]] = (),
+) -> npt.NDArray[np.uint8]:
     """Return the panels as one picture, RGBA: the pictures above, how far their depths differ below.
 
     The last panel is what the others are compared with. ``pictures`` are those of the panels, (H, W, 4), with
     or without labels. In the lower row pixels are coloured where the depth differs from the last panel's, as
     far as either shows a value of the volume; below the last panel stand the colours and what they mean.
+    ``further`` are titles and pictures with pixels of their own, which have no depth to compare: they stand
+    at the right, as large as they fit.
     """
     ours = shown[-1].frame
     marked = [marks(panel.frame, ours) for panel in shown[:-1]]
@@ -86,6 +92,9 @@ def side_by_side(shown: Sequence[Panel], pictures: Sequence[npt.NDArray[np.uint8
         [_titled(title, picture) for title, picture in zip(differences, lower, strict=True)],
     ]
     rows[1].append(_titled("", legend))
+    for title, picture in further:
+        rows[0].append(_titled(title, _fitted(picture, legend.shape)))
+        rows[1].append(_titled("", _without_depth(legend.shape)))
     return np.concatenate([np.concatenate(row, axis=1) for row in rows])
 
 
@@ -138,6 +147,29 @@ def _legend(
     for number, (title, mark) in enumerate(differences, 1):
         text = f"{share_beyond(mark, _COUNTED):.1f} % of the tissue: {title}"
         sheet.write(text, (left, top + number * line))
+    return sheet.pixels()
+
+
+def _fitted(picture: npt.NDArray[np.uint8], shape: tuple[int, ...]) -> npt.NDArray[np.uint8]:
+    """A picture in the middle of black pixels of a shape, as large as it fits."""
+    from PIL import Image
+
+    (height, width), (rows, columns) = shape[:2], picture.shape[:2]
+    scale = min(height / rows, width / columns)
+    size = (max(1, round(columns * scale)), max(1, round(rows * scale)))
+    small = Image.fromarray(picture).resize(size, Image.Resampling.LANCZOS)
+    ground = Image.new("RGBA", (width, height), (0, 0, 0, 255))
+    ground.alpha_composite(small, ((width - size[0]) // 2, (height - size[1]) // 2))
+    return np.array(ground)
+
+
+def _without_depth(shape: tuple[int, ...]) -> npt.NDArray[np.uint8]:
+    """Words, on black, that tell why there is nothing to compare."""
+    sheet = Sheet(_opaque(np.zeros((*shape[:2], 3), np.uint8)))
+    for number, line in enumerate(
+        ("Its pixels are not those", "of the view: it has", "no depth to compare.")
+    ):
+        sheet.write(line, (sheet.margin, sheet.margin + number * sheet.line_height))
     return sheet.pixels()
 
 

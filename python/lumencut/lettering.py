@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 import unicodedata
 from collections.abc import Iterable
@@ -116,6 +117,13 @@ class Sheet:
         """Fill a box with a colour, such as one that a legend explains."""
         self.taken.append(box)
         self._draw.rectangle(box, fill=(*color, 255), outline=_LIGHT)
+
+    def arc(self, center: tuple[float, float], radius: float, start: float, end: float) -> None:
+        """Draw an arc about a point between two angles (radians, counter-clockwise from the right)."""
+        # Pillow counts clockwise, in degrees, and draws from the smaller angle to the larger one.
+        first, last = sorted((-math.degrees(start), -math.degrees(end)))
+        for fill, width, beyond in ((_DARK, 3 * self._outline, self._outline), (_LIGHT, self._outline, 0)):
+            self._draw.arc(around(center, radius + beyond), first, last, fill=fill, width=width)
 
     def dot(self, place: tuple[float, float]) -> None:
         """Draw a dot about a point."""

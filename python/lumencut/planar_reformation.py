@@ -287,7 +287,7 @@ def cpr_of(
     )
     if normal is not None and mode != "straightened":
         raise CameraError("normal of the CPR", f"a normal with the mode {mode!r}", "the mode 'straightened'")
-    thick = _thick(settings or Settings(), slab)
+    thick = with_slab(settings or Settings(), slab)
     given = replace(thick, context=None, samples=1)
     checked(given).refuse_focus()
     towards = None if normal is None else numbers(CameraError, "normal of the CPR", normal, (3,))
@@ -363,8 +363,8 @@ def _width(width: float | None, volume: Volume) -> float | None:
     return checked
 
 
-def _thick(settings: Settings, slab: Slab | tuple[float, str] | float | None) -> Settings:
-    """The settings with the slab that the caller names."""
+def with_slab(settings: Settings, slab: Slab | tuple[float, str] | float | None) -> Settings:
+    """Return the settings with the slab that the caller names; one not thicker than 0 is refused."""
     if slab is None:
         return settings
     if not isinstance(slab, Slab):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -17,18 +17,24 @@ _Place = tuple[float, float]
 
 
 def write_vessel_names(sheet: Sheet, camera: Camera, ends: tuple[VesselEnd, ...]) -> None:
-    """Write each name beside a dot where its vessel ends, in the order of the tree.
+    """Write each name beside a dot where its vessel ends, in the order of the tree; see `write_names`."""
+    if ends:
+        seen = camera.project(np.array([point for _, point in ends]))
+        write_names(
+            sheet, [(name, (float(x), float(y))) for (name, _), (x, y, _) in zip(ends, seen, strict=True)]
+        )
+
+
+def write_names(sheet: Sheet, ends: Sequence[tuple[str, _Place]]) -> None:
+    """Write each name beside a dot at its place (pixels), in their order.
 
     A name stands to the right of its dot, or else to the left, above or below: the first place where it lies
     within the picture and over nothing that was written before, nor over the dot of another name. A name
     without such a place is left out with its dot, as is one whose dot would lie beyond the picture or over
     something that was written before.
     """
-    if not ends:
-        return
-    seen = [(float(x), float(y)) for x, y, _ in camera.project(np.array([point for _, point in ends]))]
-    dots = [around(place, sheet.dot_radius) for place in seen]
-    for (name, _), place, dot in zip(ends, seen, dots, strict=True):
+    dots = [around(place, sheet.dot_radius) for _, place in ends]
+    for (name, place), dot in zip(ends, dots, strict=True):
         if not sheet.is_free(dot):
             continue
         others = [other for other in dots if other != dot]

@@ -32,6 +32,7 @@ mod spiral;
 mod told_by_tree;
 mod tracing;
 mod tree;
+mod untangled;
 mod values;
 mod views;
 mod volume;
@@ -56,6 +57,7 @@ fn _lumencut(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<spiral::Spiral>()?;
     module.add_class::<lumen_map::LumenMap>()?;
     module.add_class::<lumen_map::LumenWall>()?;
+    module.add_class::<untangled::Untangled>()?;
     module.add_class::<kept_profiles::KeptProfiles>()?;
     module.add_class::<measuring::Profile>()?;
     module.add_class::<measuring::Stenosis>()?;

@@ -23,6 +23,7 @@ from lumencut.cli.spiral import spiral
 from lumencut.cli.summarize import summarize
 from lumencut.cli.trace import trace
 from lumencut.cli.turntable import turntable
+from lumencut.cli.untangled import untangled
 from lumencut.cli.view import view
 from lumencut.cli.write_settings import settings
 
@@ -67,6 +68,7 @@ for _command in (
     cpr,
     lumen_map,
     spiral,
+    untangled,
     evaluate,
     info,
     trace,

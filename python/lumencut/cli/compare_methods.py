@@ -33,6 +33,7 @@ from lumencut.cli.settings import setting_options, settings_from
 
 if TYPE_CHECKING:
     from lumencut.comparison import Panel
+    from lumencut.untangled_tree import UntangledTree
 
 
 @click.command("compare", short_help="Show mpCPR, CR and CSR side by side.")
@@ -62,13 +63,18 @@ if TYPE_CHECKING:
     metavar="PIXELS",
     help="CR: up to how far apart along the tree two places belong to one stretch.",
 )
+@click.option(
+    "--untangled",
+    is_flag=True,
+    help="Show the untangled CPR of the view too, at the right: every vessel, none before another.",
+)
 @options.several_views_options
 @like_option
 @label_options
 @setting_options
 @verbose_option
 def compare_methods(
-    output: tuple[Path, ...], radius_offset: float, arc_threshold: float, **chosen: Any
+    output: tuple[Path, ...], radius_offset: float, arc_threshold: float, untangled: bool, **chosen: Any
 ) -> None:
     """Show VOLUME along CENTERLINES by four methods, side by side in one picture, or one for each --view.
 
@@ -96,19 +102,28 @@ def compare_methods(
 
     from lumencut.comparison import panels, side_by_side
     from lumencut.frame import save_picture
+    from lumencut.untangling import untangled_of
 
     for picture, (_, view) in zip(planned, views, strict=True):
         camera = camera_of(view, scene, chosen, recipe)
         name = "" if len(planned) == 1 else f" {name_of(picture.view)}"
         with busy(f"rendering{name}"):
             found = panels(renderer, camera, settings, radius_offset, arc_threshold)
+            tree = untangled_of(renderer, camera, settings=settings) if untangled else None
         if is_empty(found[-1].frame):
             warn_of_emptiness(f"no pixel of the view{name}", camera, renderer)
         for path in picture.paths:
             with busy(f"writing {path.name}"):
-                save_picture(side_by_side(found, _labelled(found, labels_of(path, chosen, recipe))), path)
+                labels = labels_of(path, chosen, recipe)
+                further = [] if tree is None else [("Untangled CPR", _picture(tree, labels))]
+                save_picture(side_by_side(found, _labelled(found, labels), further), path)
             say(f"{path}: {shown(camera, settings, renderer)}")
     detail(f"device: {renderer.device}")
+
+
+def _picture(tree: UntangledTree, labels: dict[str, bool]) -> Any:
+    """The untangled tree, with its labels where they are asked for."""
+    return tree.annotated() if labels["annotate"] else tree.image
 
 
 def _labelled(found: list[Panel], labels: dict[str, bool]) -> list[Any]:

@@ -29,7 +29,8 @@ if TYPE_CHECKING:
     show_default=True,
     metavar="NAME,...",
     help="csr: with the settings given; csr-paper: with the paper's rules in their place; cpr: the projected "
-    "CPR of each vessel by itself; mpcpr: multipath CPR; cr: Centerline Reformation.",
+    "CPR of each vessel by itself; mpcpr: multipath CPR; cr: Centerline Reformation; untangled: the tree "
+    "without overlap, of which tissue and centerline are counted.",
 )
 @click.option(
     "--views",

@@ -108,6 +108,26 @@ threads_option = click.option(
 )
 
 
+#: From which direction one looks.
+_DIRECTION = (
+    click.option("--up", type=VECTOR, help="What points upwards (LPS); default: the patient's head."),
+    click.option(
+        "--rotate",
+        type=float,
+        default=0.0,
+        metavar="DEGREES",
+        help="Move the viewer to the right around the up axis (from anterior: to the patient's left).",
+    ),
+    click.option(
+        "--tilt",
+        type=float,
+        default=0.0,
+        metavar="DEGREES",
+        help="Then move the viewer upwards around the right axis.",
+    ),
+)
+
+
 def scene_arguments(command: Command) -> Command:
     """Add the files that every picture is made from."""
     parts = (
@@ -163,6 +183,11 @@ def view_options(command: Command) -> Command:
     return added((_view_option(default="anterior"), _camera_options), command)
 
 
+def direction_options(command: Command) -> Command:
+    """Add the options that say from where one looks, without a place or pixels."""
+    return added((_view_option(default="anterior"), *_DIRECTION), command)
+
+
 def several_views_options(command: Command) -> Command:
     """Add the options that make the cameras of several views."""
     return added(
@@ -184,21 +209,7 @@ def _view_option(more: str = "", **how: Any) -> Callable[[Command], Command]:
 def _camera_options(command: Command) -> Command:
     """Add the options that make a camera of a view."""
     parts = (
-        click.option("--up", type=VECTOR, help="What points upwards (LPS); default: the patient's head."),
-        click.option(
-            "--rotate",
-            type=float,
-            default=0.0,
-            metavar="DEGREES",
-            help="Move the viewer to the right around the up axis (from anterior: to the patient's left).",
-        ),
-        click.option(
-            "--tilt",
-            type=float,
-            default=0.0,
-            metavar="DEGREES",
-            help="Then move the viewer upwards around the right axis.",
-        ),
+        *_DIRECTION,
         click.option(
             "--size",
             type=SIZE,

@@ -8,12 +8,13 @@ from typing import Any, Literal
 
 from lumencut._checks import integers, number
 from lumencut.camera import Camera
-from lumencut.errors import CameraError, SettingsError, VesselTreeError
-from lumencut.evaluation.amounts import Amounts, pooled
+from lumencut.errors import CameraError, SettingsError, VesselTreeError, VolumeError
+from lumencut.evaluation.amounts import Amounts, Columns, pooled
 from lumencut.evaluation.centerline import Centerline, Stations, centerline_of, width_stations
 from lumencut.evaluation.engine import shown_by
 from lumencut.evaluation.measures import MEASURES, columns_of, criteria_of
-from lumencut.evaluation.methods import METHODS, Method, checked_methods
+from lumencut.evaluation.methods import METHODS, USUAL, Method, checked_methods
+from lumencut.evaluation.own_pictures import COUNTED, nothing_shown, own_amounts
 from lumencut.evaluation.result import Evaluation, Row
 from lumencut.evaluation.truth import Truth, truth_of
 from lumencut.evaluation.views import cameras
@@ -32,7 +33,7 @@ _Counts = dict[str, Amounts]
 def evaluate(
     volume: Any,
     tree: VesselTree,
-    methods: Iterable[str] = ("csr", "csr-paper", "cpr", "mpcpr", "cr"),
+    methods: Iterable[str] = USUAL,
     views: int = 12,
     settings: Settings | None = None,
     size: tuple[int, int] = (512, 512),
@@ -53,13 +54,15 @@ def evaluate(
         The angiography; without it there are neither surroundings nor pictures.
     tree : VesselTree
         Its centerlines.
-    methods : iterable of str, default all
+    methods : iterable of str, default ("csr", "csr-paper", "cpr", "mpcpr", "cr")
         ``"csr"``: Curved Surface Reformation with the settings; ``"csr-paper"``: with the paper's rules,
         see :meth:`Settings.paper`, and the settings for all others; ``"mpcpr"`` and ``"cr"``: those of
         :func:`lumencut.mpcpr` and of :func:`lumencut.cr` with its usual thresholds; ``"cpr"``: the projected
         CPR of each vessel by itself, an image for each vessel, of which each is compared with the truth about
         that vessel alone. Its numbers are those of all these images together: a crossing is one of a vessel
-        with itself, and nothing is hidden by another vessel.
+        with itself, and nothing is hidden by another vessel. ``"untangled"``, not among the defaults, is
+        :func:`lumencut.untangled`, whose pixels are not those of the view: of it the tissue and the points of
+        the centerline are counted, all of them, and all other numbers are None. It needs a volume.
     views : int, default 12
         How many views, spread evenly over the sphere; the same number gives the same views.
     settings : Settings, optional
@@ -130,13 +133,15 @@ def evaluate(
     looks = _cameras(tree, views, size, pixel_spacing)
     if not isinstance(settings, (Settings, type(None))):
         raise SettingsError("settings", type(settings).__name__, "Settings or None")
+    if volume is None and any(METHODS[name].own_picture for name in names):
+        raise VolumeError("volume of the evaluation", "None", "a volume for the method 'untangled'")
     chosen = {name: METHODS[name].settings(settings or Settings()) for name in names}
     counts = _counts(renderer, tree, looks, chosen, progress or (lambda done, total: None))
     table: list[Row] = [
-        {"method": name, "views": len(looks), **columns_of(_pooled(counts[name]))} for name in names
+        {"method": name, "views": len(looks), **_columns(name, _pooled(counts[name]))} for name in names
     ]
     rows: list[Row] = [
-        {"method": name, "view": view, **columns_of(found)}
+        {"method": name, "view": view, **_columns(name, found)}
         for name in names
         for view, found in enumerate(counts[name])
     ]
@@ -209,8 +214,17 @@ def _counts(
 
 def _counted(method: Method, renderer: Renderer, camera: Camera, truth: Truth, settings: Settings) -> _Counts:
     """Count everything in one image."""
-    shown = shown_by(method, renderer, camera, settings)
-    return {key: measure.amounts(truth, shown) for key, measure in MEASURES.items()}
+    has_frame = method.own_picture is None
+    shown = shown_by(method, renderer, camera, settings) if has_frame else nothing_shown(truth)
+    counts = {key: measure.amounts(truth, shown) for key, measure in MEASURES.items()}
+    if method.own_picture is None:
+        return counts
+    return {**counts, **own_amounts(method.own_picture(renderer, camera, settings), truth)}
+
+
+def _columns(name: str, counts: _Counts) -> Columns:
+    """The numbers of a method; None for those that only pixels of the view have."""
+    return columns_of(counts, None if METHODS[name].own_picture is None else COUNTED)
 
 
 def _pooled(views: list[_Counts]) -> _Counts:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from typing import NamedTuple
 
 from lumencut.evaluation import beside, picture, silhouettes, visibility, width
@@ -37,9 +37,13 @@ MEASURES = {
 }
 
 
-def columns_of(amounts: dict[str, Amounts]) -> Columns:
-    """Return the numbers that the amounts of all measures become."""
-    return {name: value for columns in criteria_of(amounts).values() for name, value in columns.items()}
+def columns_of(amounts: dict[str, Amounts], counted: Collection[str] | None = None) -> Columns:
+    """Return the numbers that the amounts of all measures become; None for those that were not counted."""
+    numbers: Columns = {}
+    for name, measure in MEASURES.items():
+        columns = measure.columns(amounts[name])
+        numbers.update(columns if counted is None or name in counted else dict.fromkeys(columns))
+    return numbers
 
 
 def criteria_of(amounts: dict[str, Amounts]) -> dict[str, Columns]:

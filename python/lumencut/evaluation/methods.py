@@ -14,7 +14,9 @@ from lumencut._checked_settings import checked
 from lumencut._checks import choice
 from lumencut.camera import Camera
 from lumencut.errors import SettingsError
+from lumencut.evaluation.own_pictures import untangled_picture
 from lumencut.frame import Frame
+from lumencut.reformation import Reformation
 from lumencut.renderer import Renderer
 from lumencut.settings import Settings
 from lumencut.tree_reformations import MPCPR, cr_method
@@ -39,14 +41,17 @@ class Method:
         Whether the depth filter of the settings changes the frame.
     has_image_per_vessel : bool, default False
         Whether it makes a frame of its own for each vessel, as if there were no other.
+    own_picture : function of Renderer, Camera and Settings, optional
+        A picture with pixels of its own, of which less can be counted than of a frame.
     """
 
     settings: Callable[[Settings], Settings]
     surface: Callable[[Renderer, Camera, Settings], Frame]
-    picture: Callable[[Renderer, Camera, Settings], Frame]
+    picture: Callable[[Renderer, Camera, Settings], Frame | Reformation]
     details: Callable[[Renderer, Camera, Settings], dict[str, npt.NDArray[np.float32]]]
     is_filtered: bool = True
     has_image_per_vessel: bool = False
+    own_picture: Callable[[Renderer, Camera, Settings], Reformation] | None = None
 
 
 def _own(settings: Settings) -> Settings:
@@ -111,7 +116,11 @@ METHODS = {
     "cpr": _reformation(MPCPR, picture=_picture_of_the_longest, has_image_per_vessel=True),
     "mpcpr": _reformation(MPCPR),
     "cr": _reformation(cr_method()),
+    "untangled": Method(_own, _surface, untangled_picture, _details, own_picture=untangled_picture),
 }
+
+#: Those that are evaluated where the caller names none: all whose frames have the pixels of the view.
+USUAL = tuple(name for name, method in METHODS.items() if method.own_picture is None)
 
 
 def checked_methods(names: Any) -> tuple[str, ...]:

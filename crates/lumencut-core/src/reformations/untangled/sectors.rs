@@ -31,7 +31,7 @@ impl Sector {
         Some(grown)
     }
 
-    fn width(&self) -> f64 {
+    pub fn width(&self) -> f64 {
         self.high - self.low
     }
 }

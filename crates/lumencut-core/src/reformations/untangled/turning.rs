@@ -45,11 +45,21 @@ pub(super) struct Turning {
     pub hulls: Vec<Vec<Disc>>,
     /// How far around a branching point branches may overlap, in radii of their hulls there, beside [`BEYOND_NEAR`].
     pub near: f64,
+    /// At how many branching points sectors did not fit beside each other, so that branches turned by too much or too little.
+    pub without_room: usize,
     /// The pieces that overlap others, or themselves, nevertheless.
     pub overlaps: Vec<usize>,
 }
 
-/// The first way by which no vessels overlap; else, of those tried, the first one with the fewest pieces that do.
+impl Turning {
+    /// What is wrong with it, the worst first.
+    fn faults(&self) -> (usize, usize) {
+        (self.overlaps.len(), self.without_room)
+    }
+}
+
+/// The first way by which no vessels overlap and all branches have room; else, of those tried, the first one with the fewest pieces
+/// that overlap, and of these with the fewest branching points without room.
 ///
 /// # Errors
 /// [`crate::error::ErrorKind::Interrupted`] once `stop` says so.
@@ -61,11 +71,11 @@ pub(super) fn untangle(tree: Tree, stop: Stop) -> Result<Turning> {
             .map(|stiffness| attempt(tree, near, stiffness, stop))
             .collect::<Result<_>>()?;
         for turning in tried {
-            if best.as_ref().is_none_or(|best| turning.overlaps.len() < best.overlaps.len()) {
+            if best.as_ref().is_none_or(|best| turning.faults() < best.faults()) {
                 best = Some(turning);
             }
         }
-        if best.as_ref().is_some_and(|best| best.overlaps.is_empty()) {
+        if best.as_ref().is_some_and(|best| best.faults() == (0, 0)) {
             break;
         }
     }
@@ -80,6 +90,7 @@ fn attempt(tree: Tree, near: f64, stiffness: f64, stop: Stop) -> Result<Turning>
         turns: vec![0.0; pieces.len()],
         hulls: Vec::new(),
         near,
+        without_room: 0,
         overlaps: Vec::new(),
     };
     // All that follows each piece, and it itself, from where it begins, turned already beyond that place.
@@ -129,8 +140,9 @@ fn turn_apart(
 ) -> Vec<Vec<Disc>> {
     let own: Vec<Hull> = children.iter().map(|child| Hull::new(std::mem::take(&mut units[*child]))).collect();
     let node = Node::new(&own, parent, near);
-    let wanted = node.wanted_turns();
+    let (wanted, has_room) = node.wanted_turns();
     let share = node.smallest_share(&wanted);
+    turning.without_room += usize::from(share > 0.0 && !has_room);
     node.add_overlaps(&wanted, share, &mut turning.overlaps);
     let turned = children.iter().zip(&own).zip(&wanted);
     turned
@@ -170,16 +182,18 @@ impl Node {
         Self { branches, parent: outer(&parent), forward }
     }
 
-    /// The turns that set all sectors apart.
-    fn wanted_turns(&self) -> Vec<f64> {
+    /// The turns that set all sectors apart, and whether they have room beside each other.
+    fn wanted_turns(&self) -> (Vec<f64>, bool) {
         let behind = Sector::of(self.parent.discs(), -self.forward).unwrap_or(Sector { low: 0.0, high: 0.0 });
         let room = Sector { low: behind.high - PI, high: PI + behind.low };
         let sectors: Vec<Option<Sector>> =
             self.branches.iter().map(|branch| Sector::of(branch.discs(), self.forward)).collect();
         let known: Vec<Sector> = sectors.iter().flatten().copied().collect();
+        let has_room = known.iter().map(Sector::width).sum::<f64>() <= room.width();
         let mut found = turns(&known, room).into_iter();
         // A branch that ends near the place has no sector, and stays.
-        sectors.iter().map(|sector| sector.and_then(|_| found.next()).unwrap_or(0.0)).collect()
+        let wanted = sectors.iter().map(|sector| sector.and_then(|_| found.next()).unwrap_or(0.0));
+        (wanted.collect(), has_room)
     }
 
     /// The smallest share of turns by which nothing overlaps; all of them where nothing helps.

@@ -1,0 +1,89 @@
+//! Untangled CPRs, as Python has them.
+
+use std::sync::Arc;
+
+use glam::{DVec2, DVec3};
+use lumencut::reformations::untangled::{self, UntangledParameters};
+use numpy::{PyArray1, PyArray2, PyArrayMethods};
+use pyo3::prelude::*;
+
+use crate::camera::CameraArgument;
+use crate::errors::to_python;
+use crate::layout::Layout;
+use crate::pool;
+use crate::renderer::interruptible;
+use crate::tree::{VesselArrays, tree};
+
+/// A part of a vessel in the image: the id of the vessel, arc lengths (n,) (mm), columns and rows (n, 2), its turn (radians), and
+/// whether it begins at its last place.
+type LaidOutRow<'py> = (usize, Bound<'py, PyArray1<f64>>, Bound<'py, PyArray2<f64>>, f64, bool);
+
+/// A tree laid out without overlap.
+#[pyclass(frozen, extends = Layout, module = "lumencut._lumencut")]
+pub struct Untangled(untangled::Untangled);
+
+#[pymethods]
+impl Untangled {
+    /// The layout of vessels, (points, radius) each, seen along the direction of a camera. Lengths (mm) are the width on each side,
+    /// the margin of hulls, the smoothing of directions, the side of a pixel, and the radius where none is known.
+    #[new]
+    #[pyo3(signature = (vessels, camera, lengths, root))]
+    #[allow(clippy::needless_pass_by_value)]
+    fn new(
+        py: Python<'_>,
+        vessels: Vec<VesselArrays<'_>>,
+        camera: CameraArgument,
+        lengths: [f64; 5],
+        root: Option<[f64; 3]>,
+    ) -> PyResult<PyClassInitializer<Self>> {
+        let [width, hull_margin, smoothing, pixel_spacing, unknown_radius] = lengths;
+        let root = root.map(DVec3::from_array);
+        let parameters =
+            UntangledParameters { width, hull_margin, smoothing, pixel_spacing, unknown_radius, root };
+        let (tree, camera) = (tree(&vessels)?, camera.camera()?);
+        let made = interruptible(py, None, |stop| {
+            let made = pool::install(|| untangled::Untangled::new(&tree, &camera, parameters, stop))?;
+            made.map_err(to_python)
+        })?;
+        Ok(PyClassInitializer::from(Layout(Arc::new(made.clone()))).add_subclass(Self(made)))
+    }
+
+    /// By how much each vessel is turned (radians, counter-clockwise in the image).
+    #[getter]
+    fn rotations(&self) -> Vec<f64> {
+        self.0.rotations()
+    }
+
+    /// The ids of vessels that overlap others, or themselves, nevertheless.
+    #[getter]
+    fn overlaps(&self) -> Vec<usize> {
+        self.0.overlaps().to_vec()
+    }
+
+    /// Where cycles are cut open: two places in the image each, column and row.
+    #[getter]
+    fn closures(&self) -> Vec<[[f64; 2]; 2]> {
+        self.0.closures().iter().map(|places| places.map(|place| place.to_array())).collect()
+    }
+
+    /// The vessel that each pixel shows, shape (H, W), -1 where nothing is shown.
+    fn vessel<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<i32>>> {
+        use lumencut::reformations::Layout as _;
+
+        let [width, height] = self.0.size();
+        let vessel = py.detach(|| pool::install(|| self.0.vessel()))?;
+        PyArray1::from_vec(py, vessel).reshape([height, width])
+    }
+
+    /// All vessels in parts between the places where they meet or end.
+    fn laid_out<'py>(&self, py: Python<'py>) -> PyResult<Vec<LaidOutRow<'py>>> {
+        let parts = self.0.laid_out().iter();
+        let row = |part: &untangled::LaidOut| {
+            let pixels: Vec<f64> = part.pixels.iter().flat_map(DVec2::to_array).collect();
+            let pixels = PyArray1::from_vec(py, pixels).reshape([part.pixels.len(), 2])?;
+            let along = PyArray1::from_slice(py, &part.arc_length);
+            Ok((part.vessel, along, pixels, part.turn, part.is_reversed))
+        };
+        parts.map(row).collect()
+    }
+}

@@ -1,0 +1,180 @@
+"""Untangled CPR: every vessel of a tree cut open in one image, none before another."""
+
+from __future__ import annotations
+
+import functools
+import math
+import string
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+from lumencut import _lumencut
+from lumencut.reformation import Reformation
+from lumencut.reformation_recipe import ReformationRecipe
+from lumencut.renderer import Renderer
+from lumencut.settings import Settings
+from lumencut.vessel_tree import VesselTree
+
+if TYPE_CHECKING:
+    from lumencut.lettering import Box
+
+#: What rows and columns are.
+_AXES = (
+    "Along each vessel: its length, in mm. Across it: to its sides, in mm. Branches are turned apart: "
+    "angles between vessels are not those of the body."
+)
+
+#: Turns from this on are drawn (radians).
+_DRAWN_FROM = math.radians(5.0)
+
+#: The radius of an arc that shows a turn, in heights of a line of letters.
+_ARC = 2.0
+
+
+@dataclass(frozen=True)
+class LaidOut:
+    """A part of a vessel in the image, between two places where vessels meet or end.
+
+    Attributes
+    ----------
+    vessel : int
+        The id of the vessel.
+    arc_length : numpy.ndarray, float64, shape (n,)
+        Places along the vessel (mm from its first point), rising.
+    pixels : numpy.ndarray, float64, shape (n, 2)
+        Column and row of each (pixels).
+    turn : float
+        By how much the part is turned where it begins, with all that follows it (radians, counter-clockwise
+        in the picture).
+    is_reversed : bool
+        Whether it begins at its last place.
+    """
+
+    vessel: int
+    arc_length: npt.NDArray[np.float64]
+    pixels: npt.NDArray[np.float64]
+    turn: float
+    is_reversed: bool
+
+
+class UntangledTree(Reformation):
+    """A vessel tree as an image (H, W) without overlap, made by :func:`lumencut.untangled`.
+
+    Each pixel belongs to the nearest vessel in the image, up to the width on each side. A world point lies
+    where the image shows it; NaN where it does not. A pixel is folded where lines across its vessel have met
+    before they reach it, or where another part of the tree is nearer in the body: there the same tissue is
+    shown beside that part too.
+
+    Attributes
+    ----------
+    overlaps : tuple of int
+        The ids of vessels whose lumen, with the hull margin, could not be set apart from others, or from
+        themselves; empty where there are none.
+    parts : tuple of LaidOut
+        The vessels in the image, in the order of their ids and along them.
+    closures : tuple of numpy.ndarray, shape (2, 2)
+        Where cycles are cut open: column and row of two places that are one place of the body.
+    """
+
+    _core: _lumencut.Untangled
+    _arrays = (*Reformation._arrays, "vessel")
+
+    def __init__(
+        self,
+        renderer: Renderer,
+        core: _lumencut.Untangled,
+        tree: VesselTree,
+        given: Settings,
+        parameters: dict[str, Any],
+    ) -> None:
+        recipe = ReformationRecipe("untangled CPR", _AXES, parameters, "untangled")
+        super().__init__(renderer, core, given, recipe, measurable=True)
+        self._tree = tree
+        self.overlaps = tuple(core.overlaps)
+        self.parts = tuple(LaidOut(*part) for part in core.laid_out())
+        self.closures = tuple(np.array(places) for places in core.closures)
+
+    @property
+    def rotations(self) -> dict[int, float]:
+        """By how much each vessel is turned where it begins (radians, counter-clockwise in the picture).
+
+        The ids of all vessels; of a vessel that is turned at several places the largest turn.
+        """
+        return dict(enumerate(self._core.rotations))
+
+    @functools.cached_property
+    def vessel(self) -> npt.NDArray[np.int32]:
+        """The id of the vessel that each pixel shows, int32, shape (H, W), -1 where nothing is shown."""
+        return self._core.vessel()
+
+    def annotated(self) -> npt.NDArray[np.uint8]:
+        """Return the picture with labels, RGBA, uint8, shape (H, W, 4); a side below 200 pixels gets none.
+
+        The labels are those of every reformation, an arc with degrees where a branch is turned by more than
+        5°, the names of vessels (or their ids) where they end, and the same letter at both places of a cycle.
+        """
+        from lumencut.annotation import SMALLEST_SIDE
+        from lumencut.lettering import Sheet
+        from lumencut.vessel_labels import write_names
+
+        image = super().annotated()
+        if min(image.shape[:2]) < SMALLEST_SIDE:
+            return image
+        sheet = Sheet(image)
+        sheet.taken += _written(image != self.image)
+        for letter, places in zip(_letters(len(self.closures)), self.closures, strict=True):
+            for column, row in places:
+                sheet.write(letter, (column, row), "mm")
+        for part in self.parts:
+            if abs(part.turn) > _DRAWN_FROM:
+                _draw_turn(sheet, part)
+        write_names(sheet, list(self._ends().items()))
+        return sheet.pixels()
+
+    def _ends(self) -> dict[str, tuple[float, float]]:
+        """The name of each vessel, or its id, and where it ends in the image."""
+        ends: dict[str, tuple[float, float]] = {}
+        for part in self.parts:
+            column, row = part.pixels[0 if part.is_reversed else -1]
+            name = self._tree[part.vessel].name or str(part.vessel)
+            # A vessel that grows backwards ends in its first part, others in their last one.
+            if name not in ends or not part.is_reversed:
+                ends[name] = (float(column), float(row))
+        return ends
+
+
+def _written(changed: npt.NDArray[np.bool_]) -> list[Box]:
+    """The boxes around what was written in the upper and in the lower left quarter of a picture."""
+    height, width = changed.shape[0] // 2, changed.shape[1] // 2
+    boxes: list[Box] = []
+    for top in (0, height):
+        rows, columns = np.nonzero(changed[top : top + height, :width].any(axis=2))
+        if len(rows):
+            boxes.append((columns.min(), top + rows.min(), columns.max() + 1, top + rows.max() + 1))
+    return boxes
+
+
+def _letters(count: int) -> list[str]:
+    """As many names of cycles: A, B, … and AA after Z."""
+    letters = string.ascii_uppercase
+    return [letters[n % 26] * (n // 26 + 1) for n in range(count)]
+
+
+def _draw_turn(sheet: Any, part: LaidOut) -> None:
+    """Draw the arc from where a part would begin to where it begins, and its degrees."""
+    line = part.pixels[::-1] if part.is_reversed else part.pixels
+    (column, row), radius = line[0], _ARC * sheet.line_height
+    # The first place a radius away tells the direction in which the part begins.
+    distance = np.hypot(*(line - line[0]).T)
+    along = line[min(int(np.argmax(distance >= radius)), len(line) - 1) or len(line) - 1] - line[0]
+    now = math.atan2(-along[1], along[0])
+    before = now - part.turn
+    sheet.arc((column, row), radius, before, now)
+    middle, outside = (before + now) / 2, radius + sheet.line_height
+    place = (column + outside * math.cos(middle), row - outside * math.sin(middle))
+    words = f"{abs(math.degrees(part.turn)):.0f}°"
+    if sheet.is_free(sheet.box(words, place, "mm")):
+        sheet.write(words, place, "mm")

@@ -1,0 +1,142 @@
+"""Making an untangled CPR of a tree."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any, Literal
+
+import numpy.typing as npt
+
+from lumencut import _lumencut
+from lumencut._checked_settings import checked
+from lumencut._checks import number, numbers
+from lumencut.camera import Camera
+from lumencut.errors import CameraError, SettingsError, VesselTreeError, VolumeError
+from lumencut.planar_reformation import with_slab
+from lumencut.renderer import Renderer
+from lumencut.settings import Settings
+from lumencut.slab import Slab
+from lumencut.untangled_tree import UntangledTree
+from lumencut.vessel_tree import VesselTree
+
+
+def untangled(
+    volume: Any,
+    tree: VesselTree,
+    camera: Camera | None = None,
+    width: float = 25.0,
+    hull_margin: float = 2.0,
+    smoothing: float = 4.0,
+    pixel_spacing: float | None = None,
+    root: npt.ArrayLike | None = None,
+    slab: Slab | tuple[float, str] | float | None = None,
+    settings: Settings | None = None,
+    device: Literal["auto", "cpu", "gpu"] = "auto",
+) -> UntangledTree:
+    """Return every vessel of a tree cut open in one image, none before another: untangled CPR.
+
+    Each vessel keeps the direction in which the camera sees it, but has its true length, however much of it
+    runs along the view. Where branches would lie before one another they turn about the place where they
+    branch off, by as little as sets them apart. Kanitsar et al. 2003 (doi:10.1109/VISUAL.2003.1250353) show
+    trees so, of which only the abstract could be read: layout and search are ours, see METHOD.md.
+
+    Parameters
+    ----------
+    volume : Volume, or whatever else :func:`lumencut.render` takes as a volume
+        The angiography.
+    tree : VesselTree
+        Its centerlines. Cycles are cut open where their longer way ends; parts that do not hang together lie
+        side by side. Above some 15 vessels a selection, such as ``tree.select``, is easier to read.
+    camera : Camera, optional
+        From where the tree is seen; its direction and up count, not its place, size or pixels. From the front
+        where not given.
+    width : float, default 25
+        How far from each vessel the image shows what surrounds it (mm), on each side.
+    hull_margin : float, default 2
+        How much beyond the lumen no other vessel may lie (mm).
+    smoothing : float, default 4
+        Standard deviation of the Gaussian that smooths the directions in which vessels are seen, along them
+        (mm, 0 to 1000). Positions are not smoothed.
+    pixel_spacing : float, optional
+        Side of a pixel (mm); the smallest side of a voxel where not given.
+    root : array_like, shape (3,), optional
+        A point (mm, LPS) near the end of the vessel from which the tree grows. Where not given, and for parts
+        without it, the free end with the largest mean radius over 10 mm; on equal ones that of the smallest
+        id, its first point before its last one.
+    slab : Slab, (mm, mode) or mm, optional
+        How thick the surface is, and what is shown of its thickness; that of the settings where not given.
+    settings : Settings, optional
+        Window, opacity, background and slab, and ``unknown_radius`` for vessels without radii. A focus and
+        chosen vessels are refused.
+    device : {"auto", "cpu", "gpu"}, default "auto"
+        What shows the volume, as for :class:`lumencut.Renderer`; where the pixels look the CPU finds.
+
+    Raises
+    ------
+    VesselTreeError
+        For a tree of another kind, one that lies wholly outside the volume, a vessel without length, or a
+        part that is one loop, without a free end to begin at, where ``root`` names none.
+    CameraError
+        For a camera of another kind, a width, margin, smoothing, root or pixel spacing that is none, or an
+        image of too many pixels.
+    SettingsError
+        For another device, a slab that is invalid or not thicker than 0, or a focus.
+    VolumeError
+        For an image that is no volume.
+    KeyboardInterrupt
+        At Ctrl-C.
+    """
+    if not isinstance(tree, VesselTree):
+        raise VesselTreeError("tree", type(tree).__name__, "a VesselTree, such as read_centerlines returns")
+    return untangled_of(
+        Renderer(volume, tree, device),
+        camera,
+        width=width,
+        hull_margin=hull_margin,
+        smoothing=smoothing,
+        pixel_spacing=pixel_spacing,
+        root=root,
+        slab=slab,
+        settings=settings,
+    )
+
+
+def untangled_of(
+    renderer: Renderer,
+    camera: Camera | None = None,
+    *,
+    width: float = 25.0,
+    hull_margin: float = 2.0,
+    smoothing: float = 4.0,
+    pixel_spacing: float | None = None,
+    root: npt.ArrayLike | None = None,
+    slab: Slab | tuple[float, str] | float | None = None,
+    settings: Settings | None = None,
+) -> UntangledTree:
+    """Return the untangled tree of a renderer, whose window it has; parameters as for :func:`untangled`."""
+    volume, tree = renderer.volume, renderer.tree
+    if volume is None or tree is None:
+        missing = "a volume" if volume is None else "a tree"
+        raise VolumeError("renderer of the untangled CPR", f"none with {missing}", "a volume and a tree")
+    if not isinstance(settings, (Settings, type(None))):
+        raise SettingsError("settings", type(settings).__name__, "Settings or None")
+    if not isinstance(camera, (Camera, type(None))):
+        raise CameraError("camera", type(camera).__name__, "a Camera or None")
+    view = Camera.anterior(tree) if camera is None else camera
+    spacing = volume.spacing.min() if pixel_spacing is None else pixel_spacing
+    named = {
+        "width": width,
+        "hull_margin": hull_margin,
+        "smoothing": smoothing,
+        "pixel_spacing": spacing,
+    }
+    lengths = {
+        name: number(CameraError, f"{name} of the untangled CPR", value) for name, value in named.items()
+    }
+    begin = None if root is None else numbers(CameraError, "root of the untangled CPR", root, (3,)).tolist()
+    given = replace(with_slab(settings or Settings(), slab), context=None, samples=1)
+    checked(given).refuse_focus()
+    arrays = [(vessel.points, vessel.radius) for vessel in tree]
+    core = _lumencut.Untangled(arrays, view, (*lengths.values(), given.unknown_radius), begin)
+    parameters = {"view": list(view.direction), "up": list(view.up), **lengths, "root": begin}
+    return UntangledTree(renderer, core, tree, given, parameters)
