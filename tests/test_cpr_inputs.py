@@ -352,7 +352,7 @@ def test_features_are_aggregated_over_half_circles():
     volume = Volume(np.where(rod, 1000, 0).astype(np.float32).T, world_from_index=affine)
     made = cfa(volume, STRAIGHT, 12, "max", 0.5)
     assert made.value.shape == (81, 49)
-    assert made.angles == 76
+    assert made.angles == 77
     middle = made.value[40]
     shown = made.radius[middle > 500]
     assert shown.min() > np.hypot(4, 5) - 2.5
@@ -393,5 +393,5 @@ def test_files_of_features(volume, tmp_path):
     for name in ("one.png", "one.npz"):
         made.save(tmp_path / name)
     with np.load(tmp_path / "one.npz") as arrays:
-        assert sorted(arrays) == ["arc_length", "image", "radius", "value"]
+        assert sorted(arrays) == ["arc_length", "folded", "image", "position", "radius", "value"]
     assert (made.image[np.isnan(made.value)] == 0).all()

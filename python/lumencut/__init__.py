@@ -60,11 +60,13 @@ if TYPE_CHECKING:
     from lumencut.spiral_reformation import SpiralReformation, spiral
     from lumencut.stenosis import Stenosis
     from lumencut.straightening import StraightenedVolume, straightened_volume
+    from lumencut.tangential import TangentialReformation
     from lumencut.threads import get_threads, set_threads
     from lumencut.tracing import Tracer, trace
     from lumencut.transfer import TransferFunction
     from lumencut.tree_reformations import cr, mpcpr
     from lumencut.turntables import fitted_turn, save_animation, turntable
+    from lumencut.uncurling import Uncurled, uncurl
     from lumencut.unrolled_wall import LumenMap, Ostium
     from lumencut.untangled_tree import UntangledTree
     from lumencut.untangling import untangled
@@ -127,11 +129,13 @@ _HOME = {
     "spiral_reformation": ("SpiralReformation", "spiral"),
     "stenosis": ("Stenosis",),
     "straightening": ("StraightenedVolume", "straightened_volume"),
+    "tangential": ("TangentialReformation",),
     "threads": ("get_threads", "set_threads"),
     "tracing": ("Tracer", "trace"),
     "transfer": ("TransferFunction",),
     "tree_reformations": ("cr", "mpcpr"),
     "turntables": ("fitted_turn", "save_animation", "turntable"),
+    "uncurling": ("Uncurled", "uncurl"),
     "vessel_gap": ("Gap",),
     "vessel": ("Vessel",),
     "vessel_finding": ("find_vessels",),
@@ -182,9 +186,11 @@ __all__ = [
     "SpiralReformation",
     "Stenosis",
     "StraightenedVolume",
+    "TangentialReformation",
     "Tracer",
     "TracingError",
     "TransferFunction",
+    "Uncurled",
     "UntangledTree",
     "Vessel",
     "VesselTree",
@@ -221,6 +227,7 @@ __all__ = [
     "trace_from",
     "trace_mask",
     "turntable",
+    "uncurl",
     "untangled",
     "write_centerlines",
 ]

@@ -307,6 +307,22 @@ class Untangled(Layout):
     ) -> list[tuple[int, npt.NDArray[np.float64], npt.NDArray[np.float64], float, bool]]: ...
 
 @final
+class Uncurl(Layout):
+    def __new__(
+        cls,
+        points: npt.NDArray[np.float64],
+        smoothing: float,
+        camera: Any,
+        amount: float,
+        width: float | None = None,
+    ) -> Uncurl: ...
+    @property
+    def extent(self) -> list[float]: ...
+
+def tangential_layout(points: npt.NDArray[np.float64], smoothing: float, camera: Any) -> Layout: ...
+def feature_window(feature: str, level: float | None, window: list[float]) -> list[float]: ...
+
+@final
 class Tracer:
     def __new__(cls) -> Tracer: ...
     def trace(
@@ -416,7 +432,12 @@ class Renderer:
     def with_tree(self, vessels: list[_Arrays] | None) -> Renderer: ...
     def look(self, volume: Any, layout: Layout, settings: Settings, images: list[str]) -> dict[str, Any]: ...
     def aggregate(
-        self, volume: Any, cpr: Cpr, settings: Settings, feature: str, pixel_spacing: float
+        self,
+        volume: Any,
+        cpr: Cpr,
+        settings: Settings,
+        feature: tuple[str, float | None],
+        pixel_spacing: float,
     ) -> tuple[npt.NDArray[np.float32], int]: ...
     def details(self, camera: Any, settings: Settings) -> dict[str, npt.NDArray[np.float32]]: ...
     def render(

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import functools
 import math
-import os
-from pathlib import Path
-from typing import Any, Literal
+from dataclasses import replace
+from typing import Any, Literal, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
@@ -14,89 +13,116 @@ import numpy.typing as npt
 from lumencut import _lumencut
 from lumencut._checked_settings import checked
 from lumencut._checks import choice, number
-from lumencut._files import WRITABLE, checked_path, replace_whole
+from lumencut._reformation_checks import check_vessel
 from lumencut.errors import CameraError, SettingsError
-from lumencut.frame import picture_as_png, save_picture
-from lumencut.planar_reformation import PlanarReformation, check_vessel, cpr_of
+from lumencut.planar_reformation import PlanarReformation, cpr_of
+from lumencut.reformation import Reformation
+from lumencut.reformation_recipe import ReformationRecipe
 from lumencut.renderer import Renderer
 from lumencut.settings import Settings
 from lumencut.vessel import Vessel
 from lumencut.vessel_tree import VesselTree
+from lumencut.window import Window
 
-FEATURES = ("max", "mean", "min")
+Feature: TypeAlias = Literal["max", "mean", "min", "range", "share"]
+
+FEATURES = ("max", "mean", "min", "range", "share")
+
+#: What a pixel shows of its half circle.
+_SHOWN = {
+    "max": "the largest value",
+    "mean": "the mean",
+    "min": "the smallest value",
+    "range": "by how much the largest value exceeds the smallest",
+    "share": "how much lies above {level:g}",
+}
+
+_AXES = (
+    "Down: along the vessel, in mm. Across: the radius of the half circle on that side, in mm; {shown} on it."
+)
 
 
-class FeatureAggregation:
+class FeatureAggregation(Reformation):
     """A straightened vessel whose pixels stand for half circles; made by :func:`lumencut.cfa`.
+
+    ``value`` holds the aggregated values, NaN where the whole half circle lies outside the volume; its middle
+    column is the vessel itself. ``position`` and both ways between pixels and world are those of the middle
+    of the half circle, which the straightened CPR shows.
 
     Attributes
     ----------
-    value : numpy.ndarray, float32, shape (H, W)
-        The aggregated values, NaN where the whole half circle lies outside the volume. The middle column is
-        the vessel itself.
-    arc_length : numpy.ndarray, float64, shape (H,)
-        Length of the vessel from its first point to each row (mm).
+    feature : {"max", "mean", "min", "range", "share"}
+        What of a half circle is shown.
+    level : float or None
+        The value above which ``"share"`` counts.
     radius : numpy.ndarray, float64, shape (W,)
         Radius of the circle of each column (mm), negative to the left.
     angles : int
         How many directions a half circle has.
     """
 
-    def __init__(
-        self,
-        surface: PlanarReformation,
-        value: npt.NDArray[np.float32],
-        radius: npt.NDArray[np.float64],
-        angles: int,
-    ) -> None:
-        self.value, self.radius, self.angles = value, radius, angles
-        self.arc_length = surface.arc_length
-        self._surface = surface
+    _arrays = (*Reformation._arrays, "radius")
 
-    @functools.cached_property
-    def image(self) -> npt.NDArray[np.uint8]:
-        """RGBA picture, uint8, shape (H, W, 4), made when it is first asked for."""
-        return _lumencut.picture(self.value, checked(self._surface.settings))
+    def __init__(
+        self, surface: PlanarReformation, feature: Feature, level: float | None, radius: float
+    ) -> None:
+        self.feature, self.level = feature, level
+        axes = _AXES.format(shown=_SHOWN[feature].format(level=level))
+        kept = ("pixel_spacing", "up", "smoothing")
+        parameters = {name: surface.recipe.parameters[name] for name in kept}
+        parameters |= {"radius": radius, "feature": feature, "level": level}
+        recipe = ReformationRecipe(f"CFA, {feature}", axes, parameters, "cfa")
+        super().__init__(surface._renderer, surface._core, surface._given, recipe, measurable=True)
+        self._aggregated, self.angles = self._renderer._core.aggregate(
+            self._renderer.volume, surface._core, checked(self._given), (feature, level), self.pixel_spacing
+        )
+        columns = self.size[0]
+        beside = np.arange(-(columns // 2), columns // 2 + 1, dtype=np.float64)
+        self.radius = beside * self.pixel_spacing
 
     def __repr__(self) -> str:
         """Return the size."""
-        height, width = self.value.shape
+        width, height = self.size
         return f"FeatureAggregation({width} × {height} pixels, {self.angles} angles on each side)"
 
-    def _repr_png_(self) -> bytes:
-        """Return the picture as Jupyter shows it."""
-        return picture_as_png(self.image)
+    @functools.cached_property
+    def settings(self) -> Settings:
+        """The settings, with numbers for the window: that of the volume for a value of it.
 
-    def save(self, path: str | os.PathLike[str]) -> None:
-        """Write the picture, or with the ending ``.npz`` all arrays; errors are those of `Frame.save`."""
-        path = checked_path(path, WRITABLE)
-        if path.suffix.lower() == ".npz":
-            replace_whole(path, self._write_arrays)
-        else:
-            save_picture(self.image, path)
+        The window of a range begins at 0, and a share is shown from 0 to 1.
+        """
+        found = self._renderer.windowed(self._given)
+        if not isinstance(found.window, Window):
+            return found
+        own = [found.window.level, found.window.width]
+        level, width = _lumencut.feature_window(self.feature, self.level, own)
+        return replace(found, window=Window(level, width))
 
-    def _write_arrays(self, path: Path) -> None:
-        names = ("image", "value", "arc_length", "radius")
-        with path.open("wb") as file:
-            np.savez_compressed(file, **{name: getattr(self, name) for name in names})
+    def _look(self, settings: Settings, *images: str) -> dict[str, Any]:
+        made: dict[str, npt.NDArray[Any]] = {"value": self._aggregated}
+        if "image" in images:
+            made["image"] = _lumencut.picture(self._aggregated, checked(settings))
+        return made
 
 
 def cfa(
     volume: Any,
     vessel: Vessel,
     radius: float = 10.0,
-    feature: Literal["max", "mean", "min"] = "max",
+    feature: Feature = "max",
     pixel_spacing: float | None = None,
     up: npt.ArrayLike = (0.0, 0.0, 1.0),
     smoothing: float = 0.0,
     settings: Settings | None = None,
     device: Literal["auto", "cpu", "gpu"] = "auto",
+    *,
+    level: float | None = None,
 ) -> FeatureAggregation:
     """Return one straightened picture of all that surrounds a vessel.
 
     This is our reading of curvicircular feature aggregation (Mistelbauer et al. 2013): a pixel r mm beside
-    the vessel shows the largest, mean or smallest value on the half circle of radius r on its side, in the
-    section of its row. So whatever lies around the vessel shows without turning it, on the side where it is.
+    the vessel shows what is asked for of the half circle of radius r on its side, in the section of its row.
+    So whatever lies around the vessel shows without turning it, on the side where it is.
 
     Parameters
     ----------
@@ -104,21 +130,54 @@ def cfa(
         As for :func:`lumencut.cpr`. A slab of the settings is thick along the circle's tangent.
     radius : float, default 10
         The largest circle (mm).
-    feature : {"max", "mean", "min"}, default "max"
-        Which value of a half circle is shown. Its samples are no farther apart than a pixel.
+    feature : {"max", "mean", "min", "range", "share"}, default "max"
+        What of a half circle is shown: its largest, mean or smallest value; ``"range"``, by how much the
+        largest exceeds the smallest, which tells where the surroundings are uneven; or ``"share"``, how much
+        of it lies above ``level``, from 0 to 1. Its samples are no farther apart than a pixel, and one of
+        them is the pixel of the straightened CPR.
+    level : float, optional
+        The value above which ``"share"`` counts, in the volume's unit; given with it alone.
 
     Raises
     ------
     LumencutError
         As :func:`lumencut.cpr`; a ``CameraError`` for a radius that is not above 0, a ``SettingsError`` for
-        another feature.
+        another feature, for a share without a level, and for a level without a share.
     """
     check_vessel(vessel)
+    renderer = Renderer(volume, VesselTree([vessel]), device)
+    return cfa_of(
+        renderer,
+        vessel,
+        radius,
+        feature,
+        level=level,
+        pixel_spacing=pixel_spacing,
+        up=up,
+        smoothing=smoothing,
+        settings=settings,
+    )
+
+
+def cfa_of(
+    renderer: Renderer,
+    vessel: Vessel,
+    radius: float = 10.0,
+    feature: Feature = "max",
+    *,
+    level: float | None = None,
+    pixel_spacing: float | None = None,
+    up: npt.ArrayLike = (0.0, 0.0, 1.0),
+    smoothing: float = 0.0,
+    settings: Settings | None = None,
+) -> FeatureAggregation:
+    """Return the CFA of a vessel by a renderer, whose window it has; parameters are those of :func:`cfa`."""
     choice(SettingsError, "feature of the CFA", feature, FEATURES)
+    above = None if level is None else number(SettingsError, "level of the CFA", level)
+    _lumencut.feature_window(feature, above, [0.0, 1.0])
     largest = number(CameraError, "radius of the CFA", radius)
     if not (math.isfinite(largest) and largest > 0):
         raise CameraError("radius of the CFA", f"{largest:g} mm", "a radius above 0 mm")
-    renderer = Renderer(volume, VesselTree([vessel]), device)
     surface = cpr_of(
         renderer,
         vessel,
@@ -129,9 +188,4 @@ def cfa(
         smoothing=smoothing,
         settings=settings,
     )
-    value, angles = renderer._core.aggregate(
-        renderer.volume, surface._core, checked(surface._given), feature, surface.pixel_spacing
-    )
-    columns = surface.size[0]
-    beside = np.arange(-(columns // 2), columns // 2 + 1, dtype=np.float64) * surface.pixel_spacing
-    return FeatureAggregation(surface, value, beside, angles)
+    return FeatureAggregation(surface, feature, above, largest)

@@ -10,8 +10,9 @@ import numpy.typing as npt
 from lumencut import _lumencut
 from lumencut._checked_settings import checked
 from lumencut._checks import choice, number, numbers
+from lumencut._reformation_checks import check_vessel
 from lumencut.errors import CameraError, MeasuringError, SettingsError, VesselTreeError, VolumeError
-from lumencut.planar_reformation import check_vessel, one_angle
+from lumencut.planar_reformation import one_angle
 from lumencut.profile import Profile
 from lumencut.renderer import Renderer
 from lumencut.settings import Settings

@@ -3,22 +3,22 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
-from typing import Any, Literal, TypeAlias
+from typing import Any, Final, Literal, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
 from lumencut import _lumencut
-from lumencut._checked_settings import checked
 from lumencut._checks import choice, number, numbers
-from lumencut.errors import CameraError, SettingsError, VesselTreeError, VolumeError
+from lumencut._reformation_checks import SlabArgument, check_vessel, flat_settings
+from lumencut.camera import Camera
+from lumencut.errors import CameraError, SettingsError, VolumeError
 from lumencut.profile import Profile
 from lumencut.reformation import Reformation
 from lumencut.reformation_recipe import ReformationRecipe
 from lumencut.renderer import Renderer
 from lumencut.settings import Settings
-from lumencut.slab import Slab
+from lumencut.tangential import TangentialReformation, tangential_of
 from lumencut.vessel import Vessel
 from lumencut.vessel_tree import VesselTree
 from lumencut.volume import Volume
@@ -26,6 +26,12 @@ from lumencut.volume import Volume
 Mode: TypeAlias = Literal["projected", "stretched", "straightened"]
 
 MODES = ("projected", "stretched", "straightened")
+
+#: The mode that shows the vessel in the pixels of a camera.
+TANGENTIAL: Final = "tangential"
+
+#: All modes of :func:`cpr`.
+ALL_MODES = (*MODES, TANGENTIAL)
 
 #: How wide the strip is that tells the angle of each row (pixels).
 _STRIP = 32
@@ -156,12 +162,12 @@ def _strip(roll: npt.NDArray[np.float64]) -> npt.NDArray[np.uint8]:
 def cpr(
     volume: Any,
     vessel: Vessel,
-    mode: Mode = "projected",
+    mode: Mode | Literal["tangential"] = "projected",
     width: float | None = None,
     pixel_spacing: float | None = None,
     angle: float = 0.0,
     up: npt.ArrayLike = _HEAD,
-    slab: Slab | tuple[float, str] | float | None = None,
+    slab: SlabArgument = None,
     smoothing: float = 0.0,
     settings: Settings | None = None,
     device: Literal["auto", "cpu", "gpu"] = "auto",
@@ -170,7 +176,8 @@ def cpr(
     normal: npt.ArrayLike | None = None,
     roll: Literal["narrowest", "widest"] | None = None,
     profile: Profile | None = None,
-) -> PlanarReformation:
+    camera: Camera | None = None,
+) -> PlanarReformation | TangentialReformation:
     """Return one vessel laid out as an image: Curved Planar Reformation (Kanitsar et al. 2002).
 
     A line is laid through each point of the vessel, and the lines become the rows of the image.
@@ -181,11 +188,13 @@ def cpr(
         The angiography.
     vessel : Vessel
         The centerline; :meth:`VesselTree.path` makes one of several vessels that meet.
-    mode : {"projected", "stretched", "straightened"}, default "projected"
+    mode : {"projected", "stretched", "straightened", "tangential"}, default "projected"
         ``"projected"`` shows the vessel as the viewer sees it, rows by height. ``"stretched"`` unrolls the
         surface of the lines, so that distances on it are true. ``"straightened"`` has rows by arc length and
         the vessel in the middle column; the lines are perpendicular to it and do not turn about it
-        (rotation-minimising frame, Wang et al. 2008). Only the last two are measurable.
+        (rotation-minimising frame, Wang et al. 2008). Only these two are measurable. ``"tangential"`` shows
+        the vessel in the pixels of ``camera``, and beside it what lies at the depth of its nearest place
+        (named by Mistelbauer et al. 2012, the definition is ours); see :class:`TangentialReformation`.
     width : float, optional
         Distance of the outermost columns (mm), at most; an odd number of pixels is taken. Where not given,
         the image shows 25 mm on each side of the vessel: 50 mm where it is straightened.
@@ -223,6 +232,10 @@ def cpr(
     profile : Profile, optional
         What :func:`lumencut.measure` found for this vessel, so that it need not be measured again for a roll.
 
+    camera : Camera, optional
+        The view of ``"tangential"``, which takes no width, pixel spacing, angle, up, normal or roll; from the
+        front, fitted to the vessel, where not given.
+
     Raises
     ------
     VesselTreeError
@@ -238,7 +251,17 @@ def cpr(
         For an image that is no volume.
     """
     check_vessel(vessel)
+    choice(SettingsError, "mode of the CPR", mode, ALL_MODES)
     renderer = Renderer(volume, VesselTree([vessel]), device)
+    if mode == TANGENTIAL:
+        placed = (width, pixel_spacing, angle, tuple(np.ravel(up).tolist()), degrees, normal, roll)
+        if placed != (None, None, 0.0, _HEAD, None, None, None):
+            found = "a width, pixel spacing, angle, up, normal or roll with the mode 'tangential'"
+            raise CameraError("view of the CPR", found, "camera= alone, which says all of them")
+        return tangential_of(renderer, vessel, camera, slab=slab, smoothing=smoothing, settings=settings)
+    if camera is not None:
+        found = f"a camera with the mode {mode!r}"
+        raise CameraError("camera of the CPR", found, "the mode 'tangential'", "leave the camera out")
     return cpr_of(
         renderer,
         vessel,
@@ -265,7 +288,7 @@ def cpr_of(
     pixel_spacing: float | None = None,
     angle: float = 0.0,
     up: npt.ArrayLike = _HEAD,
-    slab: Slab | tuple[float, str] | float | None = None,
+    slab: SlabArgument = None,
     smoothing: float = 0.0,
     settings: Settings | None = None,
     normal: npt.ArrayLike | None = None,
@@ -274,8 +297,6 @@ def cpr_of(
 ) -> PlanarReformation:
     """Return the CPR of a vessel by a renderer, whose window it has; parameters are those of :func:`cpr`."""
     check_vessel(vessel)
-    if not isinstance(settings, (Settings, type(None))):
-        raise SettingsError("settings", type(settings).__name__, "Settings or None")
     choice(SettingsError, "mode of the CPR", mode, MODES)
     volume = renderer.volume
     if volume is None:
@@ -287,9 +308,7 @@ def cpr_of(
     )
     if normal is not None and mode != "straightened":
         raise CameraError("normal of the CPR", f"a normal with the mode {mode!r}", "the mode 'straightened'")
-    thick = with_slab(settings or Settings(), slab)
-    given = replace(thick, context=None, samples=1)
-    checked(given).refuse_focus()
+    given = flat_settings(settings, slab)
     towards = None if normal is None else numbers(CameraError, "normal of the CPR", normal, (3,))
     upwards, turned = (
         numbers(CameraError, "up of the CPR", up, (3,)),
@@ -339,17 +358,6 @@ def one_angle(angle: float, degrees: float | None) -> float:
     return radians("angle of the CPR", angle, degrees)
 
 
-def check_vessel(vessel: Any) -> None:
-    """Refuse what is no vessel."""
-    if not isinstance(vessel, Vessel):
-        mend = (
-            "take one of its vessels, or several as one by its path()"
-            if isinstance(vessel, VesselTree)
-            else ""
-        )
-        raise VesselTreeError("vessel of the CPR", type(vessel).__name__, "a Vessel", mend)
-
-
 def _width(width: float | None, volume: Volume) -> float | None:
     """The width, which no volume can fill beyond its diagonal."""
     if width is None:
@@ -361,17 +369,6 @@ def _width(width: float | None, volume: Volume) -> float | None:
         expected = f"at most {diagonal:.4g} mm, the diagonal of the volume"
         raise CameraError("width of the CPR", f"{checked:g} mm", expected)
     return checked
-
-
-def with_slab(settings: Settings, slab: Slab | tuple[float, str] | float | None) -> Settings:
-    """Return the settings with the slab that the caller names; one not thicker than 0 is refused."""
-    if slab is None:
-        return settings
-    if not isinstance(slab, Slab):
-        slab = Slab(*slab) if isinstance(slab, tuple) and len(slab) == 2 else Slab(slab)  # type: ignore[arg-type]
-    if not slab.thickness > 0:
-        raise SettingsError("slab thickness", f"{slab.thickness:g} mm", "a thickness above 0 mm, or no slab")
-    return replace(settings, slab=slab)
 
 
 def radians(subject: str, angle: float | None, degrees: float | None) -> float:

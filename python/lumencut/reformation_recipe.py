@@ -10,8 +10,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from lumencut import _lumencut
 from lumencut._files import checked_path
+from lumencut.camera import Camera
 from lumencut.errors import FormatError, SettingsError
 from lumencut.picture_text import KEYWORD, plain_settings, settings_of, text_of
 from lumencut.settings import Settings
@@ -40,6 +43,12 @@ class ReformationRecipe:
     axes: str
     parameters: dict[str, Any]
     command: str
+
+
+def camera_parameters(camera: Camera) -> dict[str, Any]:
+    """Return a camera as the parameters of a recipe hold it: the arguments that make it anew."""
+    vectors = {name: np.asarray(getattr(camera, name)).tolist() for name in ("center", "direction", "up")}
+    return {**vectors, "size": list(camera.size), "pixel_spacing": camera.pixel_spacing}
 
 
 def png_options(recipe: ReformationRecipe, settings: Settings) -> dict[str, Any]:

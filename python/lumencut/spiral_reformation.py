@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import Any, Literal
 
 import numpy as np
 import numpy.typing as npt
 
 from lumencut import _lumencut
-from lumencut._checked_settings import checked
 from lumencut._checks import choice, number, numbers
+from lumencut._reformation_checks import SlabArgument, check_vessel, flat_settings
 from lumencut.errors import CameraError, SettingsError, VesselTreeError, VolumeError
-from lumencut.planar_reformation import check_vessel, one_angle
+from lumencut.planar_reformation import one_angle
 from lumencut.reformation import Reformation
 from lumencut.reformation_recipe import ReformationRecipe
 from lumencut.renderer import Renderer
@@ -111,6 +110,7 @@ def spiral(
     angle: float = 0.0,
     *,
     up: npt.ArrayLike = (0.0, 0.0, 1.0),
+    slab: SlabArgument = None,
     smoothing: float = 0.0,
     settings: Settings | None = None,
     degrees: float | None = None,
@@ -146,8 +146,10 @@ def spiral(
         Upwards in space (LPS), as for :func:`lumencut.cpr`.
     smoothing : float, default 0
         Standard deviation of the Gaussian that smooths the centerline along its length (mm).
+    slab : Slab, (mm, mode) or mm, optional
+        How thick the spirals are across them, and what is shown of that; that of the settings where not given.
     settings : Settings, optional
-        Window, opacity, background and slab; a slab is thick across the spirals.
+        Window, opacity, background and slab.
     degrees : float, optional
         The angle in degrees, in the place of ``angle``.
     device : {"auto", "cpu", "gpu"}, default "auto"
@@ -174,6 +176,7 @@ def spiral(
         pixel_spacing=pixel_spacing,
         angle=one_angle(angle, degrees),
         up=up,
+        slab=slab,
         smoothing=smoothing,
         settings=settings,
     )
@@ -189,6 +192,7 @@ def spiral_of(
     pixel_spacing: float | None = None,
     angle: float = 0.0,
     up: npt.ArrayLike = (0.0, 0.0, 1.0),
+    slab: SlabArgument = None,
     smoothing: float = 0.0,
     settings: Settings | None = None,
 ) -> SpiralReformation:
@@ -211,8 +215,7 @@ def spiral_of(
     }
     fine = _fine_pitch(vessel, finest, parameters) if pitch is None else pitch
     parameters["pitch"] = number(CameraError, "pitch of the spiral CPR", fine)
-    given = replace(settings or Settings(), context=None, samples=1)
-    checked(given).refuse_focus()
+    given = flat_settings(settings, slab)
     lengths = [parameters[name] for name in ("pitch", "radius", "pixel_spacing")]
     core = _lumencut.Spiral(
         vessel.points, parameters["smoothing"], parameters["up"], lengths, sampling, parameters["angle"]

@@ -10,9 +10,10 @@ import numpy as np
 import numpy.typing as npt
 
 from lumencut._checks import number, numbers
+from lumencut._reformation_checks import check_vessel
 from lumencut.errors import CameraError
 from lumencut.mends import told
-from lumencut.planar_reformation import PlanarReformation, check_vessel, cpr_of, one_angle
+from lumencut.planar_reformation import PlanarReformation, cpr_of, one_angle
 from lumencut.renderer import Renderer
 from lumencut.vessel import Vessel
 from lumencut.vessel_tree import VesselTree

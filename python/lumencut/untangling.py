@@ -2,20 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import Any, Literal
 
 import numpy.typing as npt
 
 from lumencut import _lumencut
-from lumencut._checked_settings import checked
 from lumencut._checks import number, numbers
+from lumencut._reformation_checks import SlabArgument, flat_settings
 from lumencut.camera import Camera
 from lumencut.errors import CameraError, SettingsError, VesselTreeError, VolumeError
-from lumencut.planar_reformation import with_slab
 from lumencut.renderer import Renderer
 from lumencut.settings import Settings
-from lumencut.slab import Slab
 from lumencut.untangled_tree import UntangledTree
 from lumencut.vessel_tree import VesselTree
 
@@ -29,7 +26,7 @@ def untangled(
     smoothing: float = 4.0,
     pixel_spacing: float | None = None,
     root: npt.ArrayLike | None = None,
-    slab: Slab | tuple[float, str] | float | None = None,
+    slab: SlabArgument = None,
     settings: Settings | None = None,
     device: Literal["auto", "cpu", "gpu"] = "auto",
 ) -> UntangledTree:
@@ -110,7 +107,7 @@ def untangled_of(
     smoothing: float = 4.0,
     pixel_spacing: float | None = None,
     root: npt.ArrayLike | None = None,
-    slab: Slab | tuple[float, str] | float | None = None,
+    slab: SlabArgument = None,
     settings: Settings | None = None,
 ) -> UntangledTree:
     """Return the untangled tree of a renderer, whose window it has; parameters as for :func:`untangled`."""
@@ -134,8 +131,7 @@ def untangled_of(
         name: number(CameraError, f"{name} of the untangled CPR", value) for name, value in named.items()
     }
     begin = None if root is None else numbers(CameraError, "root of the untangled CPR", root, (3,)).tolist()
-    given = replace(with_slab(settings or Settings(), slab), context=None, samples=1)
-    checked(given).refuse_focus()
+    given = flat_settings(settings, slab)
     arrays = [(vessel.points, vessel.radius) for vessel in tree]
     core = _lumencut.Untangled(arrays, view, (*lengths.values(), given.unknown_radius), begin)
     parameters = {"view": list(view.direction), "up": list(view.up), **lengths, "root": begin}

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 use lumencut::error::{Error, ErrorKind};
+use lumencut::feature_aggregation::Feature;
 use lumencut::math::centerline_path::CenterlinePath;
 use lumencut::named::Named;
 use lumencut::pipeline;
@@ -119,4 +120,11 @@ pub fn picture<'py>(
     let value = value.as_slice()?;
     let image = py.detach(|| pool::install(|| pipeline::picture(value, [width, height], settings)))?;
     PyArray1::from_vec(py, image.map_err(to_python)?.into_flattened()).reshape([height, width, 4])
+}
+
+/// The level and width in which a feature of CFA is shown, by its name and level, where the volume is shown in those given.
+#[pyfunction]
+#[pyo3(signature = (feature, level, window))]
+pub fn feature_window(feature: &str, level: Option<f64>, window: [f64; 2]) -> PyResult<[f64; 2]> {
+    Feature::named(feature, level).map(|feature| feature.window(window)).map_err(to_python)
 }

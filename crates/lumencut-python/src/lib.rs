@@ -33,6 +33,7 @@ mod told_by_tree;
 mod tracing;
 mod tree;
 mod untangled;
+mod uncurl;
 mod values;
 mod views;
 mod volume;
@@ -68,6 +69,9 @@ fn _lumencut(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<renderer::Renderer>()?;
     module.add_class::<settings::Checked>()?;
     module.add_class::<tracing::Tracer>()?;
+    module.add_class::<uncurl::Uncurl>()?;
+    module.add_function(wrap_pyfunction!(uncurl::tangential_layout, module)?)?;
+    module.add_function(wrap_pyfunction!(cpr::feature_window, module)?)?;
     module.add_function(wrap_pyfunction!(cpr::picture, module)?)?;
     module.add_function(wrap_pyfunction!(device::devices, module)?)?;
     module.add_function(wrap_pyfunction!(dicom::describe_dicom, module)?)?;

@@ -200,8 +200,8 @@ impl Renderer {
         buffers(py, py.detach(|| frame.transparent_outside()))
     }
 
-    /// The values of a CFA of a straightened CPR, shape (H, W), and how many directions a half circle has; the side of a pixel is
-    /// in mm.
+    /// The values of a CFA of a straightened CPR, shape (H, W), and how many directions a half circle has. A feature has a name
+    /// and, where it is a share, a level; the side of a pixel is in mm.
     #[allow(clippy::needless_pass_by_value)]
     fn aggregate<'py>(
         &self,
@@ -209,10 +209,10 @@ impl Renderer {
         volume: VolumeArgument<'py>,
         cpr: &Bound<'py, Cpr>,
         settings: &Bound<'py, Checked>,
-        feature: &str,
+        feature: (String, Option<f64>),
         pixel_spacing: f64,
     ) -> PyResult<(Bound<'py, PyArray2<f32>>, usize)> {
-        let feature = Feature::named(feature).map_err(to_python)?;
+        let feature = Feature::named(&feature.0, feature.1).map_err(to_python)?;
         let (Cpr(cpr), Checked(settings)) = (cpr.get(), settings.get());
         let borrowed = volume.borrow()?;
         let volume = SharedVolume::new(volume.volume(&borrowed)?, self.volume.clone());

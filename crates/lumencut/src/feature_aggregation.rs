@@ -8,56 +8,105 @@ use lumencut_core::error::{Error, ErrorKind, Result};
 use lumencut_core::reformations::Layout;
 use lumencut_core::reformations::cpr::Cpr;
 
-/// Which value of a half circle is shown.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// What of a half circle is shown.
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Feature {
-    /// The largest.
+    /// The largest value.
     Max,
     /// The mean.
     Mean,
-    /// The smallest.
+    /// The smallest value.
     Min,
+    /// By how much the largest exceeds the smallest: how uneven the surroundings are.
+    Range,
+    /// How much of the half circle lies above this level, from 0 to 1.
+    Share(f64),
 }
 
 impl Feature {
-    /// The feature of this name: `max`, `mean` or `min`.
+    /// The feature of this name: `max`, `mean`, `min`, `range` or `share`, which alone has a level.
     ///
     /// # Errors
-    /// [`ErrorKind::Settings`] for another name.
-    pub fn named(name: &str) -> Result<Self> {
-        match name {
-            "max" => Ok(Self::Max),
-            "mean" => Ok(Self::Mean),
-            "min" => Ok(Self::Min),
-            other => {
-                let found = format!("'{other}'");
-                Err(Error::new(ErrorKind::Settings, "feature of the CFA", found, "max, mean or min"))
+    /// [`ErrorKind::Settings`] for another name, a share without a finite level, and a level without a share.
+    pub fn named(name: &str, level: Option<f64>) -> Result<Self> {
+        let wrong = |subject: &str, found: String, expected: &str| {
+            Err(Error::new(ErrorKind::Settings, subject, found, expected))
+        };
+        let subject = "level of the CFA";
+        match (name, level) {
+            ("share", Some(level)) if level.is_finite() => Ok(Self::Share(level)),
+            ("share", Some(level)) => wrong(subject, format!("{level}"), "a finite value of the volume"),
+            ("share", None) => {
+                wrong(subject, "none".into(), "the value above which the feature 'share' counts")
             }
+            ("max" | "mean" | "min" | "range", Some(level)) => {
+                wrong(subject, format!("{level} with the feature '{name}'"), "a level with 'share' alone")
+            }
+            ("max", None) => Ok(Self::Max),
+            ("mean", None) => Ok(Self::Mean),
+            ("min", None) => Ok(Self::Min),
+            ("range", None) => Ok(Self::Range),
+            (other, _) => wrong("feature of the CFA", format!("'{other}'"), "max, mean, min, range or share"),
         }
     }
 
-    fn gathered(self, before: f64, value: f64) -> f64 {
+    /// The level and width in which the feature is shown where the values of the volume are shown in those given: a range begins
+    /// at 0, and a share lies between 0 and 1.
+    pub fn window(self, [level, width]: [f64; 2]) -> [f64; 2] {
         match self {
-            Self::Max => before.max(value),
-            Self::Mean => before + value,
-            Self::Min => before.min(value),
+            Self::Max | Self::Mean | Self::Min => [level, width],
+            Self::Range => [width / 2.0, width],
+            Self::Share(_) => [0.5, 1.0],
         }
     }
 
-    fn first(self) -> f64 {
+    /// What counts in the mean of the feature: a share counts which values lie above its level.
+    fn counted(self, value: f64) -> f64 {
         match self {
-            Self::Max => f64::MIN,
-            Self::Mean => 0.0,
-            Self::Min => f64::MAX,
+            Self::Share(level) => f64::from(u8::from(value > level)),
+            _ => value,
         }
+    }
+
+    /// What the pixel shows.
+    fn shown(self, Gathered { least, most, sum, count }: Gathered) -> f32 {
+        if count == 0 {
+            return f32::NAN;
+        }
+        match self {
+            Self::Max => most,
+            Self::Min => least,
+            Self::Range => most - least,
+            Self::Mean | Self::Share(_) => (sum / f64::from(count)) as f32,
+        }
+    }
+}
+
+/// What is known of the values of a half circle so far.
+#[derive(Clone, Copy)]
+struct Gathered {
+    least: f32,
+    most: f32,
+    sum: f64,
+    count: u32,
+}
+
+impl Gathered {
+    const NOTHING: Self = Self { least: f32::MAX, most: f32::MIN, sum: 0.0, count: 0 };
+
+    fn add(&mut self, feature: Feature, value: f32) {
+        self.least = self.least.min(value);
+        self.most = self.most.max(value);
+        self.sum += feature.counted(f64::from(value));
+        self.count += 1;
     }
 }
 
 /// How many directions a half circle has in the layout of a straightened vessel: samples on the largest one are no farther apart
-/// than a pixel, `pixel_spacing` (mm).
+/// than a pixel, `pixel_spacing` (mm). The number is odd: the middle direction is that of the straightened vessel itself.
 pub fn angle_count(cpr: &Cpr, pixel_spacing: f64) -> usize {
     let largest = (cpr.size()[0] / 2) as f64 * pixel_spacing;
-    ((PI * largest / pixel_spacing).ceil() as usize).max(1)
+    ((PI * largest / pixel_spacing).ceil() as usize) | 1
 }
 
 /// The values of a CFA in the layout of `cpr`, a straightened vessel, row by row; NaN where the whole half circle lies outside the
@@ -73,19 +122,15 @@ pub fn feature_aggregation(
 ) -> Result<Vec<f32>> {
     let [width, height] = cpr.size();
     let angles = angle_count(cpr, pixel_spacing);
-    let mut gathered = vec![(feature.first(), 0u32); width * height];
+    let mut gathered = vec![Gathered::NOTHING; width * height];
     for n in 0..angles {
-        let values = look(&cpr.rotated(((n as f64 + 0.5) / angles as f64 - 0.5) * PI)?)?;
+        let aside = (n as f64 - (angles / 2) as f64) / angles as f64 * PI;
+        let values = look(&cpr.rotated(aside)?)?;
         for (kept, value) in gathered.iter_mut().zip(values) {
             if !value.is_nan() {
-                *kept = (feature.gathered(kept.0, f64::from(value)), kept.1 + 1);
+                kept.add(feature, value);
             }
         }
     }
-    let shown = |(value, count): (f64, u32)| match (count, feature) {
-        (0, _) => f32::NAN,
-        (count, Feature::Mean) => (value / f64::from(count)) as f32,
-        _ => value as f32,
-    };
-    Ok(gathered.into_iter().map(shown).collect())
+    Ok(gathered.into_iter().map(|gathered| feature.shown(gathered)).collect())
 }

@@ -10,6 +10,7 @@ from typing import Any
 import click
 
 from lumencut.cli.batch import batch
+from lumencut.cli.cfa import cfa
 from lumencut.cli.compare_methods import compare_methods
 from lumencut.cli.cpr import cpr
 from lumencut.cli.demo import demo
@@ -23,6 +24,7 @@ from lumencut.cli.spiral import spiral
 from lumencut.cli.summarize import summarize
 from lumencut.cli.trace import trace
 from lumencut.cli.turntable import turntable
+from lumencut.cli.uncurl import uncurl
 from lumencut.cli.untangled import untangled
 from lumencut.cli.view import view
 from lumencut.cli.write_settings import settings
@@ -66,6 +68,8 @@ for _command in (
     turntable,
     compare_methods,
     cpr,
+    cfa,
+    uncurl,
     lumen_map,
     spiral,
     untangled,

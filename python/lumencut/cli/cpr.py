@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -10,20 +11,22 @@ import click
 
 from lumencut.cli import options
 from lumencut.cli.mistakes import check_files, check_reading
-from lumencut.cli.parameters import VECTOR
+from lumencut.cli.parameters import SIZE, VECTOR
 from lumencut.cli.report import busy, detail, say, timings, verbose_option, warn
 from lumencut.cli.scene import read_files, scene_from, warn_of_window
 from lumencut.cli.settings import look_options, settings_from
+from lumencut.cli.tangential import MODE as TANGENTIAL
+from lumencut.cli.tangential import check_view, tangential
 from lumencut.cli.vessels import path_option, titled_vessels
 
 if TYPE_CHECKING:
-    from lumencut.planar_reformation import PlanarReformation
+    from lumencut.reformation import Reformation
     from lumencut.renderer import Renderer
     from lumencut.vessel import Vessel
     from lumencut.volume import Volume
 
-#: The names of ``lumencut.planar_reformation.MODES``, here so that ``--help`` need not import numpy.
-MODES = ("projected", "stretched", "straightened")
+#: The modes of ``lumencut.cpr``, here so that ``--help`` need not import numpy.
+MODES = ("projected", "stretched", "straightened", "tangential")
 
 #: The coarsest pixels where the user names none (mm): most vessels then have room for labels.
 _COARSEST = 0.25
@@ -45,7 +48,21 @@ _COARSEST = 0.25
     default="straightened",
     show_default=True,
     help="projected: as the viewer sees the vessel; stretched: the surface through it unrolled; "
-    "straightened: along its length. Distances are true in the last two.",
+    "straightened: along its length; tangential: in the picture of a view, what lies beside it as deep. "
+    "Distances are true where it is stretched or straightened.",
+)
+@click.option(
+    "--view",
+    type=options.VIEW,
+    metavar="NAME|X,Y,Z",
+    help=f"The view of --mode tangential, from anterior where not given: {', '.join(options.VIEW_NAMES)}, or "
+    "the direction from the viewer into the scene (LPS).",
+)
+@click.option(
+    "--size",
+    type=SIZE,
+    metavar=SIZE.name,
+    help="Size of the picture of --mode tangential (pixels); default: 768x768.",
 )
 @options.shown_vessel_options
 @path_option
@@ -107,9 +124,11 @@ def cpr(output: Path, volume_out: Path | None, annotate: bool, **chosen: Any) ->
     \b
     lumencut cpr ct.nii.gz centerlines.vtp -o vessels.png
     lumencut cpr ct.nii.gz centerlines.vtp -o LAD.png --vessel LAD --angle 45 --slab 2mm:mean
+    lumencut cpr ct.nii.gz centerlines.vtp -o LAD.png --vessel LAD --mode tangential --view left
     lumencut cpr ct.nii.gz lines.vtp -o leg.png --path 0,1,4 --mode stretched --volume-out leg.nrrd
     """  # noqa: D301 - click needs the control character itself
     settings = settings_from(chosen)
+    check_view(chosen)
     _check_outputs(output, volume_out)
     files = scene_from(chosen)
     check_files(files.volume, files.centerlines)
@@ -156,19 +175,13 @@ def _check_count(vessels: list[tuple[str, Vessel]], output: Path, volume_out: Pa
         raise click.UsageError(f"{one} holds one vessel; found {len(vessels)}; {mend}")
 
 
-def _reformation(renderer: Renderer, vessel: Vessel, title: str, chosen: dict[str, Any]) -> PlanarReformation:
+def _reformation(renderer: Renderer, vessel: Vessel, title: str, chosen: dict[str, Any]) -> Reformation:
     """The image of one vessel, made, and a warning where it shows nothing."""
     import numpy as np
 
-    from lumencut.planar_reformation import cpr_of
-
-    spacing = chosen["pixel_spacing"]
-    if spacing is None and renderer.volume is not None:
-        spacing = min(_COARSEST, float(renderer.volume.spacing.min()))
-    named = {name: chosen[name] for name in ("width", "up", "smoothing", "roll", "settings")}
-    made = cpr_of(
-        renderer, vessel, chosen["mode"], pixel_spacing=spacing, angle=math.radians(chosen["angle"]), **named
-    )
+    is_tangential = chosen["mode"] == TANGENTIAL
+    lay_out = partial(tangential, settings=chosen["settings"]) if is_tangential else _plane
+    made = lay_out(renderer, vessel, chosen)
     _ = made.image
     timings(f"vessel {title}", made.timings)
     if np.isnan(made.value).all():
@@ -176,7 +189,20 @@ def _reformation(renderer: Renderer, vessel: Vessel, title: str, chosen: dict[st
     return made
 
 
-def _write(output: Path, made: list[PlanarReformation], titles: list[str], *, annotate: bool) -> None:
+def _plane(renderer: Renderer, vessel: Vessel, chosen: dict[str, Any]) -> Reformation:
+    """The image of one vessel by the modes that have rows."""
+    from lumencut.planar_reformation import cpr_of
+
+    spacing = chosen["pixel_spacing"]
+    if spacing is None and renderer.volume is not None:
+        spacing = min(_COARSEST, float(renderer.volume.spacing.min()))
+    named = {name: chosen[name] for name in ("width", "up", "smoothing", "roll", "settings")}
+    return cpr_of(
+        renderer, vessel, chosen["mode"], pixel_spacing=spacing, angle=math.radians(chosen["angle"]), **named
+    )
+
+
+def _write(output: Path, made: list[Reformation], titles: list[str], *, annotate: bool) -> None:
     """Write one vessel as it is, several as a contact sheet."""
     from lumencut.contact_sheet import contact_sheet
     from lumencut.frame import save_picture
@@ -188,14 +214,14 @@ def _write(output: Path, made: list[PlanarReformation], titles: list[str], *, an
     save_picture(contact_sheet(pictures, titles), output)
 
 
-def _described(made: list[PlanarReformation]) -> str:
+def _described(made: list[Reformation]) -> str:
     """What was made, in words."""
     from lumencut.window import Window
 
     first, window = made[0], made[0].settings.window
     count = "1 vessel" if len(made) == 1 else f"{len(made)} vessels"
     shown = f", window {window.width:.4g}/{window.level:.4g}" if isinstance(window, Window) else ""
-    return f"{count} {first.mode}, pixels of {first.pixel_spacing:.4g} mm{shown}"
+    return f"{count} {first.recipe.parameters['mode']}, pixels of {first.pixel_spacing:.4g} mm{shown}"
 
 
 def _write_volume(path: Path, voxels: Volume, vessel: Vessel, chosen: dict[str, Any]) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -110,6 +111,29 @@ def write_each(
     count = "1 vessel" if len(made) == 1 else f"{len(made)} vessels"
     say(f"{output}: {made[0].recipe.name} of {count}, pixels of {made[0].pixel_spacing:.4g} mm")
     detail(made[0].recipe.axes)
+
+
+def write_beside(
+    chosen: dict[str, Any],
+    vessels: list[tuple[str, Vessel]],
+    make: Callable[..., Reformation],
+    shown: tuple[str, ...],
+) -> None:
+    """Make several images of each vessel, told `make` as `shown`, and write them, a line for each vessel."""
+    from lumencut.contact_sheet import contact_sheet
+    from lumencut.frame import save_picture
+
+    pictures, titles = [], []
+    for title, vessel in vessels:
+        for name in shown:
+            made = _made(f"{title} ({name})", vessel, partial(make, shown=name))
+            pictures.append(made.annotated() if chosen["annotate"] else made.image)
+            titles.append(f"{title}, {made.recipe.name}")
+    with busy(f"writing {chosen['output'].name}"):
+        starts = range(0, len(pictures), len(shown))
+        save_picture(contact_sheet(pictures, titles, starts), chosen["output"])
+    count = "1 vessel" if len(vessels) == 1 else f"{len(vessels)} vessels"
+    say(f"{chosen['output']}: {', '.join(shown)} of {count}")
 
 
 def _made(title: str, vessel: Vessel, make: Callable[[Vessel], Reformation]) -> Reformation:

@@ -6,6 +6,7 @@
 //! from there and what had to be decided.
 
 mod chains;
+mod nearest;
 mod parameters;
 mod row;
 mod stretch;
@@ -13,6 +14,7 @@ mod view;
 
 use rayon::prelude::*;
 
+pub(super) use self::nearest::nearest_slots;
 pub use self::parameters::CrParameters;
 use self::row::CrRow;
 use self::view::CrView;

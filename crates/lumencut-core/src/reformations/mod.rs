@@ -10,6 +10,8 @@ pub mod lumen_map;
 pub mod mpcpr;
 pub mod spiral;
 pub mod untangled;
+pub mod tangential;
+pub mod uncurl;
 mod wall;
 
 pub use connections::Connections;

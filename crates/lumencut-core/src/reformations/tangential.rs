@@ -1,0 +1,81 @@
+//! Tangential CPR: one vessel as a camera sees it, with what lies beside each of its places at the depth of that place.
+//!
+//! It is CR of one vessel without a threshold along it: each pixel takes the depth of the nearest place of the vessel in the image.
+//! Named in the paper of CSR; its text was not found, the definition is ours. METHOD.md states it.
+
+use std::sync::Arc;
+
+use glam::{DVec2, DVec3};
+
+use super::layout::Layout;
+use super::uncurl::Uncurl;
+use crate::camera::Camera;
+use crate::error::{Error, ErrorKind, Result};
+use crate::geometry::Curved;
+use crate::math::centerline_path::CenterlinePath;
+
+/// The tangential CPR of one vessel in the pixels of a camera.
+#[derive(Clone, Debug)]
+pub struct Tangential {
+    camera: Camera,
+    /// The vessel uncurled by nothing.
+    curled: Uncurl,
+}
+
+impl Tangential {
+    /// # Errors
+    /// [`ErrorKind::Camera`] for a vessel of which the camera sees one point alone.
+    pub fn new(path: Arc<CenterlinePath>, camera: Camera) -> Result<Self> {
+        let along = path.direction().iter().map(|direction| direction.cross(camera.direction()).length());
+        if along.fold(0.0, f64::max) < 1e-6 {
+            let found = "a vessel that runs along the view in all of its length";
+            let error = Error::new(
+                ErrorKind::Camera,
+                "camera of the tangential CPR",
+                found,
+                "a view across the vessel",
+            );
+            return Err(error.mend("turn the camera, or take the straightened CPR"));
+        }
+        Ok(Self { camera, curled: Uncurl::new(path, camera, 0.0, None)? })
+    }
+}
+
+impl Layout for Tangential {
+    fn size(&self) -> [usize; 2] {
+        self.camera.size()
+    }
+
+    fn pixel_spacing(&self) -> f64 {
+        self.camera.pixel_spacing()
+    }
+
+    fn curved(&self) -> Result<Curved> {
+        self.curled.curved()
+    }
+
+    fn arc_length(&self) -> Vec<f64> {
+        self.curled.arc_length()
+    }
+
+    fn folded(&self) -> Vec<bool> {
+        self.curled.folded()
+    }
+
+    fn world_from_pixel(&self, pixel: DVec2) -> DVec3 {
+        self.curled.world_from_pixel(pixel)
+    }
+
+    /// Where the camera sees a point, whether the image shows it or what lies before or behind it.
+    fn pixel_from_world(&self, point: DVec3) -> DVec2 {
+        let [seen, first] = [
+            self.camera.view_from_world(point).truncate(),
+            DVec2::new(self.camera.view_x(0), self.camera.view_y(0)),
+        ];
+        DVec2::new(seen.x - first.x, first.y - seen.y) / self.camera.pixel_spacing()
+    }
+}
+
+#[cfg(test)]
+#[path = "tests/tangential.rs"]
+mod tests;

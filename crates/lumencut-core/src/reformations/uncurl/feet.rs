@@ -1,0 +1,105 @@
+//! The foot of each pixel: the place of a vessel that is nearest to it in the image, whatever its depth.
+
+use std::sync::Arc;
+
+use glam::{DVec2, DVec3};
+
+use crate::camera::Camera;
+use crate::error::Result;
+use crate::math::projection::Level;
+use crate::reformations::cr::nearest_slots;
+use crate::scene::LeveledTree;
+use crate::vessel_tree::{Vessel, VesselTree};
+
+/// A place along a vessel.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Foot {
+    /// Arc length (mm).
+    pub at: f64,
+    /// The segment that it lies on.
+    pub segment: usize,
+    /// Where it is in the image (mm, to the right and upwards).
+    pub place: DVec2,
+    /// From there to the pixel (mm).
+    pub aside: DVec2,
+}
+
+/// A vessel as it lies in the image of a camera.
+#[derive(Clone, Debug)]
+pub(super) struct Feet {
+    camera: Camera,
+    points: Vec<DVec3>,
+    /// The points in the image (mm).
+    places: Vec<DVec2>,
+    arc_length: Arc<[f64]>,
+}
+
+impl Feet {
+    /// A vessel by its points (mm, LPS) and their arc lengths (mm).
+    pub fn new(camera: &Camera, points: Vec<DVec3>, arc_length: &[f64]) -> Self {
+        let places = points.iter().map(|point| camera.view_from_world(*point).truncate()).collect();
+        Self { camera: *camera, points, places, arc_length: arc_length.into() }
+    }
+
+    /// The points in the image (mm).
+    pub fn places(&self) -> &[DVec2] {
+        &self.places
+    }
+
+    /// The foot of a place in the image (mm).
+    pub fn of(&self, place: DVec2) -> Foot {
+        self.among(place, 0, self.places.len() - 1)
+    }
+
+    /// The foot of each pixel, row by row, by a function that is given the pixel's number and the foot.
+    ///
+    /// # Errors
+    /// Those of a vessel tree that cannot be made of the points.
+    pub fn of_pixels(&self) -> Result<impl Fn(usize) -> Foot + Sync + '_> {
+        let vessel = Vessel::new(self.points.clone(), None)?;
+        let levels = LeveledTree::new(VesselTree::new(vec![vessel])?).levels(0, 0.0);
+        let (slots, points) = (nearest_slots(&levels[0], &self.camera), self.points_of_slots(&levels[0]));
+        let width = self.camera.size()[0];
+        Ok(move |pixel: usize| {
+            let slot = slots[pixel] as usize;
+            let (first, last) = (points[slot.saturating_sub(1)], points[(slot + 1).min(points.len() - 1)]);
+            let place = [self.camera.view_x(pixel % width), self.camera.view_y(pixel / width)];
+            self.among(DVec2::from_array(place), first, last)
+        })
+    }
+
+    /// The nearest place on the segments from one point to another; of those equally near the first one.
+    fn among(&self, place: DVec2, first: usize, last: usize) -> Foot {
+        let mut best = self.on_segment(place, first);
+        for segment in first + 1..last {
+            let other = self.on_segment(place, segment);
+            if other.aside.length_squared() < best.aside.length_squared() {
+                best = other;
+            }
+        }
+        best
+    }
+
+    fn on_segment(&self, place: DVec2, segment: usize) -> Foot {
+        let [start, end] = [self.places[segment], self.places[segment + 1]];
+        let (edge, from_start) = (end - start, place - start);
+        let square = edge.length_squared();
+        let share = if square > 0.0 { (from_start.dot(edge) / square).clamp(0.0, 1.0) } else { 0.0 };
+        let [from, to] = [self.arc_length[segment], self.arc_length[segment + 1]];
+        Foot {
+            at: from + share * (to - from),
+            segment,
+            place: start + edge * share,
+            aside: from_start - edge * share,
+        }
+    }
+
+    /// The point that each slot was made of: a level leaves out points that lie as good as at the one before.
+    fn points_of_slots(&self, level: &Level) -> Vec<usize> {
+        let mut numbered = self.points.iter().enumerate();
+        let own = |slot: &DVec3| numbered.by_ref().find(|(_, point)| *point == slot).map(|(n, _)| n);
+        let found: Vec<_> = level.points.iter().map_while(own).collect();
+        debug_assert_eq!(found.len(), level.points.len());
+        found
+    }
+}

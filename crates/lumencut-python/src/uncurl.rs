@@ -1,0 +1,64 @@
+//! Uncurling and the tangential CPR, as Python has them: layouts in the pixels of a camera.
+
+use std::sync::Arc;
+
+use lumencut::error::Result;
+use lumencut::math::centerline_path::CenterlinePath;
+use lumencut::reformations::{tangential, uncurl};
+use lumencut::vessel_tree::Vessel;
+use numpy::PyReadonlyArray2;
+use pyo3::prelude::*;
+
+use crate::camera::CameraArgument;
+use crate::errors::to_python;
+use crate::layout::Layout;
+use crate::tree::points_of;
+
+/// The tangential CPR of the points (n, 3) of a vessel.
+#[pyfunction]
+#[allow(clippy::needless_pass_by_value)]
+pub fn tangential_layout(
+    points: PyReadonlyArray2<'_, f64>,
+    smoothing: f64,
+    camera: CameraArgument,
+) -> PyResult<Layout> {
+    let (path, camera) = (path(&points, smoothing)?, camera.camera()?);
+    let made = tangential::Tangential::new(path, camera).map_err(to_python)?;
+    Ok(Layout(Arc::new(made)))
+}
+
+/// A vessel that is straightened by degrees.
+#[pyclass(frozen, extends = Layout, module = "lumencut._lumencut")]
+pub struct Uncurl(uncurl::Uncurl);
+
+#[pymethods]
+impl Uncurl {
+    /// The points (n, 3) of a vessel straightened by an amount from 0 to 1, as a camera sees it, with what lies within half of a
+    /// width (mm) beside it.
+    #[new]
+    #[pyo3(signature = (points, smoothing, camera, amount, width=None))]
+    #[allow(clippy::needless_pass_by_value)]
+    fn new(
+        points: PyReadonlyArray2<'_, f64>,
+        smoothing: f64,
+        camera: CameraArgument,
+        amount: f64,
+        width: Option<f64>,
+    ) -> PyResult<PyClassInitializer<Self>> {
+        let (path, camera) = (path(&points, smoothing)?, camera.camera()?);
+        let made = uncurl::Uncurl::new(path, camera, amount, width).map_err(to_python)?;
+        Ok(PyClassInitializer::from(Layout(Arc::new(made.clone()))).add_subclass(Self(made)))
+    }
+
+    /// How far the vessel reaches from the middle of the image, across and up or down (mm).
+    #[getter]
+    fn extent(&self) -> [f64; 2] {
+        self.0.extent().to_array()
+    }
+}
+
+fn path(points: &PyReadonlyArray2<'_, f64>, smoothing: f64) -> PyResult<Arc<CenterlinePath>> {
+    let points = points_of(points)?;
+    let path = || -> Result<_> { CenterlinePath::new(&Vessel::new(points, None)?, smoothing) };
+    path().map(Arc::new).map_err(to_python)
+}

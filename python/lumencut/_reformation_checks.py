@@ -1,0 +1,53 @@
+"""What reformations of one vessel are given, checked: the vessel, and the settings with a slab."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any, TypeAlias
+
+from lumencut._checked_settings import checked
+from lumencut.errors import SettingsError, VesselTreeError
+from lumencut.settings import Settings
+from lumencut.slab import Slab
+from lumencut.vessel import Vessel
+from lumencut.vessel_tree import VesselTree
+
+#: A slab as users give it: itself, its thickness with a mode, or its thickness (mm).
+SlabArgument: TypeAlias = "Slab | tuple[float, str] | float | None"
+
+
+def check_vessel(vessel: Any) -> None:
+    """Refuse what is no vessel."""
+    if not isinstance(vessel, Vessel):
+        mend = (
+            "take one of its vessels, or several as one by its path()"
+            if isinstance(vessel, VesselTree)
+            else ""
+        )
+        raise VesselTreeError("vessel of the CPR", type(vessel).__name__, "a Vessel", mend)
+
+
+def flat_settings(settings: Any, slab: SlabArgument = None) -> Settings:
+    """Return the settings of an image that no ray goes on behind, with the slab that the caller names.
+
+    Raises
+    ------
+    SettingsError
+        For what are no settings, a slab that is not thicker than 0, or a focus.
+    """
+    if not isinstance(settings, (Settings, type(None))):
+        raise SettingsError("settings", type(settings).__name__, "Settings or None")
+    given = replace(_thick(settings or Settings(), slab), context=None, samples=1)
+    checked(given).refuse_focus()
+    return given
+
+
+def _thick(settings: Settings, slab: SlabArgument) -> Settings:
+    """The settings with the slab that the caller names."""
+    if slab is None:
+        return settings
+    if not isinstance(slab, Slab):
+        slab = Slab(*slab) if isinstance(slab, tuple) and len(slab) == 2 else Slab(slab)  # type: ignore[arg-type]
+    if not slab.thickness > 0:
+        raise SettingsError("slab thickness", f"{slab.thickness:g} mm", "a thickness above 0 mm, or no slab")
+    return replace(settings, slab=slab)

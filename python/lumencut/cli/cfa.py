@@ -1,0 +1,121 @@
+"""``lumencut cfa``: straightened vessels that need no turning."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from lumencut.cli import options, reformations
+from lumencut.cli.parameters import VECTOR
+from lumencut.cli.report import verbose_option
+from lumencut.cli.settings import look_options
+from lumencut.cli.vessels import path_option
+
+if TYPE_CHECKING:
+    from lumencut.reformation import Reformation
+    from lumencut.renderer import Renderer
+    from lumencut.settings import Settings
+    from lumencut.vessel import Vessel
+
+#: The names of ``lumencut.feature_aggregation.FEATURES``, here so that ``--help`` need not import numpy.
+FEATURES = ("max", "mean", "min", "range", "share")
+
+#: The coarsest pixels where the user names none (mm), as for ``lumencut cpr``.
+_COARSEST = 0.25
+
+
+@click.command(short_help="Show all around vessels, straightened (CFA).")
+@click.argument("volume", type=options.FILE)
+@click.argument("centerlines", type=options.FILE, nargs=-1, required=True)
+@reformations.output_option
+@click.option(
+    "--feature",
+    type=click.Choice(FEATURES),
+    default="max",
+    show_default=True,
+    help="What of a half circle is shown. max: calcium and metal; min: whether there is a way through; mean; "
+    "range: how uneven the surroundings are; share: how much of it lies above --level.",
+)
+@click.option(
+    "--radius", type=float, default=10.0, show_default=True, metavar="MM", help="The largest circle (mm)."
+)
+@click.option(
+    "--level", type=float, metavar="VALUE", help="The value of the volume above which --feature share counts."
+)
+@click.option(
+    "--beside",
+    type=click.Choice(("cpr",)),
+    help="Show the straightened CPR, CFA max and CFA min of each vessel beside each other.",
+)
+@options.shown_vessel_options
+@path_option
+@click.option("--up", type=VECTOR, default="0,0,1", show_default=True, help="What points upwards (LPS).")
+@click.option(
+    "--pixel-spacing",
+    type=float,
+    metavar="MM",
+    help="Side of a pixel (mm); default: the smallest side of a voxel, but no more than 0.25 mm.",
+)
+@reformations.smoothing_option
+@reformations.annotate_option
+@reformations.like_option
+@options.reading_options
+@look_options
+@verbose_option
+def cfa(beside: str | None, **given: Any) -> None:
+    """Show what surrounds the vessels of CENTERLINES, straightened: curvicircular feature aggregation.
+
+    A pixel beside a vessel stands for the half circle around it on that side, so that nothing is missed for
+    lack of turning. All vessels are shown side by side, each below its id and name, unless --vessel,
+    --exclude or --path choose among them.
+
+    \b
+    lumencut cfa ct.nii.gz centerlines.vtp -o LAD.png --vessel LAD --radius 8
+    lumencut cfa ct.nii.gz centerlines.vtp -o sheet.png --path 0,1,4 --beside cpr
+    lumencut cfa ct.nii.gz centerlines.vtp -o calcium.png --feature share --level 500
+    """  # noqa: D301 - click needs the control character itself
+    options.check_picture(given["output"])
+    chosen, settings = reformations.like(given, "cfa")
+    _check(chosen, beside)
+    renderer, _, vessels = reformations.read_vessels(chosen, settings, "cfa")
+    if beside is None:
+        feature = chosen["feature"]
+        reformations.write_each(
+            chosen, vessels, lambda vessel: _made(renderer, vessel, feature, chosen, settings)
+        )
+        return
+    reformations.write_beside(
+        chosen,
+        vessels,
+        lambda vessel, shown: _made(renderer, vessel, shown, chosen, settings),
+        ("cpr", "max", "min"),
+    )
+
+
+def _check(chosen: dict[str, Any], beside: str | None) -> None:
+    """Refuse options that do not go together before any file is read."""
+    shares = beside is None and chosen["feature"] == "share"
+    if shares and chosen["level"] is None:
+        raise click.UsageError("--feature share needs --level, the value above which it counts")
+    if chosen["level"] is not None and not shares:
+        raise click.UsageError("--level does nothing without --feature share; leave it out")
+    if beside is not None and chosen["output"].suffix.lower() == ".npz":
+        raise click.UsageError(f"{chosen['output']} holds one picture; --beside makes three of each vessel")
+
+
+def _made(
+    renderer: Renderer, vessel: Vessel, shown: str, chosen: dict[str, Any], settings: Settings
+) -> Reformation:
+    """The straightened CPR of a vessel, or one of its features."""
+    from lumencut.feature_aggregation import cfa_of
+    from lumencut.planar_reformation import cpr_of
+
+    spacing = chosen["pixel_spacing"]
+    if spacing is None and renderer.volume is not None:
+        spacing = min(_COARSEST, float(renderer.volume.spacing.min()))
+    how: dict[str, Any] = {"pixel_spacing": spacing, "settings": settings}
+    how |= {name: chosen[name] for name in ("up", "smoothing")}
+    if shown == "cpr":
+        return cpr_of(renderer, vessel, "straightened", width=2 * chosen["radius"], **how)
+    return cfa_of(renderer, vessel, chosen["radius"], shown, level=chosen["level"], **how)  # type: ignore[arg-type]

@@ -1,0 +1,52 @@
+"""``lumencut cpr --mode tangential``: its view, and the options that go with it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from lumencut.cli import options
+from lumencut.cli.like import typed
+
+if TYPE_CHECKING:
+    from lumencut.renderer import Renderer
+    from lumencut.settings import Settings
+    from lumencut.tangential import TangentialReformation
+    from lumencut.vessel import Vessel
+
+MODE = "tangential"
+
+#: The options that place a view, and those that place the rows of the other modes.
+_OWN, _OTHERS = ("view", "size"), ("width", "angle", "roll")
+
+_SIZE = (768, 768)
+
+
+def check_view(chosen: dict[str, Any]) -> None:
+    """Refuse options that do nothing with the mode that is asked for."""
+    is_own = chosen["mode"] == MODE
+    idle = [name for name in (_OTHERS if is_own else _OWN) if name in typed(chosen)]
+    if idle:
+        mend = "leave it out, or choose another mode" if is_own else f"leave it out, or choose --mode {MODE}"
+        raise click.UsageError(f"--{idle[0]} does nothing with --mode {chosen['mode']}; {mend}")
+
+
+def tangential(
+    renderer: Renderer, vessel: Vessel, chosen: dict[str, Any], settings: Settings
+) -> TangentialReformation:
+    """Return the tangential CPR of a vessel, fitted to it where no option places the view."""
+    from lumencut.tangential import tangential_of
+    from lumencut.vessel_tree import VesselTree
+
+    still = {"rotate": 0.0, "tilt": 0.0, "zoom": 1.0, "center": None}
+    up = chosen["up"] if "up" in typed(chosen) else None
+    placed = {
+        **chosen,
+        **still,
+        "up": up,
+        "view": chosen["view"] or "anterior",
+        "size": chosen["size"] or _SIZE,
+    }
+    camera = options.placed(options.view_from(placed), VesselTree([vessel]), placed)
+    return tangential_of(renderer, vessel, camera, smoothing=chosen["smoothing"], settings=settings)

@@ -1,0 +1,154 @@
+"""``lumencut uncurl``: a vessel that becomes straight, as a film or as one picture."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from lumencut.cli import options, reformations
+from lumencut.cli.like import typed
+from lumencut.cli.report import bar, say, timings, verbose_option
+from lumencut.cli.settings import look_options
+from lumencut.cli.vessels import path_option
+from lumencut.errors import FormatError, SettingsError
+
+if TYPE_CHECKING:
+    import numpy as np
+    import numpy.typing as npt
+
+    from lumencut.animation import Writer
+    from lumencut.camera import Camera
+    from lumencut.renderer import Renderer
+    from lumencut.settings import Settings
+    from lumencut.uncurling import Uncurled
+    from lumencut.vessel import Vessel
+
+
+@click.command(short_help="Straighten a vessel before your eyes (film).")
+@click.argument("volume", type=options.FILE)
+@click.argument("centerlines", type=options.FILE, nargs=-1, required=True)
+@click.option(
+    "-o",
+    "--output",
+    type=options.FILE,
+    required=True,
+    help="Film (.webp, .apng, .mp4, frame-%03d.png or a folder), or with --amount a picture (.png, .npz, …).",
+)
+@click.option(
+    "--amount",
+    type=click.FloatRange(0, 1),
+    metavar="0..1",
+    help="One picture of the vessel straightened so far: 0 as the viewer sees it, 1 straight.",
+)
+@click.option(
+    "--frames", type=click.IntRange(2, 10000), default=48, show_default=True, help="How many frames."
+)
+@click.option(
+    "--fps", type=click.FloatRange(0.1, 100), default=24, show_default=True, help="Frames per second."
+)
+@options.shown_vessel_options
+@path_option
+@click.option(
+    "--width",
+    type=float,
+    metavar="MM",
+    help="Show what lies within half of this on each side of the vessel; default: all of the picture.",
+)
+@options.view_options
+@reformations.smoothing_option
+@reformations.annotate_option
+@reformations.like_option
+@options.reading_options
+@look_options
+@verbose_option
+def uncurl(**given: Any) -> None:
+    """Show a vessel of CENTERLINES with its surroundings as it is straightened: from the body to its CPR.
+
+    Its lengths stay true throughout. Of several vessels the longest is shown, unless --vessel or --path name
+    one.
+
+    \b
+    lumencut uncurl ct.nii.gz centerlines.vtp -o film.webp --path 0,1,4
+    lumencut uncurl ct.nii.gz centerlines.vtp -o half.png --vessel LAD --amount 0.5 --view left
+    """  # noqa: D301 - click needs the control character itself
+    output, fps = given["output"], given["fps"]
+    chosen, settings = reformations.like({**given, "camera": None}, "uncurl")
+    write = _writer(output, chosen["amount"], fps)
+    renderer, _, vessels = reformations.read_vessels(chosen, settings, "uncurl")
+    title, vessel = max(vessels, key=lambda named: named[1].length)
+    camera = _camera(chosen, vessel)
+    first = _made(renderer, vessel, camera, chosen, settings)
+    if write is None:
+        reformations.write_each(chosen, [(title, vessel)], lambda _: first)
+        return
+    frames = chosen["frames"]
+    write(_film(first, frames, annotate=chosen["annotate"]), fps)
+    say(f"{output}: vessel {title} uncurled, {frames} frames, {frames / fps:.3g} s")
+
+
+def _writer(output: Path, amount: float | None, fps: float) -> Writer | None:
+    """What writes a film, None where one picture is asked for; refuse what cannot be written."""
+    if amount is not None:
+        options.check_picture(output)
+        return None
+    from lumencut.animation import checked_fps, writer_for
+
+    try:
+        checked_fps(fps)
+        write = writer_for(output)
+    except (FormatError, SettingsError) as error:
+        raise click.UsageError(f"{error}; one picture needs --amount") from error
+    options.check_folder(output)
+    return write
+
+
+def _camera(chosen: dict[str, Any], vessel: Vessel) -> Camera:
+    """The view of --like where no option says another one, else that of the options, fitted to the film."""
+    from lumencut.camera import Camera
+    from lumencut.uncurling import fitted_uncurling
+
+    own = {"view", "up", "rotate", "tilt", "size", "center", "pixel_spacing", "zoom"}
+    if chosen["camera"] is not None and not own & typed(chosen).keys():
+        return Camera(**{**chosen["camera"], "size": tuple(chosen["camera"]["size"])})
+    fitted = fitted_uncurling(options.view_from(chosen), vessel, chosen["smoothing"])
+    return options.placed_like(fitted, chosen)
+
+
+def _made(
+    renderer: Renderer, vessel: Vessel, camera: Camera, chosen: dict[str, Any], settings: Settings
+) -> Uncurled:
+    """The vessel at the amount that is asked for, in a window that all frames share."""
+    from lumencut.uncurling import uncurl_of
+
+    named = {name: chosen[name] for name in ("width", "smoothing")}
+    shown = renderer.windowed(settings)
+    return uncurl_of(renderer, vessel, camera, chosen["amount"] or 0.0, settings=shown, **named)
+
+
+@dataclass(frozen=True)
+class _Picture:
+    """A frame of the film, as the writers of animations take it."""
+
+    camera: Camera
+    image: npt.NDArray[np.uint8]
+
+    def _png_options(self, **_: bool) -> dict[str, Any]:
+        return {}
+
+
+def _film(first: Uncurled, frames: int, *, annotate: bool) -> Iterator[Any]:
+    """The frames, opaque, while a progress bar moves."""
+    from lumencut.uncurling import uncurling
+
+    with bar("uncurl", "frame") as told:
+        for done, made in enumerate(uncurling(first, frames), 1):
+            image = (made.annotated() if annotate else made.image).copy()
+            timings(f"frame {done}", made.timings)
+            # What lies outside the volume is black.
+            image[..., 3] = 255
+            yield _Picture(made.camera, image)
+            told(done, frames)

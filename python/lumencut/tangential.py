@@ -1,0 +1,96 @@
+"""Tangential CPR: one vessel as a camera sees it, with what lies beside each of its places, as deep as it."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from lumencut import _lumencut
+from lumencut._checks import number
+from lumencut._reformation_checks import SlabArgument, check_vessel, flat_settings
+from lumencut.camera import Camera
+from lumencut.errors import CameraError, SettingsError, VolumeError
+from lumencut.reformation import Reformation
+from lumencut.reformation_recipe import ReformationRecipe, camera_parameters
+from lumencut.renderer import Renderer
+from lumencut.settings import Settings
+from lumencut.vessel import Vessel
+from lumencut.vessel_tree import VesselTree
+
+_AXES = "As the camera sees it, each pixel as deep as the nearest place of the vessel; lengths are not true."
+
+
+class TangentialReformation(Reformation):
+    """One vessel in the pixels of a camera, made by :func:`lumencut.cpr` with the mode ``"tangential"``.
+
+    Each pixel looks along its own ray at the depth of that place of the vessel which is nearest to it in the
+    image. No pixel is folded: in space no place of the vessel is nearer to what a pixel shows. Where two
+    stretches of the vessel are equally near, the image is torn. Every world point has the pixel where the
+    camera sees it.
+
+    Attributes
+    ----------
+    mode : str
+        ``"tangential"``.
+    camera : Camera
+        The view.
+    """
+
+    mode = "tangential"
+
+    def __init__(
+        self, renderer: Renderer, vessel: Vessel, camera: Camera, smoothing: float, given: Settings
+    ) -> None:
+        self.camera, self._vessel, self._smoothing = camera, vessel, smoothing
+        core = _lumencut.tangential_layout(vessel.points, smoothing, camera)
+        parameters = {"mode": self.mode, "camera": camera_parameters(camera), "smoothing": smoothing}
+        recipe = ReformationRecipe("tangential CPR", _AXES, parameters, "cpr")
+        super().__init__(renderer, core, given, recipe, measurable=False)
+
+    def rotated(self, angle: float | None = None, *, degrees: float | None = None) -> TangentialReformation:
+        """Return the same vessel with the camera turned to the right about its up axis.
+
+        Parameters
+        ----------
+        angle : float
+            By how much (radians), as for :meth:`Camera.rotated`.
+        degrees : float
+            The angle in degrees, in the place of ``angle``.
+
+        Raises
+        ------
+        CameraError
+            For both angles or neither, or one that is no finite number.
+        """
+        if (angle is None) == (degrees is None):
+            found = "neither" if angle is None else "an angle in radians and one in degrees"
+            raise CameraError("angle of the rotation", found, "one of angle= (radians) and degrees=")
+        turned = math.radians(degrees) if degrees is not None else angle
+        camera = self.camera.rotated(number(CameraError, "angle of the rotation", turned), "up")
+        return TangentialReformation(self._renderer, self._vessel, camera, self._smoothing, self._given)
+
+    def _edges(self) -> dict[str, str]:
+        """The sides of the patient that edges look to."""
+        return dict(_lumencut.edge_letters(np.array(self.camera.right_axis), -np.array(self.camera.up)))
+
+
+def tangential_of(
+    renderer: Renderer,
+    vessel: Vessel,
+    camera: Camera | None = None,
+    *,
+    slab: SlabArgument = None,
+    smoothing: float = 0.0,
+    settings: Any = None,
+) -> TangentialReformation:
+    """Return the tangential CPR of a vessel by a renderer; parameters are those of :func:`lumencut.cpr`."""
+    check_vessel(vessel)
+    if not isinstance(camera, (Camera, type(None))):
+        raise CameraError("camera of the CPR", type(camera).__name__, "a Camera or None")
+    if renderer.volume is None:
+        raise VolumeError("volume of the CPR", "None", "a volume to show")
+    view = camera or Camera.anterior(VesselTree([vessel]))
+    smooth = number(SettingsError, "smoothing of the centerline", smoothing)
+    return TangentialReformation(renderer, vessel, view, smooth, flat_settings(settings, slab))

@@ -1,0 +1,233 @@
+"""Uncurl: one vessel with its surroundings on the way from what a camera sees to the straightened CPR."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import Any, Literal
+
+import numpy as np
+import numpy.typing as npt
+
+from lumencut import _lumencut
+from lumencut._checks import integers, number
+from lumencut._reformation_checks import SlabArgument, check_vessel, flat_settings
+from lumencut.camera import Camera
+from lumencut.errors import CameraError, SettingsError, VolumeError
+from lumencut.reformation import Reformation
+from lumencut.reformation_recipe import ReformationRecipe, camera_parameters
+from lumencut.renderer import Renderer
+from lumencut.settings import Settings
+from lumencut.vessel import Vessel
+from lumencut.vessel_tree import VesselTree
+
+_AXES = "As the camera sees the vessel bent {percent:.0f} % of the way to straight, its length kept."
+
+#: How much of the image the vessel takes, where the image is fitted to it.
+_FILLED = 0.9
+
+#: How many steps of a film a fitted image is fitted to.
+_STEPS = 17
+
+#: The most frames of a film.
+_MOST_FRAMES = 10_000
+
+
+class Uncurled(Reformation):
+    """One vessel straightened by degrees in the pixels of a camera, made by :func:`lumencut.uncurl`.
+
+    At an amount of 0 it is the tangential CPR, at 1 the straightened CPR in the middle of the image, seen
+    from where the camera looks at the vessel's first point. In between, the vessel is as long as it is, and
+    turns less. A pixel is folded where another part of the vessel is nearer to what it shows. A world point
+    that is not shown has no pixel (NaN).
+
+    Attributes
+    ----------
+    amount : float
+        How far the vessel is straightened, from 0 to 1.
+    camera : Camera
+        The view.
+    width : float or None
+        How far apart the outermost pixels beside the vessel are that show something (mm); None shows all.
+    """
+
+    _core: _lumencut.Uncurl
+
+    def __init__(
+        self,
+        renderer: Renderer,
+        vessel: Vessel,
+        camera: Camera,
+        amount: float,
+        how: tuple[float | None, float],
+        given: Settings,
+    ) -> None:
+        self.amount, self.camera, self._vessel, self._how = amount, camera, vessel, how
+        self.width, smoothing = how
+        core = _lumencut.Uncurl(vessel.points, smoothing, camera, amount, self.width)
+        parameters = {
+            "camera": camera_parameters(camera),
+            "amount": amount,
+            "width": self.width,
+            "smoothing": smoothing,
+        }
+        axes = _AXES.format(percent=100 * amount)
+        recipe = ReformationRecipe(f"uncurled {100 * amount:.0f} %", axes, parameters, "uncurl")
+        super().__init__(renderer, core, given, recipe, measurable=False)
+
+    def changed(self, amount: float) -> Uncurled:
+        """Return the same vessel straightened by another amount, from 0 to 1; the renderer is used again.
+
+        Raises
+        ------
+        SettingsError
+            For an amount outside 0 to 1.
+        """
+        checked = number(SettingsError, "amount of the uncurling", amount)
+        return Uncurled(self._renderer, self._vessel, self.camera, checked, self._how, self._given)
+
+
+def uncurl(
+    volume: Any,
+    vessel: Vessel,
+    camera: Camera | None = None,
+    amount: float = 0.5,
+    width: float | None = None,
+    pixel_spacing: float | None = None,
+    smoothing: float = 0.0,
+    slab: SlabArgument = None,
+    settings: Settings | None = None,
+    device: Literal["auto", "cpu", "gpu"] = "auto",
+) -> Uncurled:
+    """Return a vessel with its surroundings, straightened by an amount (ours).
+
+    The curvature of the vessel, in the frame that does not turn about it, is made smaller by the amount, and
+    the vessel is drawn anew with it: its lengths stay true, and a helix stays a helix of the same torsion.
+    Its line from end to end turns from its own direction to downwards. Each pixel takes the nearest place of
+    the bent vessel in the image, and what lies as far beside that place of the true one.
+
+    Parameters
+    ----------
+    volume : Volume, or whatever else :func:`lumencut.render` takes as a volume
+        The angiography.
+    vessel : Vessel
+        The centerline; :meth:`VesselTree.path` makes one of several vessels that meet.
+    camera : Camera, optional
+        The view; from the front where not given, with room for the vessel at every amount.
+    amount : float, default 0.5
+        From 0, the tangential CPR of ``cpr(mode="tangential", camera=camera)``, to 1, the straightened CPR of
+        ``cpr(mode="straightened", normal=-camera.direction)``.
+    width : float, optional
+        How far apart the outermost pixels beside the vessel are that show something (mm); all where not
+        given.
+    pixel_spacing : float, optional
+        Side of a pixel (mm) in the place of the camera's, whose image keeps the length of its sides.
+    smoothing : float, default 0
+        Standard deviation of the Gaussian that smooths the centerline along its length (mm, 0 to 1000).
+    slab : Slab, (mm, mode) or mm, optional
+        How thick the image is along the view, in the true surroundings of each place; that of the settings
+        where not given.
+    settings : Settings, optional
+        Window, opacity and slab; a focus and chosen vessels are refused.
+    device : {"auto", "cpu", "gpu"}, default "auto"
+        What computes, as for :class:`lumencut.Renderer`.
+
+    Raises
+    ------
+    VesselTreeError
+        For a vessel of another kind, without length, or wholly outside the volume.
+    CameraError
+        For a camera of another kind, a width that is not above 0, or a pixel spacing that is none.
+    SettingsError
+        For an amount outside 0 to 1, a smoothing out of range, an invalid slab, or a focus.
+    VolumeError
+        For an image that is no volume.
+    """
+    check_vessel(vessel)
+    return uncurl_of(
+        Renderer(volume, VesselTree([vessel]), device),
+        vessel,
+        camera,
+        amount,
+        width=width,
+        pixel_spacing=pixel_spacing,
+        smoothing=smoothing,
+        slab=slab,
+        settings=settings,
+    )
+
+
+def uncurl_of(
+    renderer: Renderer,
+    vessel: Vessel,
+    camera: Camera | None = None,
+    amount: float = 0.5,
+    *,
+    width: float | None = None,
+    pixel_spacing: float | None = None,
+    smoothing: float = 0.0,
+    slab: SlabArgument = None,
+    settings: Settings | None = None,
+) -> Uncurled:
+    """Return an uncurled vessel by a renderer, whose window it has; parameters as for :func:`uncurl`."""
+    check_vessel(vessel)
+    if not isinstance(camera, (Camera, type(None))):
+        raise CameraError("camera of the uncurling", type(camera).__name__, "a Camera or None")
+    if renderer.volume is None:
+        raise VolumeError("volume of the uncurling", "None", "a volume to show")
+    share = number(SettingsError, "amount of the uncurling", amount)
+    smooth = number(SettingsError, "smoothing of the centerline", smoothing)
+    wide = None if width is None else number(CameraError, "width of the uncurling", width)
+    view = camera or fitted_uncurling(Camera.anterior(VesselTree([vessel])), vessel, smooth)
+    if pixel_spacing is not None:
+        view = _with_pixels(view, number(CameraError, "pixel_spacing of the uncurling", pixel_spacing))
+    return Uncurled(renderer, vessel, view, share, (wide, smooth), flat_settings(settings, slab))
+
+
+def fitted_uncurling(camera: Camera, vessel: Vessel, smoothing: float = 0.0) -> Camera:
+    """Return the camera in the middle of a vessel, with pixels at which it fits at every amount.
+
+    Parameters
+    ----------
+    camera : Camera
+        The view; its direction, up and size are kept.
+    vessel : Vessel
+        What is uncurled.
+    smoothing : float, default 0
+        As for :func:`uncurl` (mm).
+    """
+    check_vessel(vessel)
+    middle = Camera.fitted(VesselTree([vessel]), camera.direction, camera.up, camera.size)
+    amounts = np.linspace(0, 1, _STEPS)
+    cores = (_lumencut.Uncurl(vessel.points, smoothing, middle, float(amount)) for amount in amounts)
+    largest = np.max([core.extent for core in cores], axis=0)
+    return replace(middle, pixel_spacing=float((2 * largest / camera.size).max()) / _FILLED)
+
+
+def film_amounts(frames: int) -> npt.NDArray[np.float64]:
+    """Return the amounts of a film's frames, shape (frames,): from 0 to 1, slow at both ends."""
+    (count,) = integers(CameraError, "frames of the uncurling", [frames], 2, _MOST_FRAMES, 1)
+    at = np.linspace(0, 1, count)
+    return at * at * (3 - 2 * at)
+
+
+def uncurling(first: Uncurled, frames: int = 48) -> Iterator[Uncurled]:
+    """Yield a vessel frame by frame as it is straightened, from an amount of 0 to 1; nothing is kept.
+
+    Parameters
+    ----------
+    first : Uncurled
+        The vessel at any amount, with the view, the width and the settings of all frames.
+    frames : int, default 48
+        How many frames, at least 2.
+    """
+    for amount in film_amounts(frames):
+        yield first.changed(float(amount))
+
+
+def _with_pixels(camera: Camera, spacing: float) -> Camera:
+    """The same view in pixels of another size."""
+    if not (np.isfinite(spacing) and spacing > 0):
+        raise CameraError("pixel_spacing of the uncurling", f"{spacing:g} mm", "a length above 0 mm")
+    width, height = (max(1, round(side * camera.pixel_spacing / spacing)) for side in camera.size)
+    return replace(camera, size=(width, height), pixel_spacing=spacing)
