@@ -195,3 +195,19 @@ fn what_cannot_be_uncurled_is_refused() {
         assert_eq!(refused(0.5, Some(width)).map(|error| error.kind), Some(ErrorKind::Camera));
     }
 }
+
+#[test]
+fn a_vessel_turns_little_from_one_picture_to_the_next() {
+    // An arch that rises, like the aorta, and leaves its plane: its first segment runs against the straight vessel.
+    let point = |t: f64| DVec3::new(8.0 * t.sin() * t, 30.0 * t.cos(), 20.0 * t.sin() - 25.0 * (t / PI).powi(2));
+    let arch: Vec<_> = (0..=200).map(|n| point(1.2 * PI * f64::from(n) / 200.0)).collect();
+    let ahead = |amount: f64| {
+        let uncurl = Uncurl::new(path(arch.clone()), camera(DVec3::X), amount, None).unwrap();
+        let at = uncurl.path.length() / 2.0;
+        uncurl.bent.true_from_bent(at) * camera(DVec3::X).direction()
+    };
+    for n in 0..50 {
+        let [one, next] = [n, n + 1].map(|n| ahead(f64::from(n) / 50.0));
+        assert!(one.angle_between(next) < 0.1, "{} radians after {n}", one.angle_between(next));
+    }
+}
