@@ -71,11 +71,14 @@ def end(process, number):
 
 
 @pytest.mark.parametrize("number", ENDING, ids=lambda number: number.name)
-@pytest.mark.parametrize("name", ["spin.webp", "frame-%03d.png"])
-def test_a_turntable_leaves_nothing_and_keeps_the_file_before(files, folder, name, number):
+@pytest.mark.parametrize(
+    ("command", "name"),
+    [("turntable", "spin.webp"), ("turntable", "frame-%03d.png"), ("uncurl", "film.webp")],
+)
+def test_a_film_leaves_nothing_and_keeps_the_file_before(files, folder, command, name, number):
     old = folder / (name if "%" not in name else name % 0)
     old.write_bytes(b"old")
-    with running("turntable", *files, "-o", str(folder / name), *LONG) as process:
+    with running(command, *files, "-o", str(folder / name), *LONG) as process:
         wait_for_a_hidden_folder(process, folder)
         end(process, number)
     assert list(folder.iterdir()) == [old]

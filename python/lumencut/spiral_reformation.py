@@ -10,6 +10,7 @@ import numpy.typing as npt
 from lumencut import _lumencut
 from lumencut._checks import choice, number, numbers
 from lumencut._reformation_checks import SlabArgument, check_vessel, flat_settings
+from lumencut._reformation_checks import check_vessel
 from lumencut.errors import CameraError, SettingsError, VesselTreeError, VolumeError
 from lumencut.planar_reformation import one_angle
 from lumencut.reformation import Reformation

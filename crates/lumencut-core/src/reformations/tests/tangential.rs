@@ -81,6 +81,6 @@ fn every_point_has_the_pixel_where_it_is_seen() {
 fn a_vessel_seen_as_one_point_is_refused() {
     let along = Vessel::new(vec![DVec3::ZERO, DVec3::Y * 30.0], None).unwrap();
     let path = Arc::new(CenterlinePath::new(&along, 0.0).unwrap());
-    let error = Tangential::new(path, camera(DVec3::Y)).err().expect("an error");
+    let error = Tangential::new(path, camera(DVec3::Y)).expect_err("one point");
     assert_eq!(error.kind, ErrorKind::Camera);
 }

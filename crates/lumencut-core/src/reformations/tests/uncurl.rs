@@ -199,7 +199,8 @@ fn what_cannot_be_uncurled_is_refused() {
 #[test]
 fn a_vessel_turns_little_from_one_picture_to_the_next() {
     // An arch that rises, like the aorta, and leaves its plane: its first segment runs against the straight vessel.
-    let point = |t: f64| DVec3::new(8.0 * t.sin() * t, 30.0 * t.cos(), 20.0 * t.sin() - 25.0 * (t / PI).powi(2));
+    let point =
+        |t: f64| DVec3::new(8.0 * t.sin() * t, 30.0 * t.cos(), 20.0 * t.sin() - 25.0 * (t / PI).powi(2));
     let arch: Vec<_> = (0..=200).map(|n| point(1.2 * PI * f64::from(n) / 200.0)).collect();
     let ahead = |amount: f64| {
         let uncurl = Uncurl::new(path(arch.clone()), camera(DVec3::X), amount, None).unwrap();

@@ -1,0 +1,53 @@
+"""How long pictures of uncurl, tangential CPR and CFA take: the stent CTA from the front, at 512 × 1024.
+
+Uncurl takes another amount in each run, so that all of it is found anew. ``python benches/uncurl.py [RUNS]``
+needs the installed package.
+"""
+
+from __future__ import annotations
+
+import statistics
+import sys
+import time
+from collections.abc import Callable
+from typing import Any
+
+from lumencut import Camera, Renderer, VesselTree, cfa, demo, set_threads
+from lumencut.tangential import tangential_of
+from lumencut.uncurling import fitted_uncurling, uncurl_of
+
+SIZE = (512, 1024)
+THREADS = 2
+
+
+def main(runs: int) -> None:
+    """Print a table of medians (ms)."""
+    set_threads(THREADS)
+    volume, tree = demo.stent_scene(demo.default_cache())
+    vessel = tree.path([0, 1, 2])
+    renderer = Renderer(volume, VesselTree([vessel]), "cpu")
+    camera = fitted_uncurling(Camera.anterior(vessel, size=SIZE), vessel)
+    uncurled = uncurl_of(renderer, vessel, camera)
+    print("| picture | size | a picture (ms) | stages (ms) |\n|---|---|---|---|")
+    row("tangential CPR", runs, lambda _: tangential_of(renderer, vessel, camera))
+    row("uncurl", runs, lambda run: uncurled.changed((run + 0.5) / (runs + 1)))
+    start = time.perf_counter()
+    made = cfa(volume, vessel, 10.0, "max", 0.25, device="cpu")
+    print(f"| CFA, {made.angles} directions | {made.size} | {1e3 * (time.perf_counter() - start):.0f} | |")
+
+
+def row(name: str, runs: int, make: Callable[[int], Any]) -> None:
+    """Print the median of some runs after a first one, each with its places, values and colours."""
+    times, made = [], make(0)
+    _ = made.image
+    for run in range(1, runs + 1):
+        start = time.perf_counter()
+        made = make(run)
+        _ = made.image
+        times.append(1e3 * (time.perf_counter() - start))
+    stages = ", ".join(f"{stage} {took:.1f}" for stage, took in made.timings.items())
+    print(f"| {name} | {made.size} | {statistics.median(times):.1f} | {stages} |")
+
+
+if __name__ == "__main__":
+    main(int(sys.argv[1]) if len(sys.argv) > 1 else 15)
