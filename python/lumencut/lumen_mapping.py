@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import Any, Literal
 
 import numpy.typing as npt
 
 from lumencut import _lumencut
-from lumencut._checked_settings import checked
 from lumencut._checks import choice, number, numbers
-from lumencut._reformation_checks import check_vessel
+from lumencut._reformation_checks import check_vessel, flat_settings
 from lumencut.errors import CameraError, MeasuringError, SettingsError, VesselTreeError, VolumeError
 from lumencut.planar_reformation import one_angle
 from lumencut.profile import Profile
@@ -180,9 +178,7 @@ def lumen_map_of(
     wall = _lumencut.LumenWall(
         grid, (vessel.points, vessel.radius), smooth, upwards, None if known is None else known._core
     )
-    slab = Slab(high - low, show)
-    given = replace(settings or Settings(), context=None, samples=1, slab=slab)
-    checked(given).refuse_focus()
+    given = flat_settings(settings, Slab(high - low, show))
     return LumenMap(MappedVessel(renderer, wall, known, tree), given, mode, wanted)
 
 

@@ -10,7 +10,6 @@ import numpy.typing as npt
 from lumencut import _lumencut
 from lumencut._checks import choice, number, numbers
 from lumencut._reformation_checks import SlabArgument, check_vessel, flat_settings
-from lumencut._reformation_checks import check_vessel
 from lumencut.errors import CameraError, SettingsError, VesselTreeError, VolumeError
 from lumencut.planar_reformation import one_angle
 from lumencut.reformation import Reformation
@@ -148,7 +147,8 @@ def spiral(
     smoothing : float, default 0
         Standard deviation of the Gaussian that smooths the centerline along its length (mm).
     slab : Slab, (mm, mode) or mm, optional
-        How thick the spirals are across them, and what is shown of that; that of the settings where not given.
+        How thick the spirals are across them, and what is shown of that; as the settings say where not
+        given.
     settings : Settings, optional
         Window, opacity, background and slab.
     degrees : float, optional
