@@ -244,7 +244,8 @@ def test_a_full_disk_ends_the_batch_and_blames_no_study(tmp_path):
 def test_a_study_alone_is_done_in_this_process(tmp_path):
     manifest = write_cohort(tmp_path, good=2, bad=False)
     out = tmp_path / "out"
-    assert run(manifest, out, "--one", "good-1").returncode == 0
+    ended = run(manifest, out, "--one", "good-1")
+    assert (ended.returncode, ended.stdout) == (0, "good-1: done\n")
     assert [path.name for path in out.glob("sub-*")] == ["sub-good1"]
     refused = run(manifest, out, "--one", "nobody")
     assert refused.returncode == 2

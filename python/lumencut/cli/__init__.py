@@ -11,6 +11,7 @@ import click
 
 from lumencut.cli.batch import batch
 from lumencut.cli.cfa import cfa
+from lumencut.cli.bids import bids
 from lumencut.cli.compare_methods import compare_methods
 from lumencut.cli.cpr import cpr
 from lumencut.cli.demo import demo
@@ -79,6 +80,7 @@ for _command in (
     measure,
     batch,
     summarize,
+    bids,
     settings,
     demo,
 ):

@@ -9,20 +9,19 @@ from typing import TYPE_CHECKING, Any, NoReturn
 import click
 
 from lumencut.cli.options import FILE, device_option
-from lumencut.cli.report import say, tell, verbose_option, warn
+from lumencut.cli.report import complain, say, tell, verbose_option, warn
+from lumencut.cohort.job import SOME_FAILED
 from lumencut.errors import FormatError
 
 if TYPE_CHECKING:
     _Type = click.ParamType[Any]
 
-    from lumencut.cohort.manifest import Manifest
+    from lumencut.cohort.layout import Layout
+    from lumencut.cohort.manifest import Manifest, Study
     from lumencut.cohort.recipe import CohortRecipe
 else:
     # Generic only in recent versions of click.
     _Type = click.ParamType
-
-#: The exit code where some studies failed, or will.
-SOME_FAILED = 3
 
 _UNITS = {"": 1, "k": 1 << 10, "m": 1 << 20, "g": 1 << 30, "t": 1 << 40}
 _TIMES = {"": 1, "s": 1, "min": 60, "h": 3600}
@@ -154,8 +153,22 @@ def _one(found: Manifest, recipe: CohortRecipe, output: Path, study_id: str, cho
         study = found.study(study_id)
     except FormatError as error:
         raise click.UsageError(str(error)) from error
-    code = do_one(study, recipe, Layout(output.absolute()), chosen["device"])
+    layout = Layout(output.absolute())
+    code = do_one(study, recipe, layout, chosen["device"])
+    tell_ended(layout, study, code)
     click.get_current_context().exit(code)
+
+
+def tell_ended(layout: Layout, study: Study, code: int) -> None:
+    """Say how a study ended, with the reason where it failed."""
+    from lumencut.cohort.job import DONE
+    from lumencut.cohort.record import read_record
+
+    record = read_record(layout.failure(study)) if code == SOME_FAILED else None
+    if record is not None:
+        complain(f"{study.id}: {record.reason}")
+    elif code == DONE:
+        say(f"{study.id}: done")
 
 
 def _check(found: Manifest, recipe: CohortRecipe) -> None:

@@ -225,6 +225,19 @@ class Cohort:
                 summary = self._tables(plans)
         return replace(summary, worked=worked, notes=self.manifest.notes)
 
+    def gather(self) -> BatchSummary:
+        """Write the tables of what is there, and do nothing else."""
+        self._make()
+        settle_recipe(self.layout, self.recipe, None)
+        return self._tables(planned(self.layout, self.manifest, self.recipe))
+
+    def open_studies(self) -> list[Study]:
+        """Return the studies that are not done with what their files and the recipe are now."""
+        self._make()
+        settle_recipe(self.layout, self.recipe, None)
+        plans = planned(self.layout, self.manifest, self.recipe)
+        return [one.study for one in plans if one.record is None or one.record.state == "failed"]
+
     def _make(self) -> None:
         try:
             self.layout.make()

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal, Protocol
 
-from lumencut.cohort.job import DONE, FAILED, NO_ROOM, Job, launch_words
+from lumencut.cohort.job import DONE, NO_ROOM, SOME_FAILED, Job, launch_words
 from lumencut.cohort.parent import PARENT
 
 State = Literal["done", "failed", "no room"]
@@ -94,7 +94,7 @@ class Child:
                 self.end(signal.SIGKILL)
             return None
         state: State = {DONE: "done", NO_ROOM: "no room"}.get(code, "failed")  # type: ignore[assignment]
-        reason = "" if code in (DONE, FAILED) else self._reason(code)
+        reason = "" if code in (DONE, SOME_FAILED) else self._reason(code)
         return Outcome(self.job.id, state, reason, seconds)
 
     def end(self, number: signal.Signals = signal.SIGTERM) -> None:

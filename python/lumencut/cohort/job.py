@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 #: The exit codes of a process that does one study: whole, failed with a record of it, no room on the disk.
-DONE, FAILED, NO_ROOM = 0, 3, 4
+#: A batch of which some studies failed ends with the second one too.
+DONE, SOME_FAILED, NO_ROOM = 0, 3, 4
 
 
 @dataclass(frozen=True)

@@ -14,7 +14,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-from lumencut.cohort.job import DONE, FAILED, NO_ROOM
+from lumencut.cohort.job import DONE, NO_ROOM, SOME_FAILED
 from lumencut.cohort.layout import Layout, flush
 from lumencut.cohort.manifest import Study
 from lumencut.cohort.recipe import CohortRecipe
@@ -42,7 +42,7 @@ def do_one(study: Study, recipe: CohortRecipe, layout: Layout, device: Device) -
     Returns
     -------
     int
-        The exit code of the process: `DONE`, `FAILED` or `NO_ROOM`.
+        The exit code of the process: `DONE`, `SOME_FAILED` or `NO_ROOM`.
     """
     layout.make()
     origin = origin_of(study, recipe.digest)
@@ -59,7 +59,7 @@ def do_one(study: Study, recipe: CohortRecipe, layout: Layout, device: Device) -
                     raise
                 seconds = time.monotonic() - start
                 record_failure(layout, study, origin, _reason(error), seconds, tuple(told))
-                return FAILED
+                return SOME_FAILED
             seconds = round(time.monotonic() - start, 3)
             made = Record(study.id, "done", "", seconds, origin, tuple(told), numbers)
             made.write(work / layout.record(study).name)

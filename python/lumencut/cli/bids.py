@@ -1,0 +1,95 @@
+"""``lumencut bids``: the participants of a data set of BIDS, and the tables of all, as apps of BIDS do."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Literal
+
+import click
+
+from lumencut.cli.batch import tell_ended
+from lumencut.cli.options import FILE, device_option, threads_option
+from lumencut.cli.report import FAILED, say, verbose_option
+from lumencut.cohort.job import NO_ROOM, SOME_FAILED
+from lumencut.errors import FormatError
+
+if TYPE_CHECKING:
+    from lumencut.cohort.batch import Cohort
+
+#: The names of `lumencut.cohort.bids.SUFFIXES`, here so that ``--help`` need not import numpy.
+SUFFIXES = ("angio", "cta", "ct")
+
+
+@click.command(short_help="Do the participants of a data set of BIDS.")
+@click.argument("data", type=FILE)
+@click.argument("out", type=FILE)
+@click.argument("level", type=click.Choice(["participant", "group"]))
+@click.option("--participant-label", multiple=True, metavar="LABEL", help="Do this one; may be repeated.")
+@click.option(
+    "--suffix",
+    multiple=True,
+    default=SUFFIXES,
+    show_default=True,
+    help="How names of angiographies end before .nii.gz; may be repeated.",
+)
+@click.option("--recipe", type=FILE, help="A TOML file that says what is done with each study.")
+@device_option
+@threads_option
+@verbose_option
+def bids(
+    data: Path,
+    out: Path,
+    level: str,
+    participant_label: tuple[str, ...],
+    suffix: tuple[str, ...],
+    recipe: Path | None,
+    device: Literal["auto", "cpu", "gpu"],
+) -> None:
+    """Do the angiographies of participants of DATA, a data set of BIDS, or write the tables of all to OUT.
+
+    With "participant" each session of the participants is done, one after the other, in this process: a
+    cluster runs one job for each, side by side. With "group" the tables and the contact sheet of all are
+    written. Results are those of lumencut batch.
+
+    \b
+    lumencut bids data derivatives/lumencut participant --participant-label 01
+    lumencut bids data derivatives/lumencut group
+    """  # noqa: D301 - click needs the control character itself
+    from lumencut._files import WRITABLE, checked_path
+    from lumencut.cohort.batch import Cohort
+    from lumencut.cohort.bids import read_bids
+    from lumencut.cohort.layout import Layout
+    from lumencut.cohort.recipe import read_cohort_recipe
+
+    if level == "group" and participant_label:
+        found = "--participant-label with group does nothing: its tables hold all participants"
+        raise click.UsageError(f"{found}; leave it out")
+    try:
+        studies = read_bids(data, suffix, participant_label)
+        how = read_cohort_recipe(recipe)
+    except FormatError as error:
+        raise click.UsageError(str(error)) from error
+    cohort = Cohort(studies, how, Layout(checked_path(out, WRITABLE).absolute()))
+    if level == "group":
+        summary = cohort.gather()
+        skipped = f", {summary.skipped} not done yet" if summary.skipped else ""
+        say(f"{out}: {summary.done} done, {summary.failed} failed{skipped}")
+        failed = summary.failed
+    else:
+        failed = _participants(cohort, device)
+    if failed:
+        click.get_current_context().exit(SOME_FAILED)
+
+
+def _participants(cohort: Cohort, device: Literal["auto", "cpu", "gpu"]) -> int:
+    """Do the studies that are not done yet, and return how many failed."""
+    from lumencut.cohort.one import do_one
+
+    failed = 0
+    for study in cohort.open_studies():
+        code = do_one(study, cohort.recipe, cohort.layout, device)
+        tell_ended(cohort.layout, study, code)
+        if code == NO_ROOM:
+            click.get_current_context().exit(FAILED)
+        failed += code == SOME_FAILED
+    return failed
