@@ -17,7 +17,7 @@ from cohort_scenes import BAD, command, environment, run, table, wait_for, write
 
 pytestmark = pytest.mark.skipif(os.name != "posix", reason="processes are ended as POSIX does")
 
-LIMITS = ("--memory", "2GB", "--time-limit", "20s", "--jobs", "2", "--threads", "1")
+LIMITS = ("--memory", "2GB", "--time-limit", "10s", "--jobs", "2", "--threads", "1")
 
 
 @pytest.fixture(scope="module")

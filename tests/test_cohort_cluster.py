@@ -86,10 +86,10 @@ def processes_of(out):
 
 def test_an_address_without_a_scheduler_is_refused(tmp_path):
     manifest = write_cohort(tmp_path, good=1, bad=False)
-    ended = run(manifest, tmp_path / "out", "--dask", "nowhere")
+    ended = run(manifest, tmp_path / "out", "--dask", "127.0.0.1:9")
     assert ended.returncode == 1
     assert "expected the address of a scheduler that answers" in ended.stderr
-    both = run(manifest, tmp_path / "out", "--dask", "nowhere", "--slurm", "cores=2")
+    both = run(manifest, tmp_path / "out", "--dask", "127.0.0.1:9", "--slurm", "cores=2")
     assert "expected one of them" in both.stderr
 
 

@@ -156,7 +156,7 @@ def read_manifest(path: str | Path, **patterns: str | None) -> Manifest:
         raise FormatError(str(place), found, f"also {' and '.join(missing)}", "; ".join(table.notes))
     further = tuple(name for name in table.names if name not in KNOWN)
     mistakes: list[str] = []
-    studies = [_study(row, further, place.resolve().parent, mistakes) for row in table.rows]
+    studies = [_study(row, further, place.absolute().parent, mistakes) for row in table.rows]
     _check(str(place), studies, [f"line {row.line}" for row in table.rows], mistakes)
     return Manifest(str(place), tuple(studies), further, table.notes)
 
