@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
 
@@ -78,7 +79,7 @@ class _Part(_Type):
 @click.option("--shard", type=_Part(), help="Do one part of N; several may work beside each other.")
 @click.option("--retry", type=click.Choice(["failed", "all"]), help="Do these again in any case.")
 @click.option("--threads", type=click.IntRange(1, 1024), metavar="N",
-              help="How many threads compute in each study; default: the cores by --jobs.")  # fmt: skip
+              help="How many threads compute in each study; default: a fair part of the cores.")  # fmt: skip
 @click.option("--memory", type=_Quantity("SIZE", _UNITS, "8GB"), help="The most memory of each study.")
 @click.option("--time-limit", type=_Quantity("TIME", _TIMES, "90min"), default="1h", show_default=True,
               help="The longest time of each study; 0 for no limit.")  # fmt: skip
@@ -88,6 +89,7 @@ class _Part(_Type):
     metavar="NAME=VALUE,…",
     help="Do them in --jobs jobs of SLURM, such as partition=long,memory=8GB,walltime=24:00:00,cores=2.",
 )
+@click.option("--parquet", is_flag=True, help="Write the tables as Parquet too; needs pyarrow.")
 @click.option("--one", metavar="ID", help="Do this study alone, in this process.")
 @device_option
 @verbose_option
@@ -118,17 +120,30 @@ def batch(manifest: str, output: Path | None, **chosen: Any) -> None:
         # A manifest or a recipe with mistakes is a wrong use of the command.
         raise click.UsageError(str(error)) from error
     if chosen.pop("check"):
+        _refuse(chosen, "--check", (*_OF_ALL, "one"))
         _check(found, recipe)
         return
     if output is None:
         raise click.UsageError("Missing option '-o' / '--output'.")
     one = chosen.pop("one")
     if one is not None:
+        _refuse(chosen, "--one", _OF_ALL)
         _one(found, recipe, output, one, chosen)
         return
     for note in found.notes:
         warn(note)
     _all(manifest, output, given, chosen)
+
+
+#: What speaks of all studies.
+_OF_ALL = ("shard", "retry", "dask", "slurm", "parquet")
+
+
+def _refuse(chosen: dict[str, Any], beside: str, names: Sequence[str]) -> None:
+    """Refuse options that do nothing beside another one."""
+    for name in names:
+        if chosen.get(name):
+            raise click.UsageError(f"--{name} with {beside} does nothing; leave it out")
 
 
 def _manifest(manifest: str, sources: dict[str, str]) -> Manifest:

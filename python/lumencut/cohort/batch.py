@@ -20,10 +20,11 @@ from lumencut.cohort.layout import Layout
 from lumencut.cohort.lock import Lock, Shard, held, one_at_a_time
 from lumencut.cohort.manifest import Manifest, Study, read_manifest
 from lumencut.cohort.one import record_failure
+from lumencut.cohort.parquet import check_parquet, write_parquet
 from lumencut.cohort.plan import Planned, Retry, known_record, planned, settle_recipe, to_do
 from lumencut.cohort.recipe import CohortRecipe, read_cohort_recipe
 from lumencut.cohort.record import read_record
-from lumencut.cohort.tables import write_tables
+from lumencut.cohort.tables import OF_STUDIES, further_names, write_tables
 from lumencut.errors import FileError, SettingsError
 
 #: Called with how many studies ended, how many were to do, and how the last one ended.
@@ -93,6 +94,7 @@ def batch(
     sources: dict[str, str] | None = None,
     dask: str | None = None,
     slurm: str | None = None,
+    parquet: bool = False,
     progress: Progress | None = None,
 ) -> BatchSummary:
     """Do every study of a manifest in a process of its own, and write the tables of the cohort.
@@ -132,6 +134,8 @@ def batch(
     slurm : str, optional
         Start `jobs` jobs of SLURM, each of which does one study at a time, with options such as
         ``"partition=long,memory=8GB,walltime=24:00:00,cores=2"``. Needs ``lumencut[cluster]``.
+    parquet : bool, default False
+        Write the tables as Parquet too. Needs ``lumencut[parquet]``.
     progress : callable, optional
         Called after each study with how many ended, how many were to do, and how this one ended.
 
@@ -149,7 +153,7 @@ def batch(
     SettingsError
         For numbers out of range, `dask` and `slurm` at once, and a scheduler that does not answer.
     MissingPackageError
-        Without the packages of a cluster.
+        Without the packages of a cluster, or of Parquet.
     """
     found = read_manifest(os.fspath(manifest), **(sources or {}))
     cohort = Cohort(found, read_cohort_recipe(recipe), Layout(checked_path(out, WRITABLE).absolute()))
@@ -163,8 +167,14 @@ def batch(
     is_cluster = dask is not None or slurm is not None
     limits = _limits(threads, 0 if is_cluster else _fair_threads(side), memory, time_limit)
     start, wanted = partial(cohort.job, words=words, limits=limits), Wanted(checked_shard(shard), retry)
+    if parquet:
+        # Before hours of work, not behind them.
+        check_parquet()
     with _engine(side, dask, slurm) as engine:
-        return cohort.run(start, engine, wanted, progress)
+        summary = cohort.run(start, engine, wanted, progress)
+    if parquet:
+        cohort.write_parquet()
+    return summary
 
 
 @contextmanager
@@ -230,6 +240,12 @@ class Cohort:
         self._make()
         settle_recipe(self.layout, self.recipe, None)
         return self._tables(planned(self.layout, self.manifest, self.recipe))
+
+    def write_parquet(self) -> None:
+        """Write the tables that are there as Parquet too."""
+        for name in ("studies", *OF_STUDIES):
+            further = further_names(self.manifest) if name == "studies" else ()
+            write_parquet(self.layout.out / f"{name}.csv", frozenset(further))
 
     def open_studies(self) -> list[Study]:
         """Return the studies that are not done with what their files and the recipe are now."""

@@ -47,12 +47,11 @@ class Cluster:
         A study whose worker or machine is lost is begun again elsewhere; one that crashes is not. Workers end
         the processes of their studies when the lock of the batch is gone.
         """
-        from distributed import as_completed
-
+        distributed = _package("distributed", "dask.distributed")
         by_key: dict[str, Job] = {}
         lost: dict[str, int] = {}
         asked = [self._begin(job, lock, by_key) for job in jobs]
-        running = as_completed(asked, loop=self.client.loop)
+        running = distributed.as_completed(asked, loop=self.client.loop)
         try:
             while not running.is_empty():
                 if not running.has_ready():
@@ -98,10 +97,9 @@ def _outcome(future: Any, job: Job, lost: dict[str, int]) -> Outcome | None:
 
 def run_on_worker(job: Job, lock: str) -> Outcome:
     """Do a study in a process of its own on a worker, with a fair part of its cores."""
-    from distributed import get_worker
-
+    distributed = _package("distributed", "dask.distributed")
     cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-    threads = job.threads or max(1, cores // get_worker().state.nthreads)
+    threads = job.threads or max(1, cores // distributed.get_worker().state.nthreads)
     child = Child(replace(job, threads=threads))
     looked = time.monotonic()
     try:
