@@ -28,15 +28,18 @@ def side_by_side(jobs: Sequence[Job], count: int) -> Iterator[Outcome | None]:
         return
     waiting, working = deque(jobs), list[Child]()
     lost: Counter[str] = Counter()
+    # A fork is safe on Linux alone: the libraries of other systems may have threads.
+    is_forked = sys.platform.startswith("linux")
     while waiting:
-        # A fork is safe on Linux alone: the libraries of other systems may have threads.
-        nursery = Nursery() if sys.platform.startswith("linux") else None
+        nursery = Nursery() if is_forked else None
         try:
             yield from _with(nursery, waiting, working, count)
             return
         except NurseryError:
             again = [child.job for child in working]
             working.clear()
+            # Where it cannot even begin, each study has a process that is started anew.
+            is_forked = bool(again)
             lost.update(job.id for job in again)
             waiting.extendleft(job for job in again if lost[job.id] <= _LOST)
             for job in again:

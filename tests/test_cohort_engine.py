@@ -1,0 +1,62 @@
+"""Studies side by side: how their processes end is told, whatever starts them."""
+
+from __future__ import annotations
+
+import os
+import sys
+
+import pytest
+
+from lumencut.cohort import engine
+from lumencut.cohort.engine import side_by_side
+from lumencut.cohort.job import Job
+from lumencut.cohort.nursery import Nursery, NurseryError
+
+pytestmark = pytest.mark.skipif(os.name != "posix", reason="processes are ended as POSIX does")
+
+
+def jobs_of(folder, *words):
+    return [Job(f"job-{n}", one, folder / f"{n}.log", 1, 60.0) for n, one in enumerate(words)]
+
+
+def outcomes(jobs, count=2):
+    return {one.id: one for one in side_by_side(jobs, count) if one is not None}
+
+
+@pytest.fixture(params=["forked", "fresh"])
+def way(request, monkeypatch):
+    """Both ways to start a process."""
+    if request.param == "fresh":
+        monkeypatch.setattr(engine, "Nursery", _Broken)
+    elif sys.platform != "linux":
+        pytest.skip("studies are forked on Linux alone")
+    return request.param
+
+
+class _Broken(Nursery):
+    """A process that ends before it forks anything."""
+
+    def start(self, job):
+        raise NurseryError
+
+
+@pytest.mark.usefixtures("way")
+def test_ends_are_told_by_code_and_last_words(tmp_path):
+    found = outcomes(jobs_of(tmp_path, ("--version",), ("batch",), ("render", "none.nii", "-o", "a.png")))
+    assert [found[f"job-{n}"].state for n in range(3)] == ["done", "failed", "failed"]
+    assert (tmp_path / "0.log").read_text("utf-8").startswith("lumencut ")
+    assert "Missing argument" in found["job-1"].reason
+    assert found["job-2"].reason.startswith("none.nii: found no such file")
+
+
+@pytest.mark.usefixtures("way")
+def test_no_more_work_at_once_than_is_asked_for(tmp_path):
+    begun = outcomes(jobs_of(tmp_path, *[("--version",)] * 5), count=1)
+    assert [one.state for one in begun.values()] == ["done"] * 5
+    # One after the other: in the order in which they were asked for.
+    assert list(begun) == [f"job-{n}" for n in range(5)]
+
+
+def test_no_jobs_start_nothing(tmp_path, monkeypatch):
+    monkeypatch.setattr(engine, "Nursery", None)
+    assert list(side_by_side([], 2)) == []
