@@ -209,3 +209,47 @@ test('Enter takes a suggestion, Delete takes a mark away', async () => {
   await tube.viewer.press('Delete');
   await expect(tube.row('place-0')).toContainText('(suggestion)');
 });
+
+test('the whole line of a place is its grip, 20 pixels beside it too, and a miss changes nothing', async () => {
+  await tube.marked();
+  const box = await tube.viewer.page.getByTestId('chart').boundingBox();
+  const [column] = await tube.middleOf(tube.tick('30'));
+  const window = await tube.viewer.window.textContent();
+  const { mouse } = tube.viewer.page;
+  const drag = async (from: number, by: number) => {
+    const row = (box?.y ?? 0) + (box?.height ?? 0) * 0.6;
+    await mouse.move(from, row);
+    await mouse.down();
+    await mouse.move(from + by / 2, row, { steps: 3 });
+    await mouse.move(from + by, row, { steps: 3 });
+    await mouse.up();
+  };
+  await drag(column + 20, await tube.pixels(3));
+  await expect(tube.row('place-0')).toContainText('at 33.0 mm');
+  await tube.viewer.press('Control+z');
+  await expect(tube.row('place-0')).toContainText('at 30.0 mm');
+
+  // A press without a drag is a click of the chart, and a drag between the lines moves the section alone.
+  await mouse.click(column + 10, (box?.y ?? 0) + (box?.height ?? 0) * 0.6);
+  await drag(column + (await tube.pixels(10)), await tube.pixels(2));
+  await expect(tube.row('place-0')).toContainText('at 30.0 mm');
+  await expect(tube.row('reference-1')).toContainText('at 50.0 mm');
+  await expect(tube.stenosis()).toHaveText(PYTHON.nascet);
+  expect(await tube.viewer.window.textContent()).toBe(window);
+});
+
+test('grips on the vessel are taken from 20 pixels beside their middle', async () => {
+  await tube.marked();
+  const grip = tube.handle('marked place', 'on the vessel');
+  const [x, y] = await tube.middleOf(grip);
+  const before = await tube.viewer.camera();
+  const { mouse } = tube.viewer.page;
+  await mouse.move(x + 19, y);
+  await mouse.down();
+  await mouse.move(x + 19, y + 20, { steps: 5 });
+  await mouse.up();
+  await expect(tube.row('place-0')).not.toContainText('at 30.0 mm');
+  expect(await tube.viewer.camera()).toEqual(before);
+  await tube.viewer.press('Control+z');
+  await expect(tube.row('place-0')).toContainText('at 30.0 mm');
+});

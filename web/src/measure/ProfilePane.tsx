@@ -7,6 +7,7 @@ import * as store from '../state/store';
 import { axisAlong, chartLayout } from './chart-layout';
 import { currentPlaces, currentProfile, currentVessel } from './current';
 import { LyingCpr } from './LyingCpr';
+import { useLineGrips } from './line-grips';
 import { type Lying, lyingIn } from './lying';
 import { NoProfile } from './NoProfile';
 import { COLORS, PlaceHandles } from './PlaceHandles';
@@ -24,8 +25,10 @@ const GRIP = 9;
 export function ProfilePane() {
   const pane = useRef<HTMLDivElement>(null);
   const size = usePaneSize(pane);
+  const length = currentVessel.value?.length;
+  const grips = useLineGrips(size && length && currentProfile.value ? axisAlong(length, size[0]) : null);
   return (
-    <div class="profile-pane" ref={pane}>
+    <div class="profile-pane" ref={pane} {...grips}>
       {size && <ProfileContent size={size} />}
     </div>
   );

@@ -33,11 +33,25 @@ const ARROWS: Readonly<Record<string, Pair>> = {
   ArrowDown: [0, 1],
 };
 
+/** The handle whose middle is nearest, of those whose zones hold a point of the window. */
+function nearestHandle(x: number, y: number): Element | undefined {
+  const away = (handle: Element) => {
+    const { left, right, top, bottom } = handle.getBoundingClientRect();
+    return Math.hypot((left + right) / 2 - x, (top + bottom) / 2 - y);
+  };
+  const here = document.elementsFromPoint(x, y).filter((element) => element.matches('.overlay .handle'));
+  return here.sort((a, b) => away(a) - away(b))[0];
+}
+
 export function Handle(props: HandleProps) {
   const isDragged = useRef(false);
   const begin = (event: TargetedPointerEvent<HTMLButtonElement>) => {
     event.stopPropagation();
-    if (event.button === 0) {
+    const nearest = nearestHandle(event.clientX, event.clientY);
+    if (nearest && nearest !== event.currentTarget && event.isTrusted) {
+      // Zones overlap: of two grips the one that is nearer is meant.
+      nearest.dispatchEvent(new PointerEvent('pointerdown', event));
+    } else if (event.button === 0) {
       event.currentTarget.setPointerCapture(event.pointerId);
       isDragged.current = true;
       props.onBegin?.();

@@ -74,9 +74,12 @@ pub fn places(marks: &[ReportMark]) -> Vec<Place> {
         let name = format!("{}{side}{offered}", mark.name);
         Place { name, at: mark.at, is_suggestion: mark.is_suggestion, is_reference }
     };
-    let mut found: Vec<Place> = marks.iter().map(named).collect();
-    // The place of a stenosis first, then its references along the vessel.
-    found.sort_by(|a, b| a.is_reference.cmp(&b.is_reference).then(a.at.total_cmp(&b.at)));
+    // The place of a stenosis first, then its references along the vessel: a few, for which a sort would be more code than they are worth.
+    let order = |place: &Place| (place.is_reference, place.at);
+    let mut found: Vec<Place> = Vec::new();
+    for place in marks.iter().map(named) {
+        found.insert(found.partition_point(|other| order(other) <= order(&place)), place);
+    }
     found
 }
 

@@ -1,0 +1,20 @@
+/** Which line of a place a drag takes hold of. */
+import { expect, test, vi } from 'vitest';
+import { HIT, nearestLine } from '../src/measure/line-grips';
+import type { Place } from '../src/measure/marks';
+
+// The page's own engine runs in a worker, which there is none of here.
+vi.mock('../src/client/shared', () => ({ engine: {} }));
+
+const place = (at: number): Place => ({ kind: 'place', slot: 0, at, isSuggestion: false });
+/** 10 pixels for each mm, from pixel 5. */
+const AXIS = { low: 0, high: 60, start: 5, end: 605 };
+
+test('a line is taken within 22 pixels, of two the one that is nearer, and none from farther away', () => {
+  const places = [place(30), place(33)];
+  expect(nearestLine(places, AXIS, 305 - HIT)?.at).toBe(30);
+  expect(nearestLine(places, AXIS, 305 - HIT - 1)).toBeNull();
+  expect(nearestLine(places, AXIS, 319)?.at).toBe(30);
+  expect(nearestLine(places, AXIS, 321)?.at).toBe(33);
+  expect(nearestLine([], AXIS, 305)).toBeNull();
+});
