@@ -24,3 +24,24 @@ test('a line that is not shown is refused', async ({ browser }) => {
   expect(words).toContain('number of the line: found 1000000; expected one of the lines that are shown');
   await viewer.close();
 });
+
+test('while a vessel is measured the section says that it is computed, until it is the one that was asked for', async ({
+  browser,
+}) => {
+  const viewer = await Viewer.open(browser, '?phantom=aorta&device=cpu', {
+    viewport: { width: 1280, height: 800 },
+  });
+  await viewer.rest();
+  await viewer.press('m');
+  const busy = viewer.pane('section').locator('.busy');
+  const measuring = viewer.page.getByRole('progressbar', { name: 'measuring the vessel' });
+  await expect(measuring).toBeVisible();
+  await viewer.wheel([0.5, 0.5], 120, 'section');
+  await expect(busy).toBeVisible({ timeout: 2000 });
+  await expect(measuring).toBeVisible();
+  await viewer.screenshot('section-busy');
+  await expect(measuring).toHaveCount(0, { timeout: 60_000 });
+  await expect(busy).toHaveCount(0);
+  viewer.expectNoFault();
+  await viewer.close();
+});

@@ -1,6 +1,6 @@
 /** A picture that the engine makes, on a canvas of its own: slices, the straightened vessel, the section. */
 import type { ComponentChildren } from 'preact';
-import { useEffect, useRef } from 'preact/hooks';
+import { useEffect, useRef, useState } from 'preact/hooks';
 import { Latest } from '../core/latest';
 import type { Pair, Picture } from '../core/messages';
 import { type Handlers, listen } from '../input/pointer';
@@ -19,6 +19,8 @@ interface FlatPictureProps {
   readonly empty?: string;
   /** How large a pixel of the picture is on the screen, and whether it fills the pane. */
   readonly style?: Record<string, string>;
+  /** Whether what is asked for next is still waited for, so that the picture is not the one that is wanted. */
+  readonly isLate?: boolean;
   readonly onSize?: (size: Pair) => void;
   /** What arrow keys do in the place of scrolling: steps to the right and downwards, ten with Shift. */
   readonly onArrow?: ((by: Pair) => void) | undefined;
@@ -32,6 +34,7 @@ export function FlatPicture({
   handlers,
   empty,
   style,
+  isLate,
   onSize,
   onArrow,
   children,
@@ -44,6 +47,7 @@ export function FlatPicture({
   const asked = useRef(ask);
   asked.current = ask;
   const size = usePaneSize(pane);
+  const [isPending, setPending] = useState(false);
 
   // A view that is closed asks nothing any longer.
   useEffect(
@@ -64,8 +68,10 @@ export function FlatPicture({
       clear(canvas.current);
     }
     if (!ask || !size || size[0] < 2 || size[1] < 2) {
+      setPending(false);
       return;
     }
+    setPending(true);
     latest.current.run(async () => {
       try {
         const picture = await ask(size);
@@ -77,6 +83,9 @@ export function FlatPicture({
         if (asked.current === ask) {
           recover(error);
         }
+      }
+      if (asked.current === ask) {
+        setPending(false);
       }
     });
   }, [ask, size]);
@@ -107,6 +116,7 @@ export function FlatPicture({
       <div class="overlay">
         {!ask && empty && <p class="nothing-yet">{empty}</p>}
         {children}
+        {(isPending || isLate) && <span class="busy">Computing …</span>}
       </div>
     </div>
   );

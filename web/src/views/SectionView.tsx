@@ -2,7 +2,7 @@
 import { useEffect, useState } from 'preact/hooks';
 import { engine } from '../client/shared';
 import type { Answer } from '../core/asked';
-import type { Pair, Plane } from '../core/messages';
+import type { LineId, Pair, Plane } from '../core/messages';
 import { pixelOn, pointOn } from '../core/planes';
 import { moveAlong } from '../link/along';
 import { placeCrossHair } from '../link/cross-hair';
@@ -23,6 +23,17 @@ const FIRST_SIDE = 50;
 /** The step of the wheel along the vessel (mm). */
 const STEP = 0.5;
 
+/** A section, and which place of which line it is of. */
+interface Frame extends Pick<Plane, 'center' | 'right' | 'down'> {
+  readonly line: LineId | null;
+  readonly at: number;
+}
+
+const planeOf = ({ center, right, down }: Frame, size: Pair, side: number): Plane => ({
+  ...{ center, right, down, size },
+  pixel_spacing: side / Math.min(...size),
+});
+
 export function SectionView() {
   const vessel = store.pickedVessel.value;
   const at = store.pickedPlace.value;
@@ -31,13 +42,13 @@ export function SectionView() {
   const window = store.window_.value;
   const [size, setSize] = useState<Pair | null>(null);
   const [side, setSide] = useState(FIRST_SIDE);
-  const [frame, setFrame] = useState<Pick<Plane, 'center' | 'right' | 'down'> | null>(null);
+  const [frame, setFrame] = useState<Frame | null>(null);
 
   useEffect(() => {
     if (vessel === null) {
       setFrame(null);
     } else {
-      const show = ([center, right, down]: Answer<'across'>) => setFrame({ center, right, down });
+      const show = ([center, right, down]: Answer<'across'>) => setFrame({ center, right, down, line, at });
       engine.ask('across', { vessel, at }).then(show, (error) => {
         // What was asked of a tree that is gone needs no answer.
         if (line === pickedLine()) {
@@ -48,7 +59,7 @@ export function SectionView() {
     // Once the vessel is measured its section is the one that was, so that the contour lies in it.
   }, [vessel, at, line, profile]);
 
-  const plane = frame && size ? { ...frame, size, pixel_spacing: side / Math.min(...size) } : null;
+  const plane = frame && size ? planeOf(frame, size, side) : null;
   const ask = useAsked(plane, window);
   const point = (place: Pair) => {
     if (plane) {
@@ -76,6 +87,7 @@ export function SectionView() {
       words="section across the picked vessel"
       ask={ask}
       handlers={handlers}
+      isLate={frame !== null && (frame.line !== line || frame.at !== at)}
       empty="The section across a vessel is shown here once there is one."
       onSize={setSize}
     >
