@@ -7,7 +7,9 @@ import sys
 
 import pytest
 
+from lumencut.cli import batch_progress
 from lumencut.cohort import engine
+from lumencut.cohort.child import Outcome
 from lumencut.cohort.engine import side_by_side
 from lumencut.cohort.job import Job
 from lumencut.cohort.nursery import Nursery, NurseryError
@@ -55,6 +57,16 @@ def test_no_more_work_at_once_than_is_asked_for(tmp_path):
     assert [one.state for one in begun.values()] == ["done"] * 5
     # One after the other: in the order in which they were asked for.
     assert list(begun) == [f"job-{n}" for n in range(5)]
+
+
+def test_without_a_terminal_a_line_now_and_then_tells_how_far_it_is(monkeypatch, capsys):
+    moments = iter([0.0, 30.0, 90.0, 100.0, 180.0])
+    monkeypatch.setattr(batch_progress.time, "monotonic", lambda: next(moments))
+    with batch_progress.batch_progress() as told:
+        for done, state in enumerate(("done", "failed", "done", "done"), 1):
+            told(done, 4, Outcome(f"p{done}", state, "crashed: SIGABRT" if state == "failed" else "", 1.0))
+    lines = capsys.readouterr().err.splitlines()
+    assert lines == ["p2: failed: crashed: SIGABRT", "2 of 4 studies, 1 failed, 80 an hour, about 2 min left"]
 
 
 def test_no_jobs_start_nothing(tmp_path, monkeypatch):

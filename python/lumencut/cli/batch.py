@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING, Any, NoReturn
 
 import click
 
+from lumencut.cli.batch_progress import batch_progress
 from lumencut.cli.options import FILE, device_option
-from lumencut.cli.report import complain, say, tell, verbose_option, warn
+from lumencut.cli.report import complain, say, verbose_option, warn
 from lumencut.cohort.job import SOME_FAILED
 from lumencut.errors import FormatError
 
@@ -204,21 +205,11 @@ def _check(found: Manifest, recipe: CohortRecipe) -> None:
 
 
 def _all(manifest: str, output: Path, sources: dict[str, str], chosen: dict[str, Any]) -> None:
-    """Do all studies, with a line for each that failed and a bar on a terminal."""
-    from tqdm import tqdm
-
+    """Do all studies, and tell how far they are."""
     from lumencut.cohort.batch import batch as library
 
     memory, seconds = chosen.pop("memory"), chosen.pop("time_limit")
-    with tqdm(desc="studies", unit="study", disable=None, leave=False, smoothing=0.1) as drawn:
-
-        def told(done: int, total: int, outcome: Any) -> None:
-            drawn.total = total
-            drawn.update(done - drawn.n)
-            if outcome.state != "done":
-                with drawn.external_write_mode():
-                    tell(f"{outcome.id}: {outcome.state}: {outcome.reason}")
-
+    with batch_progress() as told:
         summary = library(
             manifest,
             output,
