@@ -9,9 +9,9 @@ mod layout;
 pub mod lumen_map;
 pub mod mpcpr;
 pub mod spiral;
-pub mod untangled;
 pub mod tangential;
 pub mod uncurl;
+pub mod untangled;
 mod wall;
 
 pub use connections::Connections;

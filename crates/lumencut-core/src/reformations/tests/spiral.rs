@@ -30,7 +30,9 @@ fn width(spiral: &Spiral, is_inside: impl Fn(DVec2) -> bool) -> f64 {
 
 #[test]
 fn the_width_of_a_region_is_its_area_by_the_pitch() {
-    let regions: [(fn(DVec2) -> bool, f64); 3] = [
+    /// Whether a place of a section is inside.
+    type Region = fn(DVec2) -> bool;
+    let regions: [(Region, f64); 3] = [
         (|q| q.length() < 10.0, 100.0),
         (|q| (q / DVec2::new(12.0, 5.0)).length() < 1.0, 60.0),
         (|q| (q - DVec2::new(4.0, 3.0)).length() < 7.0, 49.0),
