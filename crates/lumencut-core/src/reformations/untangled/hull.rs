@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use super::pieces::Piece;
 
-/// How many discs that follow one another share a circle around them.
+/// How many discs that follow one another share a circle around them, and how many of these circles another one.
 const RUN: usize = 16;
 
 /// Discs may touch (mm).
@@ -80,46 +80,44 @@ fn crossing(from: DVec2, to: DVec2, distance: f64) -> f64 {
     share.clamp(0.0, 1.0)
 }
 
+/// A circle around others.
+type Circle = (DVec2, f64);
+
 /// Discs that move as one.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Hull {
     discs: Vec<Disc>,
-    /// A circle around the discs of each run.
-    runs: Vec<(DVec2, f64)>,
+    /// A circle around the discs of each run, and one around the circles of as many runs.
+    runs: Vec<Circle>,
+    groups: Vec<Circle>,
 }
 
 impl Hull {
     pub fn new(discs: Vec<Disc>) -> Self {
-        let circle = |discs: &[Disc]| {
-            let center = discs.iter().map(|disc| disc.center).sum::<DVec2>() / discs.len() as f64;
-            let reach = |disc: &Disc| disc.center.distance(center) + disc.radius.max(0.0);
-            (center, discs.iter().map(reach).fold(0.0, f64::max))
-        };
-        Self { runs: discs.chunks(RUN).map(circle).collect(), discs }
+        let circles: Vec<Circle> = discs.iter().map(|disc| (disc.center, disc.radius.max(0.0))).collect();
+        let around = |circles: &[Circle]| circles.chunks(RUN).map(circle_around).collect::<Vec<_>>();
+        let runs = around(&circles);
+        Self { groups: around(&runs), runs, discs }
     }
 
     pub fn discs(&self) -> &[Disc] {
         &self.discs
     }
 
-    /// The hull turned about the origin (radians).
-    pub fn turned(&self, angle: f64) -> Self {
+    /// The discs turned about the origin (radians).
+    pub fn turned(&self, angle: f64) -> Vec<Disc> {
         let turn = DVec2::from_angle(angle);
-        let discs = self.discs.iter().map(|disc| Disc { center: turn.rotate(disc.center), ..*disc });
-        Self {
-            discs: discs.collect(),
-            runs: self.runs.iter().map(|(center, radius)| (turn.rotate(*center), *radius)).collect(),
-        }
+        self.discs.iter().map(|disc| Disc { center: turn.rotate(disc.center), ..*disc }).collect()
     }
 
-    /// Whether a disc of this hull overlaps one of another.
-    pub fn overlaps(&self, other: &Self) -> bool {
-        self.pairs(other, &mut |_, _| true)
+    /// Whether a disc of this hull overlaps one of another that is turned about the origin (radians).
+    pub fn overlaps(&self, other: &Self, angle: f64) -> bool {
+        self.pairs(other, angle, &mut |_, _| true)
     }
 
-    /// Adds all pieces of two hulls whose discs overlap.
-    pub fn add_overlapping(&self, other: &Self, pieces: &mut Vec<usize>) {
-        self.pairs(other, &mut |disc, other| {
+    /// Adds all pieces of two hulls, the other one turned, whose discs overlap.
+    pub fn add_overlapping(&self, other: &Self, angle: f64, pieces: &mut Vec<usize>) {
+        self.pairs(other, angle, &mut |disc, other| {
             pieces.extend([disc.piece, other.piece]);
             false
         });
@@ -127,20 +125,23 @@ impl Hull {
 
     /// Whether discs of this hull, one piece, overlap each other farther apart along it than twice the sum of their radii.
     pub fn overlaps_itself(&self) -> bool {
-        self.pairs(self, &mut |disc, other| (disc.at - other.at).abs() > 2.0 * (disc.radius + other.radius))
+        let is_far =
+            |disc: &Disc, other: &Disc| (disc.at - other.at).abs() > 2.0 * (disc.radius + other.radius);
+        self.pairs(self, 0.0, &mut |disc, other| is_far(disc, other))
     }
 
-    /// Meets pairs of discs that overlap until one of them is the last that counts; tells whether there was one.
-    fn pairs(&self, other: &Self, is_last: &mut impl FnMut(&Disc, &Disc) -> bool) -> bool {
-        for (run, discs) in self.runs.iter().zip(self.discs.chunks(RUN)) {
-            for (other_run, others) in other.runs.iter().zip(other.discs.chunks(RUN)) {
-                let reach = run.1 + other_run.1;
-                if run.0.distance_squared(other_run.0) > reach * reach {
-                    continue;
-                }
-                for disc in discs {
-                    for other in others {
-                        if disc.overlaps(other) && is_last(disc, other) {
+    /// Meets pairs of discs that overlap, those of the other hull turned, until one of them is the last that counts; tells whether
+    /// there was one.
+    fn pairs(&self, other: &Self, angle: f64, is_last: &mut impl FnMut(&Disc, &Disc) -> bool) -> bool {
+        let turn = DVec2::from_angle(angle);
+        for (m, group) in other.groups.iter().enumerate() {
+            let group = (turn.rotate(group.0), group.1);
+            for n in (0..self.groups.len()).filter(|n| meet(&self.groups[*n], &group)) {
+                for m in members(m, other.runs.len()) {
+                    let run = (turn.rotate(other.runs[m].0), other.runs[m].1);
+                    let near = members(n, self.runs.len()).filter(|n| meet(&self.runs[*n], &run));
+                    for n in near {
+                        if self.pairs_of_runs(n, other, m, turn, is_last) {
                             return true;
                         }
                     }
@@ -149,4 +150,42 @@ impl Hull {
         }
         false
     }
+
+    /// The same of one run of each.
+    fn pairs_of_runs(
+        &self,
+        n: usize,
+        other: &Self,
+        m: usize,
+        turn: DVec2,
+        is_last: &mut impl FnMut(&Disc, &Disc) -> bool,
+    ) -> bool {
+        for other in &other.discs[members(m, other.discs.len())] {
+            let other = Disc { center: turn.rotate(other.center), ..*other };
+            for disc in &self.discs[members(n, self.discs.len())] {
+                if disc.overlaps(&other) && is_last(disc, &other) {
+                    return true;
+                }
+            }
+        }
+        false
+    }
+}
+
+/// A circle around circles.
+fn circle_around(circles: &[Circle]) -> Circle {
+    let center = circles.iter().map(|(center, _)| center).sum::<DVec2>() / circles.len() as f64;
+    let reach = |(other, radius): &Circle| other.distance(center) + radius;
+    (center, circles.iter().map(reach).fold(0.0, f64::max))
+}
+
+/// The numbers of what a circle is around, of `count` in all.
+fn members(n: usize, count: usize) -> std::ops::Range<usize> {
+    n * RUN..count.min((n + 1) * RUN)
+}
+
+/// Whether discs in two circles may overlap.
+fn meet(circle: &Circle, other: &Circle) -> bool {
+    let reach = circle.1 + other.1;
+    circle.0.distance_squared(other.0) <= reach * reach
 }

@@ -65,12 +65,12 @@ impl Turning {
 /// [`crate::error::ErrorKind::Interrupted`] once `stop` says so.
 pub(super) fn untangle(tree: Tree, stop: Stop) -> Result<Turning> {
     let mut best: Option<Turning> = None;
-    for near in NEAR {
-        let tried: Vec<Turning> = STIFFNESS
-            .into_par_iter()
-            .map(|stiffness| attempt(tree, near, stiffness, stop))
-            .collect::<Result<_>>()?;
-        for turning in tried {
+    let ways: Vec<_> = NEAR.iter().flat_map(|near| STIFFNESS.map(|stiffness| (*near, stiffness))).collect();
+    // The first way suffices for most trees; the others are tried a few at a time, side by side.
+    let (first, others) = ways.split_at(1);
+    for ways in [first].into_iter().chain(others.chunks(STIFFNESS.len())) {
+        let attempts = ways.par_iter().map(|(near, stiffness)| attempt(tree, *near, *stiffness, stop));
+        for turning in attempts.collect::<Result<Vec<_>>>()? {
             if best.as_ref().is_none_or(|best| turning.faults() < best.faults()) {
                 best = Some(turning);
             }
@@ -148,7 +148,7 @@ fn turn_apart(
     turned
         .map(|((child, hull), wanted)| {
             turning.turns[*child] = share * wanted;
-            hull.turned(share * wanted).discs().to_vec()
+            hull.turned(share * wanted)
         })
         .collect()
 }
@@ -213,21 +213,22 @@ impl Node {
     }
 
     fn is_apart(&self, wanted: &[f64], share: f64) -> bool {
-        let hulls = self.turned(wanted, share);
-        !pairs(&hulls).any(|(a, b)| a.overlaps(b))
+        !self.pairs(wanted, share).any(|(hull, other, angle)| hull.overlaps(other, angle))
     }
 
     fn add_overlaps(&self, wanted: &[f64], share: f64, pieces: &mut Vec<usize>) {
-        let hulls = self.turned(wanted, share);
-        pairs(&hulls).for_each(|(a, b)| a.add_overlapping(b, pieces));
+        let pairs = self.pairs(wanted, share);
+        pairs.for_each(|(hull, other, angle)| hull.add_overlapping(other, angle, pieces));
     }
 
-    fn turned(&self, wanted: &[f64], share: f64) -> Vec<Hull> {
-        let branches = self.branches.iter().zip(wanted).map(|(branch, wanted)| branch.turned(share * wanted));
-        branches.chain([self.parent.clone()]).collect()
+    /// All pairs of hulls, each with the angle by which the second one is turned as seen from the first one.
+    fn pairs<'a>(&'a self, wanted: &'a [f64], share: f64) -> impl Iterator<Item = (&'a Hull, &'a Hull, f64)> {
+        let angles = wanted.iter().map(move |wanted| share * wanted);
+        let all: Vec<(&Hull, f64)> = self.branches.iter().zip(angles).chain([(&self.parent, 0.0)]).collect();
+        (1..all.len()).flat_map(move |second| {
+            let (other, angle) = all[second];
+            let pair = |(hull, own): &(&'a Hull, f64)| (*hull, other, angle - own);
+            all[..second].iter().map(pair).collect::<Vec<_>>()
+        })
     }
-}
-
-fn pairs<T>(values: &[T]) -> impl Iterator<Item = (&T, &T)> {
-    values.iter().enumerate().flat_map(|(n, value)| values[n + 1..].iter().map(move |other| (value, other)))
 }
