@@ -115,12 +115,21 @@ impl Layout for Uncurl {
     }
 
     fn curved(&self) -> Result<Curved> {
-        let looks = self.each((DVec3::NAN, Vec3::Z), |foot| {
-            let (point, slab) = self.look(foot);
-            (point, slab.as_vec3())
-        })?;
-        let (position, direction) = looks.into_par_iter().unzip();
-        Curved::new(self.camera.size(), position, direction)
+        let [width, height] = self.camera.size();
+        let foot_of = self.feet.of_pixels()?;
+        let mut position = vec![DVec3::NAN; width * height];
+        let mut direction = vec![Vec3::Z; width * height];
+        let rows = position.par_chunks_mut(width).zip(direction.par_chunks_mut(width));
+        rows.enumerate().for_each(|(row, (position, direction))| {
+            for (column, (position, direction)) in position.iter_mut().zip(direction).enumerate() {
+                let foot = foot_of(row * width + column);
+                if self.is_shown(&foot) {
+                    let (point, slab) = self.look(&foot);
+                    (*position, *direction) = (point, slab.as_vec3());
+                }
+            }
+        });
+        Curved::new([width, height], position, direction)
     }
 
     fn arc_length(&self) -> Vec<f64> {
