@@ -114,7 +114,7 @@ def kind_in_words(setting: Setting) -> str:
         case "transfer":
             return f"{{{names(setting)}}} or TransferFunction"
         case "window":
-            return f"Window or {{{window_names()}}}"
+            return f"Window | {{{window_names()}}}"
         case "vessels":
             return "tuple of int or str"
     return PLAIN[setting.kind] + (" or None" if setting.optional and setting.open is None else "")

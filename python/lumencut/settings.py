@@ -62,7 +62,7 @@ class Settings(CheckedSettings):
         N × N samples in each pixel, averaged in the picture (count, 1 to 4). Edges become smoother, and the
         picture takes N² times as long. All other images stay those of one sample in the middle of each
         pixel.
-    window : Window or {"auto", "cta", "soft-tissue", "bone", "lung", "full", "mra"}, optional
+    window : Window | {"auto", "cta", "soft-tissue", "bone", "lung", "full", "mra", "stent"}, optional
         Intensities of the cut surface from black to white, LEVEL ± WIDTH/2 (unit of the volume, HU for CT).
         Where not given: from the data.
     opacity : Opacity, optional
@@ -105,7 +105,7 @@ class Settings(CheckedSettings):
         alone.
     context_gamma : float, -1 to 1, default 0
         For mida: -1 is dvr, 0 mida, 1 mip, between them a blend (number, -1 to 1).
-    context_window : Window or {"auto", "cta", "soft-tissue", "bone", "lung", "full", "mra"}, optional
+    context_window : Window | {"auto", "cta", "soft-tissue", "bone", "lung", "full", "mra", "stent"}, optional
         Intensities that the context takes as 0 to 1, LEVEL ± WIDTH/2 (unit of the volume, HU for CT). They
         are 0 to 1 for the differences of mida, and black to white for minip and average; the named transfer
         functions lie within them. From the data they are taken whatever ``window`` is: as ``Window.whole``

@@ -116,9 +116,9 @@ describe('keys', () => {
     }
   });
 
-  test('1 to 7 choose the windows that have a name, by their order', () => {
+  test('1 to 8 choose the windows that have a name, by their order', () => {
     const keys = BINDINGS.filter((row) => row.action.startsWith('preset '));
-    expect(keys).toHaveLength(7);
+    expect(keys).toHaveLength(8);
     keys.forEach((row, n) => {
       expect(row).toMatchObject({ key: String(n + 1), action: `preset ${n}` });
       expect(actionOfKey(String(n + 1))).toBe(`preset ${n}`);

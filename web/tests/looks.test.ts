@@ -1,7 +1,16 @@
 import { afterEach, beforeEach, expect, test } from 'vitest';
-import type { LookRow, SettingRow, Settings, Started } from '../src/core/messages';
+import type { LookRow, Report, SettingRow, Settings, Started } from '../src/core/messages';
 import { setSetting } from '../src/state/actions';
-import { chooseLines, chooseLook, chosenLook, isOffered, lines } from '../src/state/looks';
+import { undo } from '../src/state/history';
+import {
+  chooseLines,
+  chooseLook,
+  chooseStent,
+  chosenLook,
+  isOffered,
+  isStentShown,
+  lines,
+} from '../src/state/looks';
 import * as store from '../src/state/store';
 
 const NONE: Settings = { focus: null, context: 'mida', slab: null };
@@ -89,4 +98,24 @@ test('lines are none, near vessels or all, and come back as they were', () => {
     expect(lines.value).toBe(wanted);
     expect(store.settings.value).toMatchObject({ silhouettes, silhouette_reach: reach });
   }
+});
+
+test('stents are read in the cut of the lumen and a window of their own, which undo takes back', () => {
+  const presets = [
+    { name: 'auto', words: 'From the data', window: [200, 600] },
+    { name: 'stent', words: 'Stent', window: [400, 1500] },
+  ] as const;
+  const report = store.report.value as Report;
+  store.report.value = { ...report, windows: { main: [200, 600], contexts: {}, presets } };
+  store.window_.value = [200, 600];
+  chooseLook(MIP);
+  expect(isStentShown.value).toBe(false);
+  chooseStent();
+  expect(store.window_.value).toEqual([400, 1500]);
+  expect([chosenLook.value, isStentShown.value]).toEqual(['lumen', true]);
+  undo();
+  expect([chosenLook.value, isStentShown.value]).toEqual(['lumen', false]);
+  chooseStent();
+  chooseLook(MIP);
+  expect(isStentShown.value).toBe(false);
 });

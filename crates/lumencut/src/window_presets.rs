@@ -89,7 +89,7 @@ const fn from_data(name: &'static str, words: &'static str, window: DataWindow) 
 }
 
 /// The windows that have a name, in the order to show them to users; those of bone and lung are the OHIF viewer's.
-pub const WINDOW_PRESETS: [WindowPreset; 7] = [
+pub const WINDOW_PRESETS: [WindowPreset; 8] = [
     from_data("auto", "From the data", DataWindow::Auto),
     fixed("cta", "CT angiography", 300.0, 900.0),
     fixed("soft-tissue", "Soft tissue", 40.0, 400.0),
@@ -97,6 +97,8 @@ pub const WINDOW_PRESETS: [WindowPreset; 7] = [
     fixed("lung", "Lung", -600.0, 1500.0),
     from_data("full", "All values", DataWindow::Full),
     from_data("mra", "MR angiography", DataWindow::Mra),
+    // The struts apart from the lumen within them.
+    fixed("stent", "Stent", 400.0, 1500.0),
 ];
 
 #[cfg(test)]

@@ -18,7 +18,7 @@ _Context: TypeAlias = "click.Context | None"
 
 
 #: The names of ``lumencut.window.WINDOW_NAMES``, here so that ``--help`` need not import numpy.
-WINDOW_NAMES = ("auto", "cta", "soft-tissue", "bone", "lung", "full", "mra")
+WINDOW_NAMES = ("auto", "cta", "soft-tissue", "bone", "lung", "full", "mra", "stent")
 
 
 class Parts(_Type):

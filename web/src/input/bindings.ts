@@ -179,6 +179,7 @@ export const BINDINGS: readonly Binding[] = [
   key('5', 'preset 4', 'window for lung'),
   key('6', 'preset 5', 'window from the smallest to the largest value'),
   key('7', 'preset 6', 'window for MR angiography'),
+  key('8', 'preset 7', 'window for stent'),
   key('c', 'context', 'context on and off'),
   key('s', 'silhouettes', 'silhouettes on and off'),
   key('m', 'measure', 'measure the picked vessel, or back to the layout before'),

@@ -1,7 +1,7 @@
 /** The looks: several settings under one name, as the table of the core says what each of them chooses. */
 import { batch, computed } from '@preact/signals';
 import type { LookRow, SettingValue } from '../core/messages';
-import { settingOf } from './actions';
+import { choosePreset, settingOf } from './actions';
 import * as store from './store';
 
 /** Which lines are drawn where the cut leaps: none, those near a vessel, or all. */
@@ -41,6 +41,28 @@ export function chooseLook(look: LookRow): void {
     store.method.value = 'csr';
     store.settings.value = { ...store.settings.value, ...look.settings };
   });
+}
+
+/** The look whose cut stents are read in. */
+export const STENT_LOOK = 'lumen';
+const stentPreset = computed(
+  () => store.report.value?.windows?.presets.findIndex(({ name }) => name === 'stent') ?? -1,
+);
+
+/** Whether stents are read: the cut in their window. */
+export const isStentShown = computed<boolean>(() => {
+  const window = store.report.value?.windows?.presets[stentPreset.value]?.window;
+  const [level, width] = store.window_.value;
+  return chosenLook.value === STENT_LOOK && window?.[0] === level && window[1] === width;
+});
+
+/** Shows the cut through the vessels in the window for stents; the window is a step that undo takes back. */
+export function chooseStent(): void {
+  const look = store.started.value?.looks.find(({ name }) => name === STENT_LOOK);
+  if (look) {
+    chooseLook(look);
+    choosePreset(stentPreset.value);
+  }
 }
 
 /** The lines that are drawn. */

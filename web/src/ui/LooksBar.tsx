@@ -2,7 +2,17 @@
 import type { LookRow } from '../core/messages';
 import { isTracing } from '../edit/mode';
 import { setSetting, settingOf } from '../state/actions';
-import { chooseLines, chooseLook, chosenLook, isOffered, type Lines, lines } from '../state/looks';
+import {
+  chooseLines,
+  chooseLook,
+  chooseStent,
+  chosenLook,
+  isOffered,
+  isStentShown,
+  type Lines,
+  lines,
+  STENT_LOOK,
+} from '../state/looks';
 import { hasTree, hasVolume, started } from '../state/store';
 
 /** The widest margin that the slider offers (mm). */
@@ -25,6 +35,7 @@ export function LooksBar() {
         {(started.value?.looks ?? []).map((look) => (
           <LookButton key={look.name} look={look} />
         ))}
+        {hasTree.value && <StentButton />}
       </fieldset>
       <Reach />
       {hasTree.value && <LinesChoice />}
@@ -32,11 +43,25 @@ export function LooksBar() {
   );
 }
 
+/** The cut through the vessels in the window for stents: the one look that also chooses a window. */
+function StentButton() {
+  return (
+    <button
+      type="button"
+      aria-pressed={isStentShown.value}
+      title="Shows the cut through the vessels in a wide window: the struts of a stent stand apart from the lumen"
+      onClick={chooseStent}
+    >
+      Stent
+    </button>
+  );
+}
+
 function LookButton({ look }: { readonly look: LookRow }) {
   return (
     <button
       type="button"
-      aria-pressed={chosenLook.value === look.name}
+      aria-pressed={chosenLook.value === look.name && !(look.name === STENT_LOOK && isStentShown.value)}
       disabled={!isOffered(look)}
       title={isOffered(look) ? `Shows ${look.sentence}` : `Shows ${look.sentence}: there are no vessels yet`}
       onClick={() => chooseLook(look)}
