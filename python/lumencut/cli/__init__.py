@@ -10,8 +10,8 @@ from typing import Any
 import click
 
 from lumencut.cli.batch import batch
-from lumencut.cli.cfa import cfa
 from lumencut.cli.bids import bids
+from lumencut.cli.cfa import cfa
 from lumencut.cli.compare_methods import compare_methods
 from lumencut.cli.cpr import cpr
 from lumencut.cli.demo import demo
