@@ -75,7 +75,7 @@ function TreeChoice() {
             isTreeShown.value = event.currentTarget.checked;
           }}
         />
-        As a tree, the widest first
+        {`As a tree, the widest first${hasMillimetres.value ? ' (diameter × length, mm)' : ''}`}
       </label>
     </div>
   );

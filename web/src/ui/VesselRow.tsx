@@ -50,7 +50,7 @@ export function VesselRow({ vessel, depth }: RowProps & { readonly depth: number
       <ColorChoice vessel={vessel} />
       <NameField vessel={vessel} />
       <span class="length" title={calibreWords(vessel)}>
-        {`${isTreeShown.value ? calibreText(vessel) : ''}${lengthText(vessel)}${hasMillimetres.value ? ' mm' : ''}`}
+        {isTreeShown.value ? sizeText(vessel) : `${lengthText(vessel)}${hasMillimetres.value ? ' mm' : ''}`}
       </span>
       <button
         type="button"
@@ -109,10 +109,12 @@ function lengthText({ id, line }: DocumentVessel): string {
   return length > 0 ? length.toFixed(1) : '…';
 }
 
-/** The median diameter of a vessel before its length, where it is known. */
-function calibreText(vessel: DocumentVessel): string {
-  const calibre = factsOf(vessel)?.calibre ?? null;
-  return calibre === null ? '' : `${calibre.toFixed(1)} × `;
+/** The median diameter of a vessel before its whole length, where it is known: short, so that its name has room. */
+function sizeText(vessel: DocumentVessel): string {
+  const { calibre = null, length } = factsOf(vessel) ?? {};
+  return calibre === null || length === undefined
+    ? lengthText(vessel)
+    : `${calibre.toFixed(1)} × ${length.toFixed(0)}`;
 }
 
 function calibreWords(vessel: DocumentVessel): string {

@@ -1,0 +1,73 @@
+/** How many actions it takes from a scan to a clean tree and to a finding that is measured and saved: each press and each key counts. */
+import { readFileSync } from 'node:fs';
+import { expect, type Locator, test } from '@playwright/test';
+import { button, countInput, rows, untraced } from './controls';
+
+/** More than so many actions are too many. */
+const MOST = 20;
+
+/** Presses a slider at its beginning, and goes on with keys, each a tenth of its length. */
+async function slide(slider: Locator, tenths: number): Promise<void> {
+  // It reaches to the longest vessel, once the lengths are known.
+  await expect.poll(async () => Number(await slider.getAttribute('max'))).toBeGreaterThan(10);
+  await slider.click({ position: { x: 4, y: 4 } });
+  for (let n = 0; n < tenths; n++) {
+    await slider.press('PageUp');
+  }
+}
+
+test('from a scan without vessels to a clean tree and a saved finding in at most 20 actions', async ({
+  browser,
+}) => {
+  test.setTimeout(400_000);
+  const viewer = await untraced(browser, 'aorta');
+  await viewer.press('v');
+  await expect(viewer.page.locator('aside.vessels')).toHaveCount(0);
+  const counted = await countInput(viewer);
+
+  // Finding: one press, and the list of what was found.
+  await button(viewer, 'Find all vessels').last().click();
+  await viewer.press('v');
+  await expect(viewer.page.locator('.doubtful-rows li').first()).toBeVisible({ timeout: 120_000 });
+  const found = await rows(viewer).count();
+
+  // Cleaning: what is doubtful, what is short, and what hangs together with nothing.
+  await button(viewer, 'Leave all out').click();
+  await expect(viewer.page.locator('.doubtful-rows')).toHaveCount(0);
+  await viewer.page.getByText('Clean up', { exact: true }).click();
+  await slide(viewer.page.getByLabel('Shorter than'), 2);
+  await expect(viewer.page.locator('.vessel-rows .marked').first()).toBeVisible();
+  await viewer.page.getByRole('button', { name: /^Remove \d+ vessels?$/ }).click();
+  await expect(viewer.page.locator('.vessel-rows .marked')).toHaveCount(0);
+  expect(await rows(viewer).count()).toBeLessThan(found);
+
+  // Measuring: a branch of the tree is picked, and a place and a reference are marked on it.
+  await rows(viewer).nth(1).getByRole('radio').click();
+  await viewer.press('m');
+  await expect(button(viewer, 'Narrowest here')).toBeVisible({ timeout: 120_000 });
+  await button(viewer, 'Narrowest here').click();
+  const chart = await viewer.page.getByTestId('chart').boundingBox();
+  await viewer.page.mouse.click(
+    (chart?.x ?? 0) + 0.8 * (chart?.width ?? 0),
+    (chart?.y ?? 0) + 0.7 * (chart?.height ?? 0),
+  );
+  await button(viewer, 'Reference here').click();
+  await expect(viewer.page.getByTestId('row-place-0')).toContainText('marked place');
+
+  // The report: what was found, saved.
+  await viewer.press('e');
+  const finding = viewer.page.getByTestId('findings').locator('section[aria-label^="Finding on"]');
+  await expect(finding).toHaveCount(1);
+  await expect(finding.getByRole('img')).toBeVisible({ timeout: 60_000 });
+  const [download] = await Promise.all([
+    viewer.page.waitForEvent('download'),
+    button(viewer, 'Save report').click(),
+  ]);
+  expect(readFileSync(await download.path(), 'utf-8')).toMatch(/ of the diameter \(NASCET\)|No percentage: /);
+  const { clicks, keys } = await counted();
+  expect(clicks + keys).toBeGreaterThan(8);
+  expect(clicks + keys).toBeLessThanOrEqual(MOST);
+  await viewer.screenshot('count-report');
+  viewer.expectNoFault();
+  await viewer.close();
+});
