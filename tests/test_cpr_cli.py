@@ -47,9 +47,8 @@ def test_one_vessel(files, tmp_path):
         volume, line, "-o", tmp_path / "one.png", "--no-annotate", "--angle", 30, "--window", "500/150"
     )
     assert (result.exit_code, result.stderr) == (0, "")
-    assert (
-        result.stdout == f"{tmp_path / 'one.png'}: 1 vessel straightened, pixels of 0.25 mm, window 500/150\n"
-    )
+    said = "straightened CPR of 1 vessel, pixels of 0.25 mm, window 500/150"
+    assert result.stdout == f"{tmp_path / 'one.png'}: {said}\n"
     settings = lumencut.Settings(window=lumencut.Window(150, 500))
     vessel = read_centerlines(line, "lps")[0]
     made = cpr(read_volume(volume), vessel, "straightened", pixel_spacing=0.25, degrees=30, settings=settings)
@@ -84,10 +83,10 @@ def test_a_contact_sheet_of_all_vessels(files, tmp_path):
     volume, _, halves = files
     result = invoke(volume, *halves, "-o", tmp_path / "all.png")
     assert (result.exit_code, result.stderr) == (0, "")
-    assert "2 vessels straightened" in result.stdout
+    assert "straightened CPR of 2 vessels" in result.stdout
     height, width = picture(tmp_path / "all.png").shape[:2]
     one = invoke(volume, *halves, "-o", tmp_path / "one.png", "--vessel", "up")
-    assert "1 vessel straightened" in one.stdout
+    assert "straightened CPR of 1 vessel" in one.stdout
     single = picture(tmp_path / "one.png").shape
     assert width > single[1]
     assert height > 2 * single[0]

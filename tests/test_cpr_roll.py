@@ -6,11 +6,14 @@ import math
 
 import numpy as np
 import pytest
+from click.testing import CliRunner
 from PIL import Image
 
-from lumencut import Vessel, Volume, cpr
+from lumencut import Vessel, VesselTree, Volume, cpr, write_centerlines
+from lumencut.cli import main
 from lumencut.errors import CameraError, MeasuringError
 from lumencut.reformation_recipe import read_reformation_recipe
+from lumencut.volume_writers import write_volume
 
 #: A vessel that runs 50 mm downwards.
 LINE = Vessel([[0, 0, 25], [0, 0, -25]], radius=4.0)
@@ -96,3 +99,20 @@ def test_a_roll_needs_a_lumen_and_is_not_turned(turning):
             "straightened",
             roll="widest",
         )
+
+
+def test_the_command_makes_it_again(turning, tmp_path):
+    scan, lines = tmp_path / "ct.nrrd", tmp_path / "lines.vtp"
+    write_volume(turning, scan)
+    write_centerlines(VesselTree([LINE]), lines)
+    first, again, turned = (tmp_path / f"{name}.png" for name in ("first", "again", "turned"))
+    base, runner = ["cpr", str(scan), str(lines), "-o"], CliRunner()
+    done = runner.invoke(main, [*base, str(first), "--roll", "narrowest", "--width", "30"])
+    assert done.exit_code == 0, done.output
+    assert "straightened CPR of 1 vessel" in done.output
+    done = runner.invoke(main, [*base, str(again), "--like", str(first)])
+    assert done.exit_code == 0, done.output
+    assert first.read_bytes() == again.read_bytes()
+    done = runner.invoke(main, [*base, str(turned), "--like", str(first), "--roll", "widest"])
+    assert done.exit_code == 0, done.output
+    assert read_reformation_recipe(turned)[0].parameters["roll"] == "widest"

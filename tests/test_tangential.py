@@ -94,11 +94,15 @@ def test_the_command(tmp_path):
     words = ["cpr", volume, line, "-o", tmp_path / "one.png", "--mode", "tangential", "--view", "left"]
     result = CliRunner().invoke(main, [*map(str, words), "--size", "220x240"])
     assert (result.exit_code, result.stderr) == (0, "")
-    assert "1 vessel tangential" in result.stdout
+    assert "tangential CPR of 1 vessel" in result.stdout
     with Image.open(tmp_path / "one.png") as picture:
         assert picture.size == (220, 240)
     recipe, _ = read_reformation_recipe(tmp_path / "one.png")
     assert (recipe.name, recipe.parameters["camera"]["direction"]) == ("tangential CPR", [-1.0, 0.0, 0.0])
+    again = [*map(str, words[:3]), "-o", str(tmp_path / "again.png"), "--like", str(tmp_path / "one.png")]
+    result = CliRunner().invoke(main, again)
+    assert (result.exit_code, result.stderr) == (0, "")
+    assert (tmp_path / "one.png").read_bytes() == (tmp_path / "again.png").read_bytes()
     for more, found in (
         (["--mode", "tangential", "--angle", "3"], "--angle does nothing with --mode tangential"),
         (["--view", "left"], "--view does nothing with --mode straightened"),

@@ -88,6 +88,12 @@ class Reformation:
         """The settings, with numbers for the window."""
         return self._renderer.windowed(self._given)
 
+    @property
+    def shown_window(self) -> Window | None:
+        """The window that the picture is shown in; None where it shows no values of the volume."""
+        window = self.settings.window
+        return window if isinstance(window, Window) else None
+
     @functools.cached_property
     def image(self) -> npt.NDArray[np.uint8]:
         """RGBA picture, uint8, shape (H, W, 4); what lies outside the volume is transparent."""
@@ -182,9 +188,9 @@ class Reformation:
         """
         from lumencut.annotation import window_words, with_labels
 
-        volume, window = self._renderer.volume, self.settings.window
+        volume, window = self._renderer.volume, self.shown_window
         words = [self._title()]
-        words += [window_words(window)] if isinstance(window, Window) else []
+        words += [] if window is None else [window_words(window)]
         # On a narrow picture the sentence would cover what it is about; the file tells it too.
         words += [self.recipe.axes] if self.size[0] >= _WIDE else []
         letters = self._edges() if volume is not None and volume.states_orientation else {}

@@ -21,6 +21,7 @@ from lumencut.renderer import Renderer
 from lumencut.settings import Settings
 from lumencut.value_colours import coloured, with_scale
 from lumencut.vessel_tree import VesselTree
+from lumencut.window import Window
 
 Mode: TypeAlias = Literal["wall", "radius", "thickness", "shaded"]
 
@@ -153,6 +154,11 @@ class LumenMap(Reformation):
     def overlap(self) -> int:
         """How many columns on each side repeat the other side."""
         return self._core.overlap
+
+    @property
+    def shown_window(self) -> Window | None:
+        """The window of ``"wall"``; None in the other modes, whose picture has a scale of its own."""
+        return super().shown_window if self.mode == "wall" else None
 
     @functools.cached_property
     def ostia(self) -> tuple[Ostium, ...]:

@@ -3,25 +3,23 @@
 from __future__ import annotations
 
 import math
-from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from lumencut.cli import options
-from lumencut.cli.mistakes import check_files, check_reading
+from lumencut.cli import options, reformations
 from lumencut.cli.parameters import SIZE, VECTOR
-from lumencut.cli.report import busy, detail, say, timings, verbose_option, warn
-from lumencut.cli.scene import read_files, scene_from, warn_of_window
-from lumencut.cli.settings import look_options, settings_from
+from lumencut.cli.report import busy, detail, say, verbose_option
+from lumencut.cli.settings import look_options
 from lumencut.cli.tangential import MODE as TANGENTIAL
 from lumencut.cli.tangential import check_view, tangential
-from lumencut.cli.vessels import path_option, titled_vessels
+from lumencut.cli.vessels import path_option
 
 if TYPE_CHECKING:
-    from lumencut.reformation import Reformation
+    from lumencut.planar_reformation import PlanarReformation
     from lumencut.renderer import Renderer
+    from lumencut.settings import Settings
     from lumencut.vessel import Vessel
     from lumencut.volume import Volume
 
@@ -35,13 +33,7 @@ _COARSEST = 0.25
 @click.command(short_help="Lay vessels out as images (CPR).")
 @click.argument("volume", type=options.FILE)
 @click.argument("centerlines", type=options.FILE, nargs=-1, required=True)
-@click.option(
-    "-o",
-    "--output",
-    type=options.FILE,
-    required=True,
-    help="Picture (.png, .tif, .webp, …); .npz for the arrays of one vessel.",
-)
+@reformations.output_option
 @click.option(
     "--mode",
     type=click.Choice(MODES),
@@ -93,29 +85,18 @@ _COARSEST = 0.25
     metavar="MM",
     help="Side of a pixel (mm); default: the smallest side of a voxel, but no more than 0.25 mm.",
 )
-@click.option(
-    "--smoothing",
-    type=float,
-    default=0.0,
-    show_default=True,
-    metavar="MM",
-    help="Smooth the centerlines by a Gaussian with this standard deviation (mm).",
-)
+@reformations.smoothing_option
 @click.option(
     "--volume-out",
     type=options.FILE,
     help="Write the sections across one vessel as a volume too (.nrrd, .nii or .nii.gz).",
 )
-@click.option(
-    "--annotate/--no-annotate",
-    default=True,
-    show_default=True,
-    help="Mode, window, scale bar and sides of the patient on the pictures.",
-)
+@reformations.annotate_option
+@reformations.like_option
 @options.reading_options
 @look_options
 @verbose_option
-def cpr(output: Path, volume_out: Path | None, annotate: bool, **chosen: Any) -> None:
+def cpr(volume_out: Path | None, **given: Any) -> None:
     """Lay out the vessels of CENTERLINES with what surrounds them in VOLUME: Curved Planar Reformation.
 
     All vessels are shown side by side, each below its id and name, unless --vessel, --exclude or --path
@@ -127,30 +108,16 @@ def cpr(output: Path, volume_out: Path | None, annotate: bool, **chosen: Any) ->
     lumencut cpr ct.nii.gz centerlines.vtp -o LAD.png --vessel LAD --mode tangential --view left
     lumencut cpr ct.nii.gz lines.vtp -o leg.png --path 0,1,4 --mode stretched --volume-out leg.nrrd
     """  # noqa: D301 - click needs the control character itself
-    settings = settings_from(chosen)
-    check_view(chosen)
-    _check_outputs(output, volume_out)
-    files = scene_from(chosen)
-    check_files(files.volume, files.centerlines)
-    check_reading(chosen, [chosen["volume"]], has_centerlines=True)
-    voxels, tree = read_files(files, chosen)
-    if voxels is None or tree is None:
-        raise click.UsageError("lumencut cpr needs VOLUME and CENTERLINES")
-    vessels = titled_vessels(tree, chosen)
-    _check_count(vessels, output, volume_out)
-
-    from lumencut.renderer import Renderer
-
-    renderer = Renderer(voxels, tree, files.device)
-    warn_of_window(settings, renderer)
-    made = [
-        _reformation(renderer, vessel, title, {**chosen, "settings": settings}) for title, vessel in vessels
-    ]
-    with busy(f"writing {output.name}"):
-        _write(output, made, [title for title, _ in vessels], annotate=annotate)
-    say(f"{output}: {_described(made)}")
+    check_view(given)
+    _check_outputs(given["output"], volume_out)
+    chosen, settings = reformations.like({**given, "camera": None}, "cpr")
+    renderer, _, vessels = reformations.read_vessels(chosen, settings, "cpr")
     if volume_out is not None:
-        _write_volume(volume_out, voxels, vessels[0][1], chosen)
+        reformations.check_single(vessels, volume_out)
+    lay_out = tangential if chosen["mode"] == TANGENTIAL else _plane
+    reformations.write_each(chosen, vessels, lambda vessel: lay_out(renderer, vessel, chosen, settings))
+    if volume_out is not None and renderer.volume is not None:
+        _write_volume(volume_out, renderer.volume, vessels[0][1], chosen)
     detail(f"device: {renderer.device}")
 
 
@@ -165,63 +132,20 @@ def _check_outputs(output: Path, volume_out: Path | None) -> None:
     options.check_folder(volume_out)
 
 
-def _check_count(vessels: list[tuple[str, Vessel]], output: Path, volume_out: Path | None) -> None:
-    """Refuse files of one vessel where there are several."""
-    if len(vessels) == 1:
-        return
-    one = output if output.suffix.lower() == ".npz" else volume_out
-    if one is not None:
-        mend = "choose one by --vessel or --path"
-        raise click.UsageError(f"{one} holds one vessel; found {len(vessels)}; {mend}")
-
-
-def _reformation(renderer: Renderer, vessel: Vessel, title: str, chosen: dict[str, Any]) -> Reformation:
-    """The image of one vessel, made, and a warning where it shows nothing."""
-    import numpy as np
-
-    is_tangential = chosen["mode"] == TANGENTIAL
-    lay_out = partial(tangential, settings=chosen["settings"]) if is_tangential else _plane
-    made = lay_out(renderer, vessel, chosen)
-    _ = made.image
-    timings(f"vessel {title}", made.timings)
-    if np.isnan(made.value).all():
-        warn(f"vessel {title}: no pixel lies in the volume")
-    return made
-
-
-def _plane(renderer: Renderer, vessel: Vessel, chosen: dict[str, Any]) -> Reformation:
+def _plane(
+    renderer: Renderer, vessel: Vessel, chosen: dict[str, Any], settings: Settings
+) -> PlanarReformation:
     """The image of one vessel by the modes that have rows."""
     from lumencut.planar_reformation import cpr_of
 
     spacing = chosen["pixel_spacing"]
     if spacing is None and renderer.volume is not None:
         spacing = min(_COARSEST, float(renderer.volume.spacing.min()))
-    named = {name: chosen[name] for name in ("width", "up", "smoothing", "roll", "settings")}
+    named = {name: chosen[name] for name in ("width", "up", "smoothing", "roll")}
+    angle = math.radians(chosen["angle"])
     return cpr_of(
-        renderer, vessel, chosen["mode"], pixel_spacing=spacing, angle=math.radians(chosen["angle"]), **named
+        renderer, vessel, chosen["mode"], pixel_spacing=spacing, angle=angle, settings=settings, **named
     )
-
-
-def _write(output: Path, made: list[Reformation], titles: list[str], *, annotate: bool) -> None:
-    """Write one vessel as it is, several as a contact sheet."""
-    from lumencut.contact_sheet import contact_sheet
-    from lumencut.frame import save_picture
-
-    if len(made) == 1:
-        made[0].save(output, annotate=annotate)
-        return
-    pictures = [one.annotated() if annotate else one.image for one in made]
-    save_picture(contact_sheet(pictures, titles), output)
-
-
-def _described(made: list[Reformation]) -> str:
-    """What was made, in words."""
-    from lumencut.window import Window
-
-    first, window = made[0], made[0].settings.window
-    count = "1 vessel" if len(made) == 1 else f"{len(made)} vessels"
-    shown = f", window {window.width:.4g}/{window.level:.4g}" if isinstance(window, Window) else ""
-    return f"{count} {first.recipe.parameters['mode']}, pixels of {first.pixel_spacing:.4g} mm{shown}"
 
 
 def _write_volume(path: Path, voxels: Volume, vessel: Vessel, chosen: dict[str, Any]) -> None:

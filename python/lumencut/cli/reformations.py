@@ -89,15 +89,21 @@ def read_vessels(
     if voxels is None or tree is None:
         raise click.UsageError(f"lumencut {command} needs VOLUME and CENTERLINES")
     vessels = titled_vessels(tree, chosen)
-    if len(vessels) > 1 and chosen["output"].suffix.lower() == ".npz":
-        found = f"{chosen['output']} holds one vessel; found {len(vessels)}"
-        raise click.UsageError(f"{found}; choose one by --vessel or --path")
+    if chosen["output"].suffix.lower() == ".npz":
+        check_single(vessels, chosen["output"])
 
     from lumencut.renderer import Renderer
 
     renderer = Renderer(voxels, tree, files.device)
     warn_of_window(settings, renderer)
     return renderer, tree, vessels
+
+
+def check_single(vessels: list[tuple[str, Vessel]], path: Path) -> None:
+    """Refuse a file of one vessel where there are several."""
+    if len(vessels) > 1:
+        mend = "choose one by --vessel or --path"
+        raise click.UsageError(f"{path} holds one vessel; found {len(vessels)}; {mend}")
 
 
 def write_each(
@@ -109,7 +115,9 @@ def write_each(
     with busy(f"writing {output.name}"):
         _write(output, made, [title for title, _ in vessels], annotate=annotate)
     count = "1 vessel" if len(made) == 1 else f"{len(made)} vessels"
-    say(f"{output}: {made[0].recipe.name} of {count}, pixels of {made[0].pixel_spacing:.4g} mm")
+    window = made[0].shown_window
+    shown = "" if window is None else f", window {window.width:.4g}/{window.level:.4g}"
+    say(f"{output}: {made[0].recipe.name} of {count}, pixels of {made[0].pixel_spacing:.4g} mm{shown}")
     detail(made[0].recipe.axes)
 
 
