@@ -5,6 +5,7 @@ from typing import Any, Literal, Protocol, TypedDict, final
 
 import numpy as np
 import numpy.typing as npt
+from typing_extensions import disjoint_base
 
 from lumencut.mends import MendName
 from lumencut.placement import Coordinates, Unit
@@ -57,13 +58,19 @@ __all__ = [
     "Cpr",
     "Grade",
     "KeptProfiles",
+    "Layout",
+    "LumenMap",
+    "LumenWall",
     "Profile",
     "Renderer",
     "Setting",
     "Settings",
+    "Spiral",
     "Stenosis",
     "ToldByTree",
     "Tracer",
+    "Uncurl",
+    "Untangled",
     "__version__",
     "about",
     "better_place",
@@ -86,6 +93,7 @@ __all__ = [
     "describe_dicom",
     "devices",
     "edge_letters",
+    "feature_window",
     "find_vessels",
     "find_window",
     "fits_nowhere",
@@ -127,6 +135,7 @@ __all__ = [
     "set_threads",
     "sides",
     "smoothed",
+    "tangential_layout",
     "threads",
     "told_by_tree",
     "trace_from",
@@ -210,6 +219,7 @@ class CenterlineFile:
         list[tuple[npt.NDArray[np.float64], npt.NDArray[np.float64] | None, str | None]], list[str]
     ]: ...
 
+@disjoint_base
 class Layout:
     @property
     def size(self) -> list[int]: ...

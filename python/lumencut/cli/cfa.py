@@ -7,10 +7,6 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from lumencut.cli import options, reformations
-from lumencut.cli.parameters import VECTOR
-from lumencut.cli.report import verbose_option
-from lumencut.cli.settings import look_options
-from lumencut.cli.vessels import path_option
 
 if TYPE_CHECKING:
     from lumencut.reformation import Reformation
@@ -26,8 +22,7 @@ _COARSEST = 0.25
 
 
 @click.command(short_help="Show all around vessels, straightened (CFA).")
-@click.argument("volume", type=options.FILE)
-@click.argument("centerlines", type=options.FILE, nargs=-1, required=True)
+@reformations.file_options
 @reformations.output_option
 @click.option(
     "--feature",
@@ -48,9 +43,8 @@ _COARSEST = 0.25
     type=click.Choice(("cpr",)),
     help="Show the straightened CPR, CFA max and CFA min of each vessel beside each other.",
 )
-@options.shown_vessel_options
-@path_option
-@click.option("--up", type=VECTOR, default="0,0,1", show_default=True, help="What points upwards (LPS).")
+@reformations.vessel_options
+@reformations.up_option
 @click.option(
     "--pixel-spacing",
     type=float,
@@ -58,11 +52,7 @@ _COARSEST = 0.25
     help="Side of a pixel (mm); default: the smallest side of a voxel, but no more than 0.25 mm.",
 )
 @reformations.smoothing_option
-@reformations.annotate_option
-@reformations.like_option
-@options.reading_options
-@look_options
-@verbose_option
+@reformations.picture_options
 def cfa(beside: str | None, **given: Any) -> None:
     """Show what surrounds the vessels of CENTERLINES, straightened: curvicircular feature aggregation.
 

@@ -9,12 +9,10 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from lumencut.cli import options, reformations
-from lumencut.cli.parameters import SIZE, VECTOR
-from lumencut.cli.report import busy, detail, say, verbose_option
-from lumencut.cli.settings import look_options
+from lumencut.cli.parameters import SIZE
+from lumencut.cli.report import busy, detail, say
 from lumencut.cli.tangential import MODE as TANGENTIAL
 from lumencut.cli.tangential import check_view, tangential
-from lumencut.cli.vessels import path_option
 
 if TYPE_CHECKING:
     from lumencut.planar_reformation import PlanarReformation
@@ -31,8 +29,7 @@ _COARSEST = 0.25
 
 
 @click.command(short_help="Lay vessels out as images (CPR).")
-@click.argument("volume", type=options.FILE)
-@click.argument("centerlines", type=options.FILE, nargs=-1, required=True)
+@reformations.file_options
 @reformations.output_option
 @click.option(
     "--mode",
@@ -56,8 +53,7 @@ _COARSEST = 0.25
     metavar=SIZE.name,
     help="Size of the picture of --mode tangential (pixels); default: 768x768.",
 )
-@options.shown_vessel_options
-@path_option
+@reformations.vessel_options
 @click.option(
     "--angle",
     type=float,
@@ -72,7 +68,7 @@ _COARSEST = 0.25
     help="See each section of the straightened vessel from the angle at which its lumen is narrowest or "
     "widest, so that no eccentric stenosis hides; a strip beside the picture tells the angle.",
 )
-@click.option("--up", type=VECTOR, default="0,0,1", show_default=True, help="What points upwards (LPS).")
+@reformations.up_option
 @click.option(
     "--width",
     type=float,
@@ -91,11 +87,7 @@ _COARSEST = 0.25
     type=options.FILE,
     help="Write the sections across one vessel as a volume too (.nrrd, .nii or .nii.gz).",
 )
-@reformations.annotate_option
-@reformations.like_option
-@options.reading_options
-@look_options
-@verbose_option
+@reformations.picture_options
 def cpr(volume_out: Path | None, **given: Any) -> None:
     """Lay out the vessels of CENTERLINES with what surrounds them in VOLUME: Curved Planar Reformation.
 

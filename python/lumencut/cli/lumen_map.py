@@ -8,10 +8,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from lumencut.cli import options, reformations
-from lumencut.cli.parameters import VECTOR, Parts
-from lumencut.cli.report import verbose_option
-from lumencut.cli.settings import look_options
-from lumencut.cli.vessels import path_option
+from lumencut.cli.parameters import Parts
 
 if TYPE_CHECKING:
     from lumencut.reformation import Reformation
@@ -22,8 +19,7 @@ MODES = ("wall", "radius", "thickness", "shaded")
 
 
 @click.command("map", short_help="Unroll the walls of vessels (lumen map).")
-@click.argument("volume", type=options.FILE)
-@click.argument("centerlines", type=options.FILE, nargs=-1, required=True)
+@reformations.file_options
 @reformations.output_option
 @click.option(
     "--mode",
@@ -34,8 +30,7 @@ MODES = ("wall", "radius", "thickness", "shaded")
     "centerline, in colour; thickness: how thick calcium or metal lies at the wall, in colour; shaded: the "
     "wall as a surface lit from within.",
 )
-@options.shown_vessel_options
-@path_option
+@reformations.vessel_options
 @click.option(
     "--angle",
     type=float,
@@ -72,7 +67,7 @@ MODES = ("wall", "radius", "thickness", "shaded")
     help="From which level on something at the wall is calcium or metal; default: the lumen's level and half "
     "of its contrast, at least 130.",
 )
-@click.option("--up", type=VECTOR, default="0,0,1", show_default=True, help="What points upwards (LPS).")
+@reformations.up_option
 @click.option(
     "--pixel-spacing",
     type=float,
@@ -80,11 +75,7 @@ MODES = ("wall", "radius", "thickness", "shaded")
     help="Side of a pixel (mm); default: half of the smallest side of a voxel, but no more than 0.25 mm.",
 )
 @reformations.smoothing_option
-@reformations.annotate_option
-@reformations.like_option
-@options.reading_options
-@look_options
-@verbose_option
+@reformations.picture_options
 def lumen_map(**given: Any) -> None:
     """Cut the walls of the vessels of CENTERLINES open and unroll them: the lumen map.
 

@@ -12,10 +12,11 @@ import click
 from lumencut.cli import options
 from lumencut.cli.like import typed
 from lumencut.cli.mistakes import check_files, check_reading
-from lumencut.cli.report import busy, detail, say, timings, warn
+from lumencut.cli.parameters import VECTOR
+from lumencut.cli.report import busy, detail, say, timings, verbose_option, warn
 from lumencut.cli.scene import read_files, scene_from, warn_of_window
-from lumencut.cli.settings import settings_from
-from lumencut.cli.vessels import titled_vessels
+from lumencut.cli.settings import look_options, settings_from
+from lumencut.cli.vessels import path_option, titled_vessels
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -46,6 +47,10 @@ smoothing_option = click.option(
     help="Smooth the centerlines by a Gaussian with this standard deviation (mm).",
 )
 
+up_option = click.option(
+    "--up", type=VECTOR, default="0,0,1", show_default=True, help="What points upwards (LPS)."
+)
+
 annotate_option = click.option(
     "--annotate/--no-annotate",
     default=True,
@@ -59,6 +64,24 @@ like_option = click.option(
     metavar="PICTURE.png",
     help="Take the options and settings of a .png that this command wrote. Options beside it come on top.",
 )
+
+
+def file_options(command: options.Command) -> options.Command:
+    """Add the scan and the centerlines."""
+    volume = click.argument("volume", type=options.FILE)
+    centerlines = click.argument("centerlines", type=options.FILE, nargs=-1, required=True)
+    return options.added((volume, centerlines), command)
+
+
+def vessel_options(command: options.Command) -> options.Command:
+    """Add the options that say which vessels are shown, each by itself."""
+    return options.added((options.shown_vessel_options, path_option), command)
+
+
+def picture_options(command: options.Command) -> options.Command:
+    """Add the options of what stands on the picture, of how files are read, and of how values are shown."""
+    parts = (annotate_option, like_option, options.reading_options, look_options, verbose_option)
+    return options.added(parts, command)
 
 
 def like(chosen: dict[str, Any], command: str) -> tuple[dict[str, Any], Settings]:

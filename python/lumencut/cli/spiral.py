@@ -8,10 +8,6 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from lumencut.cli import options, reformations
-from lumencut.cli.parameters import VECTOR
-from lumencut.cli.report import verbose_option
-from lumencut.cli.settings import look_options
-from lumencut.cli.vessels import path_option
 
 if TYPE_CHECKING:
     from lumencut.reformation import Reformation
@@ -19,11 +15,9 @@ if TYPE_CHECKING:
 
 
 @click.command("spiral", short_help="Wind up the sections of vessels (spiral CPR).")
-@click.argument("volume", type=options.FILE)
-@click.argument("centerlines", type=options.FILE, nargs=-1, required=True)
+@reformations.file_options
 @reformations.output_option
-@options.shown_vessel_options
-@path_option
+@reformations.vessel_options
 @click.option(
     "--pitch",
     type=float,
@@ -47,7 +41,7 @@ if TYPE_CHECKING:
 @click.option(
     "--angle", type=float, default=0.0, show_default=True, metavar="DEGREES", help="Turn the sections."
 )
-@click.option("--up", type=VECTOR, default="0,0,1", show_default=True, help="What points upwards (LPS).")
+@reformations.up_option
 @click.option(
     "--pixel-spacing",
     type=float,
@@ -55,11 +49,7 @@ if TYPE_CHECKING:
     help="Side of a pixel (mm); default: the smallest side of a voxel, but no more than 0.5 mm.",
 )
 @reformations.smoothing_option
-@reformations.annotate_option
-@reformations.like_option
-@options.reading_options
-@look_options
-@verbose_option
+@reformations.picture_options
 def spiral(**given: Any) -> None:
     """Wind up the sections across the vessels of CENTERLINES: all around a vessel in one still picture.
 

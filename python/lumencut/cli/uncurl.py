@@ -11,9 +11,7 @@ import click
 
 from lumencut.cli import options, reformations
 from lumencut.cli.like import typed
-from lumencut.cli.report import bar, say, timings, verbose_option
-from lumencut.cli.settings import look_options
-from lumencut.cli.vessels import path_option
+from lumencut.cli.report import bar, say, timings
 from lumencut.errors import FormatError, SettingsError
 
 if TYPE_CHECKING:
@@ -29,8 +27,7 @@ if TYPE_CHECKING:
 
 
 @click.command(short_help="Straighten a vessel before your eyes (film).")
-@click.argument("volume", type=options.FILE)
-@click.argument("centerlines", type=options.FILE, nargs=-1, required=True)
+@reformations.file_options
 @click.option(
     "-o",
     "--output",
@@ -50,8 +47,7 @@ if TYPE_CHECKING:
 @click.option(
     "--fps", type=click.FloatRange(0.1, 100), default=24, show_default=True, help="Frames per second."
 )
-@options.shown_vessel_options
-@path_option
+@reformations.vessel_options
 @click.option(
     "--width",
     type=float,
@@ -60,11 +56,7 @@ if TYPE_CHECKING:
 )
 @options.view_options
 @reformations.smoothing_option
-@reformations.annotate_option
-@reformations.like_option
-@options.reading_options
-@look_options
-@verbose_option
+@reformations.picture_options
 def uncurl(**given: Any) -> None:
     """Show a vessel of CENTERLINES with its surroundings as it is straightened: from the body to its CPR.
 

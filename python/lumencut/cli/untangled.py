@@ -10,9 +10,8 @@ import click
 from lumencut.cli import options, reformations
 from lumencut.cli.mistakes import check_files, check_reading
 from lumencut.cli.parameters import VECTOR
-from lumencut.cli.report import busy, detail, say, timings, verbose_option, warn
+from lumencut.cli.report import busy, detail, say, timings, warn
 from lumencut.cli.scene import read_files, scene_from, warn_of_window
-from lumencut.cli.settings import look_options
 from lumencut.cli.vessels import shown_ids
 
 if TYPE_CHECKING:
@@ -25,8 +24,7 @@ _UNUSED = {"size": (64, 64), "zoom": 1.0}
 
 
 @click.command("untangled", short_help="Show a vessel tree without overlap (untangled CPR).")
-@click.argument("volume", type=options.FILE)
-@click.argument("centerlines", type=options.FILE, nargs=-1, required=True)
+@reformations.file_options
 @click.option(
     "-o",
     "--output",
@@ -78,11 +76,7 @@ _UNUSED = {"size": (64, 64), "zoom": 1.0}
     metavar="MM",
     help="Radius of vessels that have none (mm); default: 1.",
 )
-@reformations.annotate_option
-@reformations.like_option
-@options.reading_options
-@look_options
-@verbose_option
+@reformations.picture_options
 def untangled(**given: Any) -> None:
     """Cut every vessel of CENTERLINES open in one picture, none before another: untangled CPR.
 
