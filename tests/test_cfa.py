@@ -160,7 +160,9 @@ def test_one_vessel_and_the_same_like_it(files, tmp_path):
     )
     result = invoke(volume, line, "-o", tmp_path / "one.png", "--no-annotate", *words)
     assert (result.exit_code, result.stderr) == (0, "")
-    assert result.stdout == f"{tmp_path / 'one.png'}: CFA, mean of 1 vessel, pixels of 0.5 mm\n"
+    assert (
+        result.stdout == f"{tmp_path / 'one.png'}: CFA, mean of 1 vessel, pixels of 0.5 mm, window 500/150\n"
+    )
     again = invoke(volume, line, "-o", tmp_path / "two.png", "--no-annotate", "--like", tmp_path / "one.png")
     assert (again.exit_code, again.stderr) == (0, "")
     one, two = (np.asarray(Image.open(tmp_path / name)) for name in ("one.png", "two.png"))
