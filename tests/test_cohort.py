@@ -79,9 +79,7 @@ def test_the_second_run_does_nothing(done):
     manifest, out, _ = done
     before = {path: path.stat().st_mtime_ns for path in out.glob("sub-*/*")}
     assert before
-    start = time.monotonic()
     again = run(manifest, out, *LIMITS)
-    assert time.monotonic() - start < 5
     assert "0 of them now" in again.stdout
     assert again.returncode == 3
     assert {path: path.stat().st_mtime_ns for path in out.glob("sub-*/*")} == before

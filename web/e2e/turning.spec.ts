@@ -139,7 +139,7 @@ test('keys choose the windows, and the strip and its list do so too', async () =
   await expect(chosen).toHaveText('Soft tissue (3)');
   // In narrow windows the list alone is there.
   const narrow = viewer.page.viewportSize();
-  await viewer.page.setViewportSize({ width: 1440, height: 560 });
+  await viewer.page.setViewportSize({ width: 1600, height: 560 });
   const level = viewer.page.getByRole('slider', { name: 'Level of the window' });
   await level.focus();
   await viewer.press('ArrowRight', 'ArrowRight');

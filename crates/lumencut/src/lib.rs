@@ -33,6 +33,7 @@ pub mod positions;
 pub mod profile_marks;
 pub mod profile_record;
 pub mod profile_table;
+mod rays_across;
 pub mod report;
 mod samples;
 pub mod scale_bar;

@@ -15,9 +15,10 @@ use lumencut_core::volume::Volume;
 use lumencut_vessels::voxels::Voxels;
 
 use crate::lumen_wall::FoundWall;
+use crate::rays_across::TOO_BRIGHT;
 
-/// Calcium begins this far above the lumen, as a share of the lumen's contrast, and at this level (HU) at least.
-const CALCIUM: (f64, f64) = (0.5, 130.0);
+/// Calcium begins at this level (HU) at least.
+const LEAST_CALCIUM: f64 = 130.0;
 
 /// The distance of samples through the wall, in the sides that [`Voxels::sampling_side`] tells.
 const SAMPLE: f64 = 0.5;
@@ -71,7 +72,7 @@ pub fn lumen_map(
 
 /// From which level on something at the wall is calcium or metal, by the levels of the lumen and its surroundings.
 pub fn calcium_level([lumen, around]: [f64; 2]) -> f64 {
-    (lumen + CALCIUM.0 * (lumen - around)).max(CALCIUM.1)
+    (lumen + TOO_BRIGHT * (lumen - around)).max(LEAST_CALCIUM)
 }
 
 /// How much of the way through the wall is brighter than a level (mm), for each pixel: from the first to the second of two distances

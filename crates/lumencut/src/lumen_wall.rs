@@ -18,6 +18,8 @@ use lumencut_vessels::measure::flags::BRANCH;
 use lumencut_vessels::measure::profile::Profile;
 use lumencut_vessels::voxels::Voxels;
 
+use crate::rays_across::{Fall, RaysAcross};
+
 /// In how many directions around the vessel the wall is known.
 const DIRECTIONS: usize = 180;
 
@@ -30,14 +32,8 @@ const OPEN: f64 = 1.6;
 /// So does one beside it that meets a wall only beyond this number of radii of the contour: that of the branch.
 const BESIDE_OPEN: f64 = 1.15;
 
-/// What is brighter than the lumen by this share of its contrast is no lumen.
-const TOO_BRIGHT: f64 = 0.5;
-
 /// A smaller hole in the wall is none (mm²): between struts of stents single rays slip through.
 const SMALLEST_OPENING: f64 = 3.0;
-
-/// The distance of samples on a ray, in the sides that [`Voxels::sampling_side`] tells.
-const SAMPLE: f64 = 0.4;
 
 /// The wall around a vessel.
 pub struct FoundWall {
@@ -137,7 +133,7 @@ fn measured(
     let scale = straightened.length() / profile.length();
     let usual = median_radius(vessel, profile).ok_or_else(no_radius)?;
     let levels = median_levels(profile);
-    let rays = RaysAcross { voxels: &Voxels::new(volume), straightened };
+    let rays = RaysAcross { voxels: &Voxels::new(volume), straightened, directions: DIRECTIONS };
     let mut chosen: Vec<usize> = Vec::new();
     for n in 0..profile.len() {
         if chosen.last().is_none_or(|last| profile.arc_length[n] - profile.arc_length[*last] >= STEP) {
@@ -216,76 +212,6 @@ fn crossing_of(direction: DVec2, a: DVec2, b: DVec2) -> Option<f64> {
         return None;
     }
     Some(direction.dot(a.lerp(b, from / (from - to)))).filter(|away| *away > 0.0)
-}
-
-/// What a ray from the middle of the vessel meets.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Fall {
-    /// A wall, so far away (mm).
-    Wall(f64),
-    /// Lumen as far as it was followed.
-    Open,
-    /// It begins outside the lumen, or leaves the volume.
-    Unknown,
-}
-
-impl Fall {
-    fn radius(self) -> Option<f64> {
-        match self {
-            Self::Wall(radius) if radius > 0.0 => Some(radius),
-            _ => None,
-        }
-    }
-}
-
-/// Rays across a vessel through a volume.
-struct RaysAcross<'a, 'v> {
-    voxels: &'a Voxels<'v>,
-    straightened: &'a Straightened,
-}
-
-impl RaysAcross<'_, '_> {
-    /// What each ray in the section at an arc length meets within its reach (mm), where values first fall half of the way from the
-    /// lumen's level to that of the surroundings.
-    fn falls(&self, at: f64, [lumen, around]: [f64; 2], reach: impl Fn(usize) -> f64) -> Vec<Fall> {
-        let frame = self.straightened.frame(at);
-        let index = &self.voxels.index_from_world;
-        let middle = self.straightened.world_from_straightened(DVec3::new(0.0, 0.0, at));
-        let start = index.transform_point3(middle);
-        let step = SAMPLE * self.voxels.sampling_side;
-        let depth = |value: f32| (f64::from(value) - lumen) / (around - lumen);
-        let ray = |k: usize| {
-            let (sine, cosine) = (TAU * k as f64 / DIRECTIONS as f64).sin_cos();
-            let stride = index.transform_vector3(frame.across * cosine + frame.ahead * sine) * step;
-            let count = (reach(k) / step).ceil() as usize + 1;
-            let mut values = Vec::new();
-            while values.len() < count {
-                self.voxels.along(start, stride, &mut values);
-            }
-            fall(values[..count].iter().map(|value| depth(*value)), step)
-        };
-        (0..DIRECTIONS).map(ray).collect()
-    }
-}
-
-/// Where a ray whose depths (0 in lumen, 1 in its surroundings) are sampled every so many mm falls to half, or meets calcium or
-/// metal, which lie in a wall.
-fn fall(depths: impl Iterator<Item = f64>, step: f64) -> Fall {
-    let mut before = f64::NAN;
-    for (n, depth) in depths.enumerate() {
-        if depth.is_nan() || (n == 0 && depth >= 0.5) {
-            return Fall::Unknown;
-        }
-        if depth >= 0.5 {
-            return Fall::Wall((n as f64 - (depth - 0.5) / (depth - before)) * step);
-        }
-        // Noise does not reach that far twice in a row.
-        if depth.max(before) < -TOO_BRIGHT {
-            return Fall::Wall(n as f64 * step);
-        }
-        before = depth;
-    }
-    Fall::Open
 }
 
 /// Where the wall is open: where rays surely leave, and from there on beside it where they perhaps leave, unless all of that is too
