@@ -72,7 +72,7 @@ def test_a_lost_job_of_slurm_loses_no_study(node, cohort):
     words = command(manifest, out, "--slurm", options, "--jobs", "2")
     where = environment(manifest) | node
     with subprocess.Popen(words, env=where, cwd=manifest.parent) as batch:
-        wait_for(lambda: list(out.glob(".lumencut/work/*")), batch)
+        wait_for(lambda: list(out.glob(".lumencut/unfinished/*")), batch)
         jobs = subprocess.run(["squeue", "-h", "-o", "%A"], env=where, capture_output=True, text=True)
         subprocess.run(["scancel", jobs.stdout.split()[0]], env=where, check=True)
         assert batch.wait(300) == 0

@@ -144,7 +144,7 @@ def test_a_second_batch_into_one_folder_is_refused(tmp_path):
     (tmp_path / "studies.csv").write_text("id,volume\nhanging,hanging.nii.gz\n", "utf-8")
     (tmp_path / "hanging.nii.gz").write_bytes((tmp_path / "tube.nii.gz").read_bytes())
     with started(manifest, out) as first:
-        wait_for(lambda: list(out.glob(".lumencut/work/*")), first)
+        wait_for(lambda: list(out.glob(".lumencut/unfinished/*")), first)
         refused = run(manifest, out)
         assert refused.returncode == 1
         assert f"process {first.pid}" in refused.stderr
@@ -165,7 +165,7 @@ def test_children_end_with_their_parent(tmp_path, number):
     (tmp_path / "hanging.nii.gz").write_bytes((tmp_path / "tube.nii.gz").read_bytes())
     out = tmp_path / "out"
     with started(manifest, out) as batch:
-        wait_for(lambda: list(out.glob(".lumencut/work/*")), batch)
+        wait_for(lambda: list(out.glob(".lumencut/unfinished/*")), batch)
         (nursery,) = children_of(batch.pid)
         children = [nursery, *children_of(nursery)]
         assert len(children) == 2
@@ -183,7 +183,7 @@ def test_studies_are_begun_again_where_the_process_that_forks_them_is_lost(tmp_p
     manifest = write_cohort(tmp_path, good=3, bad=False)
     out = tmp_path / "out"
     with started(manifest, out, "--jobs", "2") as batch:
-        wait_for(lambda: len(list(out.glob(".lumencut/work/*"))) == 2, batch)
+        wait_for(lambda: len(list(out.glob(".lumencut/unfinished/*"))) == 2, batch)
         (nursery,) = children_of(batch.pid)
         os.kill(nursery, signal.SIGKILL)
         assert batch.wait(60) == 0
@@ -203,7 +203,7 @@ def test_three_kills_at_random_moments_end_with_the_same_tables(tmp_path):
         for folder in killed.glob("sub-*"):
             assert len(list(folder.glob("*_record.json"))) == 1
     assert run(manifest, killed, "--jobs", "2", "--threads", "1").returncode == 0
-    assert list(killed.glob(".lumencut/work/*")) == []
+    assert list(killed.glob(".lumencut/unfinished/*")) == []
     for name in ("vessels.csv", "sections.csv"):
         assert (killed / name).read_bytes() == (whole / name).read_bytes()
 
@@ -231,7 +231,7 @@ def test_a_full_disk_ends_the_batch_and_blames_no_study(tmp_path):
     assert ended.returncode == 1
     assert "found no room left on the disk" in ended.stderr
     assert [row["state"] for row in table(out / "studies.csv")] == ["done", "skipped", "skipped"]
-    assert not list(out.glob(".lumencut/work/*"))
+    assert not list(out.glob(".lumencut/unfinished/*"))
     # There is room again.
     (tmp_path / "site/sitecustomize.py").unlink()
     again = run(manifest, out)

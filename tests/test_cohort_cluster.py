@@ -48,7 +48,7 @@ def test_a_lost_worker_loses_no_study_and_a_crash_takes_nobody_with_it(tmp_path)
         with subprocess.Popen(
             words, env=environment(manifest), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
         ) as batch:
-            wait_for(lambda: len(list(there.glob(".lumencut/work/*"))) == 2, batch)
+            wait_for(lambda: len(list(there.glob(".lumencut/unfinished/*"))) == 2, batch)
             os.kill(processes[0], signal.SIGKILL)
             told, complaints = batch.communicate(timeout=120)
     assert batch.returncode == 3, complaints
@@ -70,7 +70,7 @@ def test_studies_end_when_their_batch_is_interrupted(tmp_path):
         told = {"preexec_fn": lambda: signal.signal(signal.SIGINT, signal.default_int_handler)}
         words = command(manifest, out, "--dask", address)
         with subprocess.Popen(words, env=environment(manifest), **pipes, **told) as batch:
-            wait_for(lambda: list(out.glob(".lumencut/work/*")), batch)
+            wait_for(lambda: list(out.glob(".lumencut/unfinished/*")), batch)
             batch.send_signal(signal.SIGINT)
             batch.communicate(timeout=60)
         assert batch.returncode == 130

@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+import json
 import math
 
 import numpy as np
 import pytest
 from click.testing import CliRunner
+from PIL import Image
+from PIL.PngImagePlugin import PngInfo
 
-import lumencut
-from lumencut import Settings, Vessel, VesselTree, Volume, Window, cpr, lumen_map
+from lumencut import Settings, Vessel, VesselTree, Volume, Window, cpr, lumen_map, write_centerlines
 from lumencut.cli import main
 from lumencut.errors import CameraError, FormatError, MeasuringError, SettingsError, VesselTreeError
+from lumencut.picture_text import KEYWORD
 from lumencut.recipe import read_recipe
 from lumencut.reformation_recipe import read_reformation_recipe
 from lumencut.volume_writers import write_volume
@@ -200,7 +203,7 @@ def test_bad_arguments(crusted, changes, error, words):
 def test_the_command_writes_it_and_makes_it_again(crusted, tmp_path):
     scan, lines = tmp_path / "ct.nrrd", tmp_path / "lines.vtp"
     write_volume(crusted, scan)
-    lumencut.write_centerlines(VesselTree([LINE]), lines)
+    write_centerlines(VesselTree([LINE]), lines)
     first, again = tmp_path / "first.png", tmp_path / "again.png"
     runner = CliRunner()
     options = ["--angle", "40", "--band", "-2:2", "--show", "mean", "--pixel-spacing", "0.1"]
@@ -215,6 +218,32 @@ def test_the_command_writes_it_and_makes_it_again(crusted, tmp_path):
     assert first.read_bytes() == again.read_bytes()
     done = runner.invoke(main, ["map", str(scan), str(lines), "-o", str(again), "--like", str(scan)])
     assert done.exit_code != 0
+
+
+@pytest.mark.parametrize(
+    ("changed", "words"),
+    [
+        ({"parameters": {"angle": "wide"}}, "angle in"),
+        ({"parameters": 3}, "does not say how to make it"),
+        ({"format": 2}, "another version"),
+        ({"settings": {}}, "does not say how to make it"),
+        ({"command": "cpr"}, "lumencut cpr"),
+    ],
+)
+def test_a_text_that_anybody_wrote_is_refused(crusted, tmp_path, changed, words):
+    scan, lines, picture = tmp_path / "ct.nrrd", tmp_path / "lines.vtp", tmp_path / "map.png"
+    write_volume(crusted, scan)
+    write_centerlines(VesselTree([LINE]), lines)
+    lumen_map(crusted, LINE).save(picture)
+    with Image.open(picture) as made:
+        content = {**json.loads(made.info[KEYWORD]), **changed}
+        info = PngInfo()
+        info.add_text(KEYWORD, json.dumps(content))
+        made.save(picture, pnginfo=info)
+    options = ["map", str(scan), str(lines), "-o", str(tmp_path / "new.png"), "--like", str(picture)]
+    done = CliRunner().invoke(main, options)
+    assert done.exit_code == 1
+    assert words in " ".join(done.output.split())
 
 
 def test_a_picture_of_another_reformation_is_no_recipe(crusted, tmp_path):

@@ -1,12 +1,14 @@
-"""What reformations of one vessel are given, checked: the vessel, and the settings with a slab."""
+"""What reformations of one vessel are given, checked: the vessel, angles, and the settings with a slab."""
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 from typing import Any, TypeAlias
 
 from lumencut._checked_settings import checked
-from lumencut.errors import SettingsError, VesselTreeError
+from lumencut._checks import number
+from lumencut.errors import CameraError, SettingsError, VesselTreeError
 from lumencut.settings import Settings
 from lumencut.slab import Slab
 from lumencut.vessel import Vessel
@@ -51,3 +53,24 @@ def _thick(settings: Settings, slab: SlabArgument) -> Settings:
     if not slab.thickness > 0:
         raise SettingsError("slab thickness", f"{slab.thickness:g} mm", "a thickness above 0 mm, or no slab")
     return replace(settings, slab=slab)
+
+
+def radians(subject: str, angle: float | None, degrees: float | None) -> float:
+    """Return the one of two angles that is given, in radians."""
+    if degrees is not None:
+        return math.radians(number(CameraError, subject.replace("angle", "degrees"), degrees))
+    return number(CameraError, subject, angle)
+
+
+def rotation(angle: float | None, degrees: float | None) -> float:
+    """Return by how much to turn (radians), of which one of two angles is given.
+
+    Raises
+    ------
+    CameraError
+        For both angles or neither, or one that is no finite number.
+    """
+    if (angle is None) == (degrees is None):
+        found = "neither" if angle is None else "an angle in radians and one in degrees"
+        raise CameraError("angle of the rotation", found, "one of angle= (radians) and degrees=")
+    return radians("angle of the rotation", angle, degrees)

@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from lumencut import _lumencut
 from lumencut._checks import choice, number, numbers
-from lumencut._reformation_checks import SlabArgument, check_vessel, flat_settings
+from lumencut._reformation_checks import SlabArgument, check_vessel, flat_settings, radians, rotation
 from lumencut.camera import Camera
 from lumencut.errors import CameraError, SettingsError, VolumeError
 from lumencut.profile import Profile
@@ -117,10 +117,7 @@ class PlanarReformation(Reformation):
         if self.roll is not None:
             found = f"a CPR whose rows follow the {self.recipe.parameters['roll']} side"
             raise CameraError("angle of the rotation", found, "one at an even angle", "make it without roll")
-        if (angle is None) == (degrees is None):
-            found = "neither" if angle is None else "an angle in radians and one in degrees"
-            raise CameraError("angle of the rotation", found, "one of angle= (radians) and degrees=")
-        turned = self.angle + radians("angle of the rotation", angle, degrees)
+        turned = self.angle + rotation(angle, degrees)
         core = self._core.rotated(turned)
         parameters = {**self.recipe.parameters, "angle": turned}
         return PlanarReformation(self._renderer, core, self._given, parameters)
@@ -369,10 +366,3 @@ def _width(width: float | None, volume: Volume) -> float | None:
         expected = f"at most {diagonal:.4g} mm, the diagonal of the volume"
         raise CameraError("width of the CPR", f"{checked:g} mm", expected)
     return checked
-
-
-def radians(subject: str, angle: float | None, degrees: float | None) -> float:
-    """Return the one of two angles that is given, in radians."""
-    if degrees is not None:
-        return math.radians(number(CameraError, subject.replace("angle", "degrees"), degrees))
-    return number(CameraError, subject, angle)

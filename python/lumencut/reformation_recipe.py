@@ -15,7 +15,7 @@ import numpy as np
 from lumencut import _lumencut
 from lumencut._files import checked_path
 from lumencut.camera import Camera
-from lumencut.errors import FormatError, SettingsError
+from lumencut.errors import CameraError, FormatError, SettingsError
 from lumencut.picture_text import KEYWORD, plain_settings, settings_of, text_of
 from lumencut.settings import Settings
 
@@ -49,6 +49,25 @@ def camera_parameters(camera: Camera) -> dict[str, Any]:
     """Return a camera as the parameters of a recipe hold it: the arguments that make it anew."""
     vectors = {name: np.asarray(getattr(camera, name)).tolist() for name in ("center", "direction", "up")}
     return {**vectors, "size": list(camera.size), "pixel_spacing": camera.pixel_spacing}
+
+
+def recipe_camera(parameters: dict[str, Any]) -> Camera:
+    """Return the camera that `camera_parameters` describes.
+
+    Raises
+    ------
+    CameraError
+        For parameters that make none.
+    """
+    from lumencut.camera import Camera
+
+    try:
+        return Camera(**{**parameters, "size": tuple(parameters["size"])})
+    except (KeyError, TypeError):
+        expected = "the parameters of a camera"
+        raise CameraError(
+            "camera of the picture", "others", expected, "give the options themselves"
+        ) from None
 
 
 def png_options(recipe: ReformationRecipe, settings: Settings) -> dict[str, Any]:

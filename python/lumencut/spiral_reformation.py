@@ -131,7 +131,7 @@ def spiral(
         The centerline; :meth:`VesselTree.path` makes one of several vessels that meet.
     pitch : float, optional
         The distance of neighbouring windings (mm); a quarter of the vessel's median radius where not given,
-        but no less than the smallest side of a voxel, and no finer than fits into 16,384 columns.
+        but no less than the smallest side of a voxel, and no finer than fits into 16,000 columns.
     radius : float, optional
         How far from the vessel the windings reach (mm); 1.25 times its largest radius and 2 mm more where not
         given.

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import math
 from typing import Any
 
 import numpy as np
 
 from lumencut import _lumencut
 from lumencut._checks import number
-from lumencut._reformation_checks import SlabArgument, check_vessel, flat_settings
+from lumencut._reformation_checks import SlabArgument, check_vessel, flat_settings, rotation
 from lumencut.camera import Camera
 from lumencut.errors import CameraError, SettingsError, VolumeError
 from lumencut.reformation import Reformation
@@ -64,11 +63,7 @@ class TangentialReformation(Reformation):
         CameraError
             For both angles or neither, or one that is no finite number.
         """
-        if (angle is None) == (degrees is None):
-            found = "neither" if angle is None else "an angle in radians and one in degrees"
-            raise CameraError("angle of the rotation", found, "one of angle= (radians) and degrees=")
-        turned = math.radians(degrees) if degrees is not None else angle
-        camera = self.camera.rotated(number(CameraError, "angle of the rotation", turned), "up")
+        camera = self.camera.rotated(rotation(angle, degrees), "up")
         return TangentialReformation(self._renderer, self._vessel, camera, self._smoothing, self._given)
 
     def _edges(self) -> dict[str, str]:

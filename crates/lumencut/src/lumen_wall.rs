@@ -15,6 +15,7 @@ use lumencut_core::reformations::cpr::Straightened;
 use lumencut_core::vessel_tree::Vessel;
 use lumencut_core::volume::Volume;
 use lumencut_vessels::measure::flags::BRANCH;
+use lumencut_vessels::measure::place::known_radius;
 use lumencut_vessels::measure::profile::Profile;
 use lumencut_vessels::voxels::Voxels;
 
@@ -62,8 +63,7 @@ pub fn lumen_wall(
     let at = stations.iter().map(|station| station.at).collect();
     let radius = quiet(&stations, |station, k| station.radius[k]);
     let open = openings(&stations);
-    let mut known: Vec<f64> = vessel.radius().unwrap_or(&[]).iter().copied().filter(|r| *r > 0.0).collect();
-    let mean_radius = median(&mut known).or_else(|| median(&mut radius.clone())).unwrap_or(1.0);
+    let mean_radius = known_radius(vessel).or_else(|| median(&mut radius.clone())).unwrap_or(1.0);
     Ok(FoundWall {
         wall: Arc::new(Wall::new(at, radius, open)?),
         levels: profile.and_then(median_levels),
@@ -172,9 +172,7 @@ fn measured(
 fn median_radius(vessel: &Vessel, profile: &Profile) -> Option<f64> {
     let half = profile.diameter_equivalent().into_iter().map(|diameter| diameter / 2.0);
     let mut measured: Vec<f64> = half.filter(|radius| radius.is_finite()).collect();
-    let known = vessel.radius().unwrap_or(&[]);
-    let mut known: Vec<f64> = known.iter().copied().filter(|radius| *radius > 0.0).collect();
-    median(&mut measured).or_else(|| median(&mut known))
+    median(&mut measured).or_else(|| known_radius(vessel))
 }
 
 /// The median levels of lumen and surroundings of the sections that tell them.

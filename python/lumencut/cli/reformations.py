@@ -89,6 +89,7 @@ def like(chosen: dict[str, Any], command: str) -> tuple[dict[str, Any], Settings
     path = chosen.pop("like")
     if path is None:
         return chosen, settings_from(chosen)
+    from lumencut._checks import number
     from lumencut.errors import FormatError
     from lumencut.reformation_recipe import read_reformation_recipe
 
@@ -97,7 +98,8 @@ def like(chosen: dict[str, Any], command: str) -> tuple[dict[str, Any], Settings
         found = f"a picture of lumencut {recipe.command or 'no command'}"
         raise FormatError(str(path), found, f"one of lumencut {command}", "use the command that made it")
     own = {name: value for name, value in recipe.parameters.items() if name in chosen and value is not None}
-    degrees = {name: math.degrees(value) for name, value in own.items() if name in _ANGLES}
+    angles = {name: number(FormatError, f"{name} in {path}", own[name]) for name in _ANGLES if name in own}
+    degrees = {name: math.degrees(angle) for name, angle in angles.items()}
     return {**chosen, **own, **degrees, **typed(chosen)}, settings_from(chosen, settings)
 
 

@@ -36,12 +36,12 @@ def tangential(
     renderer: Renderer, vessel: Vessel, chosen: dict[str, Any], settings: Settings
 ) -> TangentialReformation:
     """Return the tangential CPR of a vessel in the view of --like, or fitted to it as the options say."""
-    from lumencut.camera import Camera
+    from lumencut.reformation_recipe import recipe_camera
     from lumencut.tangential import tangential_of
     from lumencut.vessel_tree import VesselTree
 
     if chosen["camera"] is not None and not {*_OWN, "up", "pixel_spacing"} & typed(chosen).keys():
-        camera = Camera(**{**chosen["camera"], "size": tuple(chosen["camera"]["size"])})
+        camera = recipe_camera(chosen["camera"])
         return tangential_of(renderer, vessel, camera, smoothing=chosen["smoothing"], settings=settings)
     still = {"rotate": 0.0, "tilt": 0.0, "zoom": 1.0, "center": None}
     up = chosen["up"] if "up" in typed(chosen) else None

@@ -100,12 +100,12 @@ def _writer(output: Path, amount: float | None, fps: float) -> Writer | None:
 
 def _camera(chosen: dict[str, Any], vessel: Vessel) -> Camera:
     """The view of --like where no option says another one, else that of the options, fitted to the film."""
-    from lumencut.camera import Camera
+    from lumencut.reformation_recipe import recipe_camera
     from lumencut.uncurling import fitted_uncurling
 
     own = {"view", "up", "rotate", "tilt", "size", "center", "pixel_spacing", "zoom"}
     if chosen["camera"] is not None and not own & typed(chosen).keys():
-        return Camera(**{**chosen["camera"], "size": tuple(chosen["camera"]["size"])})
+        return recipe_camera(chosen["camera"])
     fitted = fitted_uncurling(options.view_from(chosen), vessel, chosen["smoothing"])
     return options.placed_like(fitted, chosen)
 

@@ -264,7 +264,7 @@ class Cohort:
     def _sweep(self, studies: Iterable[Study]) -> None:
         """Remove what a killed batch left of these studies, which nobody else does."""
         labels = {study.label for study in studies}
-        for path in self.layout.work.iterdir():
+        for path in self.layout.unfinished.iterdir():
             if path.name.partition(".")[0] in labels:
                 shutil.rmtree(path, ignore_errors=True)
 

@@ -27,9 +27,9 @@ class Layout:
         return self.out / ".lumencut"
 
     @property
-    def work(self) -> Path:
+    def unfinished(self) -> Path:
         """Folders of studies that are not whole yet; what a killed batch left there is swept away."""
-        return self.own / "work"
+        return self.own / "unfinished"
 
     @property
     def batch_file(self) -> Path:
@@ -54,7 +54,7 @@ class Layout:
 
     def make(self) -> None:
         """Make the folders that a batch writes into."""
-        for folder in (self.work, self.own / "failed", self.out / "logs"):
+        for folder in (self.unfinished, self.own / "failed", self.out / "logs"):
             folder.mkdir(parents=True, exist_ok=True)
 
 

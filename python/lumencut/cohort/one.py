@@ -47,7 +47,7 @@ def do_one(study: Study, recipe: CohortRecipe, layout: Layout, device: Device) -
     layout.make()
     origin = origin_of(study, recipe.digest)
     start = time.monotonic()
-    work = layout.work / f"{study.label}.{secrets.token_hex(8)}"
+    work = layout.unfinished / f"{study.label}.{secrets.token_hex(8)}"
     try:
         with _heard() as told:
             work.mkdir()
@@ -125,7 +125,7 @@ def record_failure(
     Record(study.id, "failed", words, round(seconds, 3), origin, told).write(layout.failure(study))
     place = layout.folder(study)
     if place.exists():
-        former = layout.work / f"{study.label}.{secrets.token_hex(8)}.former"
+        former = layout.unfinished / f"{study.label}.{secrets.token_hex(8)}.former"
         os.rename(place, former)
         shutil.rmtree(former, ignore_errors=True)
 

@@ -26,18 +26,15 @@ pub use self::straightened::Straightened;
 use self::stretched::Stretched;
 use self::surface::Surface;
 pub use self::view::View;
-use super::layout::Layout;
-use crate::camera::{MAX_PIXEL_SPACING, MAX_PIXELS, MAX_SIZE};
-use crate::error::{Error, ErrorKind, Mend, Result};
+use super::layout::{Layout, checked_size, whole_pixels};
+use crate::camera::MAX_PIXEL_SPACING;
+use crate::error::{Error, ErrorKind, Result};
 use crate::geometry::Curved;
 use crate::math::centerline_path::CenterlinePath;
 use crate::named::Named;
 
 /// What a default width leaves free on each side of the vessel (mm).
 const MARGIN: f64 = 25.0;
-
-/// A length that is a whole number of pixels but for rounding is that many.
-const WHOLE: f64 = 1e-9;
 
 /// How the lines across a vessel are laid out as an image.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -108,8 +105,9 @@ impl Cpr {
             (None, _) => Arc::new(Projected::new(Arc::clone(&path), view.turned()?, pixel_spacing)?),
         };
         let half = width.map_or(surface.reach() + MARGIN, |width| width / 2.0);
-        let pixels = |length: f64| (length / pixel_spacing + WHOLE).floor();
-        let size = checked_size([2.0 * pixels(half) + 1.0, pixels(surface.height()) + 1.0])?;
+        let pixels = |length: f64| whole_pixels(length, pixel_spacing);
+        let size =
+            checked_size("size of the CPR", [2.0 * pixels(half) + 1.0, pixels(surface.height()) + 1.0])?;
         Ok(Self { mode, view, path, surface, straightened, width, pixel_spacing, size })
     }
 
@@ -211,19 +209,6 @@ fn check_lengths(width: Option<f64>, pixel_spacing: f64) -> Result<()> {
         }
         _ => Ok(()),
     }
-}
-
-/// The size of an image that has these numbers of columns and rows.
-fn checked_size(size: [f64; 2]) -> Result<[usize; 2]> {
-    let [width, height] = size;
-    if width.max(height) > MAX_SIZE as f64 || width * height > MAX_PIXELS as f64 {
-        let found = format!("{width} × {height} pixels");
-        let expected = format!("at most {MAX_SIZE} along each side and {MAX_PIXELS} in all");
-        let error = Error::new(ErrorKind::Camera, "size of the CPR", found, expected);
-        return Err(error.mended_by(Mend::FewerPixels));
-    }
-    // Whole numbers within the limits.
-    Ok(size.map(|side| side as usize))
 }
 
 #[cfg(test)]

@@ -3,7 +3,8 @@
 
 use glam::{DVec2, DVec3};
 
-use crate::error::Result;
+use crate::camera::{MAX_PIXELS, MAX_SIZE};
+use crate::error::{Error, ErrorKind, Mend, Result};
 use crate::geometry::Curved;
 
 /// An image of which every pixel looks at a place of its own.
@@ -35,4 +36,28 @@ pub trait Layout: Send + Sync {
 
     /// Where the image shows a world point.
     fn pixel_from_world(&self, point: DVec3) -> DVec2;
+}
+
+/// A length that is a whole number of pixels but for rounding is that many.
+const WHOLE: f64 = 1e-9;
+
+/// How many whole pixels of a side of `pixel_spacing` (mm) fit into a length (mm).
+pub(super) fn whole_pixels(length: f64, pixel_spacing: f64) -> f64 {
+    (length / pixel_spacing + WHOLE).floor()
+}
+
+/// The size of an image that has these numbers of columns and rows.
+///
+/// # Errors
+/// [`ErrorKind::Camera`], about `subject`, for too many of them.
+pub(super) fn checked_size(subject: &str, size: [f64; 2]) -> Result<[usize; 2]> {
+    let [width, height] = size;
+    if width.max(height) > MAX_SIZE as f64 || width * height > MAX_PIXELS as f64 {
+        let found = format!("{width} × {height} pixels");
+        let expected = format!("at most {MAX_SIZE} along each side and {MAX_PIXELS} in all");
+        let error = Error::new(ErrorKind::Camera, subject, found, expected);
+        return Err(error.mended_by(Mend::FewerPixels));
+    }
+    // Whole numbers within the limits.
+    Ok(size.map(|side| side as usize))
 }

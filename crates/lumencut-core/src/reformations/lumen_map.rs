@@ -4,20 +4,17 @@
 //! After the radial ray casting of "Curve-centric Volume Reformation for Comparative Visualization" (Lampe, Correa, Ma, Hauser,
 //! IEEE TVCG 15(6), 2009, doi:10.1109/TVCG.2009.136), of which only the abstract and the opening could be read; the formulas are ours.
 
-mod folds;
-
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use glam::{DVec2, DVec3, Vec3};
 use rayon::prelude::*;
 
-use self::folds::Folds;
 use super::cpr::{Straightened, View};
-use super::layout::Layout;
+use super::cut_locus::CutLocus;
+use super::layout::{Layout, checked_size, whole_pixels};
 use super::wall::Wall;
-use crate::camera::{MAX_PIXELS, MAX_SIZE};
-use crate::error::{Error, ErrorKind, Mend, Result};
+use crate::error::{Error, ErrorKind, Result};
 use crate::geometry::Curved;
 use crate::limits::Limits;
 use crate::math::centerline_path::CenterlinePath;
@@ -25,9 +22,6 @@ use crate::math::same_place::ON_PICTURE;
 
 const PIXEL_SPACING: Limits = Limits::new(1e-6, 1e4, "mm");
 const OVERLAP: Limits = Limits::new(0.0, 3.0, "rad");
-
-/// A length that is a whole number of pixels but for rounding is that many.
-const WHOLE: f64 = 1e-9;
 
 /// How bright a wall is that is seen along it, and how much brighter one that is seen face on.
 const SHADES: [f64; 2] = [0.3, 0.7];
@@ -83,10 +77,10 @@ impl LumenMap {
         let straightened = Straightened::new(Arc::clone(&path), &View { angle: 0.0, ..*view })?;
         let around = (TAU * mean_radius / pixel_spacing).round().max(1.0);
         let aside = (overlap / TAU * around).round();
-        let rows = (path.length() / pixel_spacing + WHOLE).floor() + 1.0;
-        check_size([around + 2.0 * aside, rows])?;
-        let [around, aside, rows] = [around, aside, rows].map(|count| count as usize);
-        Ok(Self { path, straightened, wall, parameters, columns: [around, aside], rows })
+        let rows = whole_pixels(path.length(), pixel_spacing) + 1.0;
+        let [_, rows] = checked_size("size of the lumen map", [around + 2.0 * aside, rows])?;
+        let columns = [around, aside].map(|count| count as usize);
+        Ok(Self { path, straightened, wall, parameters, columns, rows })
     }
 
     /// How the map is laid out.
@@ -223,18 +217,12 @@ impl Layout for LumenMap {
     }
 
     fn folded(&self) -> Vec<bool> {
-        let folds = Folds::new(&self.path, &self.straightened);
-        let beyond = self.parameters.beyond;
-        let width = self.size()[0];
-        let row = |j: usize| {
-            let at = j as f64 * self.parameters.pixel_spacing;
-            let offsets = (0..width).map(|i| {
-                let around = self.around(i as f64);
-                DVec2::from_angle(around) * self.distance(at, around, beyond)
-            });
-            folds.row(at, offsets)
-        };
-        (0..self.rows).into_par_iter().flat_map(row).collect()
+        let cut_locus = CutLocus::new(&self.path);
+        self.each(|at, around| {
+            let offset = DVec2::from_angle(around) * self.distance(at, around, self.parameters.beyond);
+            let point = self.straightened.world_from_straightened(offset.extend(at));
+            self.straightened.advance(at, offset) <= 0.0 || cut_locus.is_beyond(point, at)
+        })
     }
 
     fn world_from_pixel(&self, pixel: DVec2) -> DVec3 {
@@ -251,16 +239,6 @@ impl Layout for LumenMap {
         }
         DVec2::new(self.column(offset.to_angle()), place.z / self.parameters.pixel_spacing)
     }
-}
-
-fn check_size([width, height]: [f64; 2]) -> Result<()> {
-    if width.max(height) > MAX_SIZE as f64 || width * height > MAX_PIXELS as f64 {
-        let found = format!("{width} × {height} pixels");
-        let expected = format!("at most {MAX_SIZE} along each side and {MAX_PIXELS} in all");
-        let error = Error::new(ErrorKind::Camera, "size of the lumen map", found, expected);
-        return Err(error.mended_by(Mend::FewerPixels));
-    }
-    Ok(())
 }
 
 #[cfg(test)]

@@ -4,10 +4,12 @@
 mod connections;
 pub mod cpr;
 pub mod cr;
+mod cut_locus;
 mod found;
 mod layout;
 pub mod lumen_map;
 pub mod mpcpr;
+mod segments;
 pub mod spiral;
 pub mod tangential;
 pub mod uncurl;

@@ -11,9 +11,9 @@ use glam::{DVec2, DVec3, Vec3};
 use rayon::prelude::*;
 
 use super::cpr::{Straightened, View};
-use super::layout::Layout;
+use super::layout::{Layout, checked_size, whole_pixels};
 use crate::camera::{MAX_PIXELS, MAX_SIZE};
-use crate::error::{Error, ErrorKind, Mend, Result};
+use crate::error::{Error, ErrorKind, Result};
 use crate::geometry::Curved;
 use crate::limits::Limits;
 use crate::math::centerline_path::CenterlinePath;
@@ -21,9 +21,6 @@ use crate::math::same_place::ON_PICTURE;
 use crate::named::Named;
 
 const LENGTH: Limits = Limits::new(1e-6, 1e4, "mm");
-
-/// A length that is a whole number of pixels but for rounding is that many.
-const WHOLE: f64 = 1e-9;
 
 /// How often the angle of a length is bettered by Newton's method: more than it takes.
 const STEPS: usize = 12;
@@ -84,12 +81,12 @@ impl Spiral {
             let found = format!("{angle}");
             return Err(Error::new(ErrorKind::Camera, "angle of the spiral CPR", found, "a finite angle"));
         }
-        let rows = (path.length() / pixel_spacing + WHOLE).floor() + 1.0;
+        let rows = whole_pixels(path.length(), pixel_spacing) + 1.0;
         let half = parameters.half();
-        check_size(&parameters, [2.0 * half + 1.0, rows])?;
+        let [width, rows] = fitting_size(&parameters, [2.0 * half + 1.0, rows])?;
         let straightened = Straightened::new(path, &View { angle: 0.0, ..*view })?;
-        let columns = (0..=2 * half as usize).map(|i| parameters.place(i as f64 - half)).collect();
-        Ok(Self { straightened, parameters, columns, rows: rows as usize })
+        let columns = (0..width).map(|i| parameters.place(i as f64 - half)).collect();
+        Ok(Self { straightened, parameters, columns, rows })
     }
 
     /// How the sections are wound up.
@@ -115,7 +112,7 @@ impl SpiralParameters {
             Sampling::Arc => self.length(outermost),
             Sampling::Angle => self.radius * outermost,
         };
-        (length / self.pixel_spacing + WHOLE).floor()
+        whole_pixels(length, self.pixel_spacing)
     }
 
     /// The length of a spiral from the middle to an angle.
@@ -227,20 +224,19 @@ impl Layout for Spiral {
     }
 }
 
-fn check_size(parameters: &SpiralParameters, [width, height]: [f64; 2]) -> Result<()> {
-    let most = (MAX_SIZE as f64).min(MAX_PIXELS as f64 / height);
-    if width <= most && height <= MAX_SIZE as f64 {
-        return Ok(());
-    }
-    let found = format!("{width} × {height} pixels");
-    let expected = format!("at most {MAX_SIZE} along each side and {MAX_PIXELS} in all");
-    let error = Error::new(ErrorKind::Camera, "size of the spiral CPR", found, expected);
-    // The columns are about the area of a section by the pitch.
-    let fits = parameters.pitch * width / most;
-    if height > MAX_SIZE as f64 || fits > 2.0 * parameters.radius {
-        return Err(error.mended_by(Mend::FewerPixels));
-    }
-    Err(error.mend(format!("give a pitch of {:.2} mm or more", (fits * 101.0).ceil() / 100.0)))
+/// The size of the image; an error names a pitch at which it fits, where one does.
+fn fitting_size(parameters: &SpiralParameters, size: [f64; 2]) -> Result<[usize; 2]> {
+    checked_size("size of the spiral CPR", size).map_err(|error| {
+        let [width, height] = size;
+        let most = (MAX_SIZE as f64).min(MAX_PIXELS as f64 / height);
+        // The columns are about the area of a section by the pitch.
+        let fits = parameters.pitch * width / most;
+        if height > MAX_SIZE as f64 || fits > 2.0 * parameters.radius {
+            return error;
+        }
+        let pitch = format!("give a pitch of {:.2} mm or more", (fits * 101.0).ceil() / 100.0);
+        Error { mended_by: None, ..error }.mend(pitch)
+    })
 }
 
 #[cfg(test)]

@@ -4,7 +4,6 @@
 
 mod bent;
 mod feet;
-mod folds;
 
 use std::sync::Arc;
 
@@ -13,7 +12,7 @@ use rayon::prelude::*;
 
 use self::bent::Bent;
 use self::feet::{Feet, Foot};
-use self::folds::Folds;
+use super::cut_locus::CutLocus;
 use super::layout::Layout;
 use crate::camera::Camera;
 use crate::error::{Error, ErrorKind, Result};
@@ -142,8 +141,8 @@ impl Layout for Uncurl {
             // In space no place of the vessel is nearer to a pixel's point than the nearest one in the image is.
             return vec![false; width * height];
         }
-        let folds = Folds::new(&self.path);
-        self.each(false, |foot| folds.is_folded(self.look(foot).0, foot.at)).unwrap_or_default()
+        let cut_locus = CutLocus::new(&self.path);
+        self.each(false, |foot| cut_locus.is_beyond(self.look(foot).0, foot.at)).unwrap_or_default()
     }
 
     fn world_from_pixel(&self, pixel: DVec2) -> DVec3 {

@@ -8,7 +8,6 @@ mod growth;
 mod hull;
 mod pieces;
 mod sectors;
-mod segments;
 mod sheet;
 mod strip;
 mod turning;
@@ -25,9 +24,9 @@ use self::sheet::{Place, Sheet, placed};
 use self::strip::Strip;
 use self::turning::{BEYOND_NEAR, Tree, Turning, untangle};
 use super::found::NO_VESSEL;
-use super::layout::Layout;
-use crate::camera::{Camera, MAX_PIXEL_SPACING, MAX_PIXELS, MAX_SIZE};
-use crate::error::{Error, ErrorKind, Mend, Result};
+use super::layout::{Layout, checked_size};
+use crate::camera::{Camera, MAX_PIXEL_SPACING};
+use crate::error::{Error, ErrorKind, Result};
 use crate::geometry::Curved;
 use crate::limits::Limits;
 use crate::stop::{Stop, go_on};
@@ -359,16 +358,10 @@ fn extent(places: &[Vec<DVec2>], parameters: &UntangledParameters) -> Result<(DV
         (low.min(*place), high.max(*place))
     });
     let pixels = (high - low + 2.0 * parameters.width) / parameters.pixel_spacing;
-    let [width, height] = pixels.to_array().map(|length| length.ceil() + 1.0);
-    if width.max(height) > MAX_SIZE as f64 || width * height > MAX_PIXELS as f64 {
-        let found = format!("{width} × {height} pixels");
-        let expected = format!("at most {MAX_SIZE} along each side and {MAX_PIXELS} in all");
-        let error = Error::new(ErrorKind::Camera, "size of the untangled CPR", found, expected);
-        return Err(error.mended_by(Mend::FewerPixels));
-    }
+    let size =
+        checked_size("size of the untangled CPR", pixels.to_array().map(|length| length.ceil() + 1.0))?;
     let origin = DVec2::new(low.x - parameters.width, high.y + parameters.width);
-    // Whole numbers within the limits.
-    Ok((origin, [width as usize, height as usize]))
+    Ok((origin, size))
 }
 
 #[cfg(test)]

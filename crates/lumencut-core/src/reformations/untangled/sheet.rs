@@ -4,12 +4,11 @@ use glam::{DVec2, DVec3};
 
 use super::growth::Growth;
 use super::pieces::Piece;
-use super::segments::Segments;
 use super::strip::{Strip, normals};
 use crate::math::same_place::ON_PICTURE;
+use crate::reformations::cut_locus::NEARER;
+use crate::reformations::segments::Segments;
 
-/// A place belongs to another part of the tree where that is nearer by more than this share.
-const NEARER: f64 = 0.05;
 
 /// How often an interval is halved at most to find a section: below what a number can tell.
 const HALVINGS: usize = 60;
