@@ -9,7 +9,6 @@ use crate::math::same_place::ON_PICTURE;
 use crate::reformations::cut_locus::NEARER;
 use crate::reformations::segments::Segments;
 
-
 /// How often an interval is halved at most to find a section: below what a number can tell.
 const HALVINGS: usize = 60;
 
