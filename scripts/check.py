@@ -109,6 +109,11 @@ def red_tests(text: str) -> str:
     return "".join(f"\n   {one[:300]}" for one in RED_TEST.findall(text)[:MOST_NAMED])
 
 
+def last_lines(text: str) -> str:
+    """The end of what a check printed, which mostly says why it failed; nothing where it printed nothing."""
+    return "".join(f"\n   {one[:300]}" for one in text.strip().splitlines()[-MOST_NAMED:])
+
+
 def lint_checks() -> list[Check]:
     """Format, lint, types and documentation."""
     return [
@@ -246,7 +251,7 @@ def judge(check: Check) -> tuple[Count, str]:
     if count.failed:
         return count, f"{count.failed} failed{red_tests(text)}"
     if status:
-        return count + Count(failed=1), f"exit status {status}"
+        return count + Count(failed=1), f"exit status {status}{last_lines(text)}"
     if check.count and not count.passed:
         return Count(failed=1), "no test ran"
     return count, ""
@@ -259,7 +264,7 @@ class Run:
         self.checks = checks
         self.total = Count()
         self.seconds: list[tuple[str, float]] = []
-        self.red = ""
+        self.red: list[str] = []
         self.changed = threading.Condition()
 
     def perform(self) -> None:
@@ -297,7 +302,7 @@ class Run:
         with self.changed:
             self.total += count
             self.seconds.append((name, seconds))
-            self.red = self.red or (f"{name}: {wrong}" if wrong else "")
+            self.red += [f"{name}: {wrong}"] if wrong else []
             self.changed.notify_all()
 
 
@@ -309,8 +314,8 @@ def perform(checks: list[Check]) -> Count:
     for name, taken in [*run.seconds, ("all", time.monotonic() - start)]:
         print(f"{taken:8.1f}  {name}")
     # Last, as logs are often kept from their end.
-    if run.red:
-        print(f"\n== RED: {run.red}; nothing after it was run")
+    for red in run.red:
+        print(f"\n== RED: {red}\n")
     return run.total
 
 

@@ -86,7 +86,20 @@ def test_red_tests_are_named_at_the_end(check, capfd):
     ]
     assert perform(check, (says("\n".join(["noise", *named, RUST_RED])), check.count_rust)) == (7, 1)
     end = capfd.readouterr().out.partition("== seconds")[2]
-    assert end.partition("== RED: check 0: 1 failed\n   ")[2].partition(";")[0].split("\n   ") == named
+    assert end.partition("== RED: check 0: 1 failed\n   ")[2].strip().split("\n   ") == named
+
+
+def test_the_end_says_why_each_red_check_failed(check, capfd):
+    """Logs are often kept from their end, and lanes can fail beside each other."""
+    wait = "import time; time.sleep(1); print('the input that failed'); raise SystemExit(1)"
+    checks = [
+        check.Check("beside", (sys.executable, "-c", wait), lane="page"),
+        check.Check("red", says("noise\nthe first one", 3)),
+    ]
+    assert check.perform(checks) == check.Count(0, 2)
+    end = capfd.readouterr().out.partition("== seconds")[2]
+    assert "== RED: red: exit status 3\n   noise\n   the first one\n" in end
+    assert "== RED: beside: exit status 1\n   the input that failed\n" in end
 
 
 def test_a_red_check_stops_the_run(check, tmp_path, capfd):
@@ -135,7 +148,7 @@ def test_a_red_check_stops_every_lane(check, tmp_path, capfd):
     ]
     assert check.perform(checks) == check.Count(0, 1)
     assert not made.exists()
-    assert "RED: red: exit status 3; nothing after it was run" in capfd.readouterr().out
+    assert "RED: red: exit status 3" in capfd.readouterr().out
 
 
 def test_every_check_that_is_needed_is_there_before(check):

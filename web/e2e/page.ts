@@ -8,9 +8,6 @@ import type { Pixels } from './compare';
 
 export type PaneName = 'turning' | 'axial' | 'coronal' | 'sagittal' | 'straightened' | 'section' | 'profile';
 
-/** Above this the page makes no picture with samples at rest (ms). */
-const NO_SAMPLES = 700;
-
 interface TestHook extends Asked {
   memory(): Promise<number>;
 }
@@ -94,11 +91,9 @@ export class Viewer {
   /** Waits until the turning view is complete. */
   async rest(): Promise<void> {
     await this.frames();
-    await this.page.waitForFunction((slow) => {
-      const stage = document.querySelector<HTMLElement>('canvas.picture')?.dataset.stage;
-      const time = Number.parseFloat(document.querySelector('.frame-time')?.textContent ?? '');
-      return stage === 'samples' || (stage === 'full' && time > slow);
-    }, NO_SAMPLES);
+    await this.page.waitForFunction(
+      () => document.querySelector<HTMLElement>('canvas.picture')?.dataset.last === 'true',
+    );
   }
 
   /** The view as the address tells it. */

@@ -58,6 +58,7 @@ function loopOf(time: (view: View) => number) {
   return { engine, loop };
 }
 
+const lasts = () => shown.map(({ isLast }) => isLast);
 const stages = () => shown.map(({ stage }) => stage);
 const lastMoving = (engine: FakeEngine) =>
   engine.asked.filter((view) => view.settings.context_preview).at(-1) as View;
@@ -85,6 +86,7 @@ describe('at rest', () => {
     loop.want(VIEW);
     await vi.advanceTimersByTimeAsync(10_000);
     expect(stages()).toEqual(['moving', 'full', 'samples']);
+    expect(lasts()).toEqual([false, false, true]);
     expect(engine.asked[0]?.settings).toEqual({ levels: 3, context_preview: true, samples: 1 });
     expect(engine.asked[1]).toEqual(VIEW);
     expect(engine.asked[2]?.settings).toEqual({ levels: 3, samples: 2 });
@@ -103,6 +105,20 @@ describe('at rest', () => {
     loop.want(VIEW);
     await vi.advanceTimersByTimeAsync(10_000);
     expect(stages()).toEqual(['moving', 'full']);
+    expect(lasts()).toEqual([false, true]);
+  });
+
+  test('a picture is not the last one where another view is wanted meanwhile', async () => {
+    const { loop } = loopOf(() => 900);
+    loop.want(VIEW);
+    await vi.advanceTimersByTimeAsync(100);
+    loop.want(other(1));
+    await vi.advanceTimersByTimeAsync(10_000);
+    expect(shown.map(({ wanted, isLast }) => [wanted.camera.center[0], isLast])).toEqual([
+      [VIEW.camera.center[0], false],
+      [1, false],
+      [1, true],
+    ]);
   });
 
   test('a dense screen gets its own pixels, but no more than two along a side', async () => {

@@ -59,6 +59,7 @@ export function TurningView() {
     if (view) {
       if (canvas.current) {
         canvas.current.dataset.stage = 'wanted';
+        canvas.current.dataset.last = 'false';
       }
       loop.current?.want(view);
     }
@@ -110,7 +111,7 @@ const PROJECTED: Settings = { slab: [1000, 'max'], silhouettes: false };
 /** The canvases that the GPU draws on. */
 const handedOver = new WeakSet<HTMLCanvasElement>();
 
-function showFrame(canvas: HTMLCanvasElement | null, { drawn, stage, view, wanted }: Shown): void {
+function showFrame(canvas: HTMLCanvasElement | null, { drawn, stage, view, wanted, isLast }: Shown): void {
   // It was under way before the GPU got its canvas, on which nothing else can draw: the view is drawn again there.
   if (canvas && drawn.picture && handedOver.has(canvas)) {
     return;
@@ -124,6 +125,7 @@ function showFrame(canvas: HTMLCanvasElement | null, { drawn, stage, view, wante
   }
   if (canvas) {
     canvas.dataset.stage = stage;
+    canvas.dataset.last = String(isLast);
     canvas.dataset.pixels = view.camera.size.join('x');
   }
   store.settled.value = stage === 'moving' ? null : wanted.camera;

@@ -30,6 +30,8 @@ export interface Shown {
   readonly view: View;
   readonly drawn: Drawn;
   readonly stage: Stage;
+  /** Whether this is the last picture of a view that is still the wanted one. */
+  readonly isLast: boolean;
 }
 
 export class FrameLoop {
@@ -95,13 +97,14 @@ export class FrameLoop {
     try {
       const drawn = await this.engine.render(asked);
       this.gaveWay = 0;
+      const next = this.stageAfter(view, stage, drawn.milliseconds);
       if (!this.isStopped && !this.isOutdated) {
         this.adapt(asked, view, drawn.milliseconds, stage);
-        this.show({ wanted: view, view: asked, drawn, stage });
+        this.show({ wanted: view, view: asked, drawn, stage, isLast: next === 'done' });
       }
       this.isBusy = false;
       if (!this.beginsAnew()) {
-        this.goOn(view, stage, drawn.milliseconds);
+        this.goOn(stage, next);
       }
     } catch (error) {
       this.isBusy = false;
@@ -153,21 +156,26 @@ export class FrameLoop {
     this.factor = Math.min(1, Math.max(COARSEST, used / 2, Math.min(ideal, used * 1.25)));
   }
 
-  private goOn(view: View, stage: Stage, milliseconds: number): void {
-    const isFirst = stage === 'full' && this.isFirst;
-    this.isFirst &&= !isFirst;
+  /** The stage of the picture that follows one of this stage and time. */
+  private stageAfter(view: View, stage: Stage, milliseconds: number): Stage {
+    const isSlow = milliseconds > SAMPLED_WITHIN;
     if (this.wanted !== view) {
-      this.next();
-    } else if (isFirst && milliseconds > SAMPLED_WITHIN) {
-      // Only the next one tells whether there is time for samples.
-      this.advance('full');
-    } else if (stage === 'moving') {
-      const rest = REST_AFTER - (performance.now() - this.changed);
-      this.timer = window.setTimeout(() => this.advance('full'), Math.max(rest, 0));
-    } else if (stage === 'full' && milliseconds <= SAMPLED_WITHIN) {
-      this.timer = window.setTimeout(() => this.advance('samples'), REST_AFTER);
+      return 'moving';
+    }
+    if (stage === 'moving' || (stage === 'full' && isSlow && this.isFirst)) {
+      // After the first picture of a device only the next one tells whether there is time for samples.
+      return 'full';
+    }
+    return stage === 'full' && !isSlow ? 'samples' : 'done';
+  }
+
+  private goOn(stage: Stage, next: Stage): void {
+    this.isFirst &&= stage !== 'full';
+    if (next === 'moving' || next === 'done' || next === stage) {
+      this.advance(next);
     } else {
-      this.stage = 'done';
+      const rest = stage === 'moving' ? performance.now() - this.changed : 0;
+      this.timer = window.setTimeout(() => this.advance(next), Math.max(REST_AFTER - rest, 0));
     }
   }
 

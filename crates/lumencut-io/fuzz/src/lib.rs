@@ -3,6 +3,9 @@
 mod memory;
 mod packed;
 
+use std::time::Duration;
+
+use cpu_time::ThreadTime;
 use lumencut_io::{Error, Line, junctions, read, write_mrk_json, write_vtp};
 
 pub use packed::vtp as packed_vtp;
@@ -11,6 +14,8 @@ pub use packed::vtp as packed_vtp;
 const MOST_TIMES: usize = 10;
 /// Smaller files may take what a file of this size (bytes) may.
 const SMALL: usize = 1 << 20;
+/// The most time that a thread may compute for one file, read and written as often as it is here.
+const MOST_TIME: Duration = Duration::from_secs(2);
 
 /// Lines of at most this many points are looked at in other units too.
 const FEW_POINTS: usize = 1000;
@@ -18,8 +23,15 @@ const FEW_POINTS: usize = 1000;
 /// Reads `data` as a file of this name, as every caller does, and checks what becomes of it.
 ///
 /// # Panics
-/// Where the lines are not sound, reading takes too much memory, or what is written is read back otherwise.
+/// Where the lines are not sound, the file takes too much memory or time, or what is written is read back otherwise.
 pub fn check(data: &[u8], name: &str) {
+    let start = ThreadTime::now();
+    check_what_is_read(data, name);
+    let taken = start.elapsed();
+    assert!(taken <= MOST_TIME, "{} bytes took {taken:?} of computing, more than {MOST_TIME:?}", data.len());
+}
+
+fn check_what_is_read(data: &[u8], name: &str) {
     let (vessels, peak) =
         memory::peak_of(|| read(data, name).and_then(|found| found.scaled(1.0)).map(junctions::vessels));
     let most = MOST_TIMES * data.len().max(SMALL);
