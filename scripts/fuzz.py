@@ -32,8 +32,8 @@ COVERAGE = (
     "-Cllvm-args=-sanitizer-coverage-pc-table",
     "-Cllvm-args=-sanitizer-coverage-trace-compares",
 )
-#: The targets count memory and the time that they compute themselves; this bounds the whole process, and ends one
-#: that hangs. It must be patient: beside other work an input of no time at all was once told as two seconds.
+#: The targets count memory and the time that they compute themselves; this bounds the whole process, and ends
+#: one that hangs. It must be patient: beside other work an input of no time was once told as two seconds.
 LIMITS = ("-timeout=60", "-rss_limit_mb=1024", "-max_len=65536")
 
 
