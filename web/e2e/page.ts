@@ -167,6 +167,12 @@ export class Viewer {
     await this.frames();
   }
 
+  async doubleClick(at: Pair, name: PaneName = 'turning'): Promise<void> {
+    const [x, y] = await this.place(at, name);
+    await this.page.mouse.dblclick(x, y);
+    await this.frames();
+  }
+
   async wheel(at: Pair, by: number, name: PaneName = 'turning'): Promise<void> {
     const [x, y] = await this.place(at, name);
     await this.page.mouse.move(x, y);

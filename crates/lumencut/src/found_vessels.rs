@@ -8,8 +8,9 @@ use lumencut_core::volume::Volume;
 use lumencut_vessels::trace::find::choose::find_from;
 use lumencut_vessels::trace::find::found::{FoundVessel, Trees};
 use lumencut_vessels::trace::find::track::TrackDoubt;
-use lumencut_vessels::trace::find::{self, FindRequest, refusals};
+use lumencut_vessels::trace::find::{self, FindRequest, one_vessel, refusals};
 use lumencut_vessels::trace::lines::centerline::Centerline;
+use lumencut_vessels::voxels::Voxels;
 
 use crate::text::{fixed, rounded};
 
@@ -40,11 +41,18 @@ pub struct FoundTree {
 /// # Errors
 /// Those of [`find::find_vessels`]; [`lumencut_core::error::ErrorKind::Tracing`] where none is sure.
 pub fn find_vessels(volume: &Volume, request: &FindRequest) -> Result<FoundTree> {
-    let trees = find::find_vessels(volume, request)?;
+    told(&find::find_vessels(volume, request)?, request.smallest_radius)
+}
+
+/// What is told of all vessels of a scan, of which one is sure at least.
+///
+/// # Errors
+/// [`lumencut_core::error::ErrorKind::Tracing`] where none is sure; `smallest_radius` (mm) is the one that was asked for.
+pub fn told(trees: &Trees, smallest_radius: f64) -> Result<FoundTree> {
     if trees.vessels.iter().any(|vessel| vessel.doubt.is_none()) {
-        return Ok(found(trees));
+        return Ok(found(trees.clone()));
     }
-    Err(refusals::no_vessel(trees.vessels.len(), request.smallest_radius))
+    Err(refusals::no_vessel(trees.vessels.len(), smallest_radius))
 }
 
 /// The vessels that hang together with the one that a seed (mm, LPS) lies in.
@@ -53,6 +61,20 @@ pub fn find_vessels(volume: &Volume, request: &FindRequest) -> Result<FoundTree>
 /// Those of [`find_from`].
 pub fn trace_from(volume: &Volume, seed: DVec3, request: &FindRequest) -> Result<FoundTree> {
     Ok(found(find_from(volume, seed, request)?))
+}
+
+/// The vessel that a click (mm, LPS) lies in, from the nearest of the vessels that there are already (`beside`) to its end.
+///
+/// # Errors
+/// [`lumencut_core::error::ErrorKind::Tracing`] for a click in no vessel that was found, and in one that there is already.
+pub fn one_vessel(volume: &Volume, trees: &Trees, click: DVec3, beside: &[Centerline]) -> Result<Centerline> {
+    let voxels = Voxels::new(volume);
+    if !click.is_finite() || voxels.voxel_at(click).is_none() {
+        return Err(refusals::outside(click));
+    }
+    let side = voxels.world_from_index.matrix3.determinant().abs().cbrt();
+    let refused = |reason| refusals::no_whole_vessel(click, f64::from(voxels.at(click)), reason);
+    one_vessel::one_vessel(trees, click, side, beside).map_err(refused)
 }
 
 /// What is told of trees that were found.

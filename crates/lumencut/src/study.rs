@@ -40,6 +40,7 @@ pub mod straightening;
 pub mod tracing;
 pub mod view;
 pub mod voxels;
+pub mod whole_vessel;
 
 #[cfg(test)]
 pub(crate) mod tests;

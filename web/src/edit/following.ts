@@ -5,11 +5,13 @@ import { followLines } from './lines';
 import { followTool } from './mode';
 import { followDocument } from './shown';
 import { followFacts } from './tidying';
+import { followWhole } from './whole';
 
 export function followEdits(engine: Asked): void {
   followDocument(engine);
   followLines(engine);
   followFacts(engine);
   followPointer(engine);
+  followWhole(engine);
   followTool();
 }

@@ -10,9 +10,10 @@ import { dropEdits, waiting } from './committing';
 import { answerDoubt, stepDoubt } from './doubts';
 import { candidate, first, target } from './drawing';
 import { chosenDoubt, isListOpen, isTracing, toggleTool } from './mode';
-import { enter, leave, removeLast } from './pointing';
+import { enter, isAtCrossHair, leave, removeLast } from './pointing';
 import { pickedId } from './shown';
 import { remove } from './vessels';
+import { takeWhole } from './whole';
 
 export function performAny(engine: EngineClient, action: Action): void {
   const edits = hasVolume.value ? edit(engine, action) : false;
@@ -59,14 +60,24 @@ function edit(engine: EngineClient, action: Action): boolean {
 }
 
 function point(engine: EngineClient, action: Action): boolean {
-  if (action === 'enter') {
-    enter(engine);
+  if (action === 'whole vessel') {
+    takeWhole(engine);
+  } else if (action === 'enter') {
+    pressEnter(engine);
   } else if ((action === 'remove point' || action === 'remove') && tool.value === 'trace') {
     removeLast(engine);
   } else {
     return false;
   }
   return true;
+}
+
+/** Twice at one place takes the whole vessel where nothing else was clicked of it. */
+function pressEnter(engine: EngineClient): void {
+  const isAgain = first.value !== null && !candidate.value && isAtCrossHair(first.value);
+  if (!(isAgain && takeWhole(engine))) {
+    enter(engine);
+  }
 }
 
 /** Deletes the picked vessel while the list is open, where one sees which one that is; not while its marks are worked on. */

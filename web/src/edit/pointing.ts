@@ -92,11 +92,17 @@ export function enter(engine: Asked): void {
     return;
   }
   const last = anchor.value;
-  if (tool.value === 'trace' && last && length(subtract(place, last)) < SAME) {
+  if (tool.value === 'trace' && last && isAtCrossHair(last)) {
     endVessel();
   } else {
     void setPoint(engine, place);
   }
+}
+
+/** Whether a place is that of the cross-hair. */
+export function isAtCrossHair(place: Vector): boolean {
+  const point = crossHair.value?.point;
+  return point !== undefined && length(subtract(place, point)) < SAME;
 }
 
 /** Ends the vessel that is drawn: points of it that are still traced come to it, and the next one begins another vessel. */

@@ -17,6 +17,7 @@ export type Modifier = '' | 'Shift' | 'Ctrl' | 'Alt';
 export type EditAction =
   | 'trace'
   | 'branches'
+  | 'whole vessel'
   | 'vessels'
   | 'enter'
   | 'remove point'
@@ -147,7 +148,11 @@ export const BINDINGS: readonly Binding[] = [
   pane('tracing', 'Drag a point', 'move it; arrow keys move the one that has the focus'),
   pane('tracing', 'Arrows in a slice', 'move the cross-hair by a voxel, with Shift by ten'),
   pane('tracing', 'Page up and down', 'scroll through the slices, with Shift by ten'),
-  key('Enter', 'enter', 'while tracing, set a point at the cross-hair; twice at one place ends the vessel'),
+  key(
+    'Enter',
+    'enter',
+    'while tracing, set a point at the cross-hair; again takes the whole vessel, or ends one of several points',
+  ),
   key('Delete', 'remove', 'while tracing, remove the last point; else delete the picked vessel of the list'),
   key('Backspace', 'remove point', 'while tracing, remove the last point'),
   other('everywhere', 'two-finger drag', '', 'pan', 'pan'),
@@ -188,6 +193,7 @@ export const BINDINGS: readonly Binding[] = [
   key('o', 'turn about place', 'turn about the place of the section, or end that'),
   key(' ', 'turn', 'turn slowly, or stop'),
   key('t', 'trace', 'trace vessels by clicks, or stop'),
+  key('w', 'whole vessel', 'while tracing, take the whole vessel of the point that was clicked'),
   key('b', 'branches', 'find all branches from the cross-hair'),
   key('v', 'vessels', 'list of the vessels'),
   key('.', 'next doubt', 'show the next doubtful branch'),

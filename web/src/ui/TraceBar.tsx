@@ -9,6 +9,7 @@ import { chosenDoubt } from '../edit/mode';
 import { performAny } from '../edit/performing';
 import { acceptCandidate, endVessel } from '../edit/pointing';
 import { STOPPER } from '../edit/stoppers';
+import { only, takeWhole } from '../edit/whole';
 import { nameOf, vesselOf } from '../state/changes';
 import { document_ } from '../state/history';
 import { hasVolume, report } from '../state/store';
@@ -70,6 +71,9 @@ function Offer() {
   );
 }
 
+const WHOLE =
+  'From the nearest vessel of the list to its end (w). The first time all vessels of the scan are looked for.';
+
 /** What the next click does. */
 function Hint() {
   const take = (wanted: Tool) => () => {
@@ -81,6 +85,11 @@ function Hint() {
       {candidate.value && (
         <button type="button" onClick={() => acceptCandidate(engine)}>
           Set the point here
+        </button>
+      )}
+      {only.value && (
+        <button type="button" title={WHOLE} onClick={() => takeWhole(engine)}>
+          Whole vessel
         </button>
       )}
       {isDrawing.value && !candidate.value && tool.value === 'trace' && (
@@ -116,7 +125,7 @@ function hintWords(): string {
     return `Click, or press Enter at the cross-hair, further along ${nameOf(drawn.value)}; a double click ends it.`;
   }
   return isDrawing.value
-    ? 'Click, or press Enter at the cross-hair, further along the same vessel.'
+    ? 'Enter or a double click takes the whole vessel. Or click, or press Enter at the cross-hair, further along it.'
     : 'Click, or press Enter at the cross-hair, where a vessel begins.';
 }
 

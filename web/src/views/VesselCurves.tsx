@@ -6,6 +6,7 @@ import { contents } from '../edit/lines';
 import { chosenDoubt, isTracing } from '../edit/mode';
 import { tree } from '../edit/shown';
 import { marked } from '../edit/tidying';
+import { whole } from '../edit/whole';
 import { document_ } from '../state/history';
 import { DOUBTFUL } from '../state/palette';
 import { pickedVessel } from '../state/store';
@@ -78,6 +79,14 @@ function LivePaths({ projection }: OverProps) {
   }
   return (
     <>
+      {whole.value && (
+        <g stroke={drawnColor.value} data-testid="whole-vessel">
+          <Cased
+            kind="live whole"
+            d={`${pathData(whole.value, projection, 'near')}${pathData(whole.value, projection, 'far')}`}
+          />
+        </g>
+      )}
       {livePaths.value.map(({ points, isFound }) => (
         <g key={textOf(points)} stroke={drawnColor.value}>
           <Cased

@@ -7,6 +7,7 @@ import { addClickOnLine } from '../edit/clicks';
 import { anchor, candidate, drawn, first, target } from '../edit/drawing';
 import { chosenDoubt, isTracing } from '../edit/mode';
 import { acceptCandidate, endVessel, setPoint } from '../edit/pointing';
+import { takeWhole } from '../edit/whole';
 import type { Action, Where } from '../input/bindings';
 import { placeCrossHair } from '../link/cross-hair';
 import { recover } from '../state/device';
@@ -87,7 +88,10 @@ async function lookAt(view: Pointed, point: Vector): Promise<void> {
   }
 }
 
-/** A double click ends the vessel at the point that its first click set; on a curve it adds a point there. */
+/**
+ * A double click ends the vessel at the point that its first click set, or takes the whole vessel where that is its only point; on a
+ * curve it adds a point there.
+ */
 function endAt(view: Pointed, at: Pair): void {
   if (acceptCandidate(engine)) {
     return;
@@ -99,7 +103,7 @@ function endAt(view: Pointed, at: Pair): void {
   if (hit && !isOther && !isEnd && tool.value === 'trace') {
     first.value = null;
     addOnCurve(view, at);
-  } else {
+  } else if (!takeWhole(engine)) {
     endVessel();
   }
 }

@@ -28,6 +28,7 @@ export function ask<N extends Question>(
 const EDITS: Partial<Record<Edit['kind'], string>> = {
   add_branches: 'Finding branches',
   add_mask: 'Tracing the mask',
+  add_whole_vessel: 'Finding vessels',
   find_vessels: 'Finding vessels',
 };
 

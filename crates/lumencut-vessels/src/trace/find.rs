@@ -10,6 +10,7 @@ pub mod from_seed;
 pub mod grid;
 pub mod hidden;
 pub mod links;
+pub mod one_vessel;
 pub mod paint;
 pub mod point_grid;
 pub mod pyramid;

@@ -5,3 +5,4 @@ pub mod lumen_model;
 pub mod ray;
 pub mod refine;
 pub mod surroundings;
+pub mod within;

@@ -34,6 +34,9 @@ impl Study {
         let mut notes = Vec::new();
         let is_traced = match &message.edit {
             Edit::AddBranches { seed } => self.add_branches(&mut draft, *seed, watch).map(|()| false),
+            Edit::AddWholeVessel { click } => {
+                self.add_whole_vessel(&mut draft, *click, watch).map(|()| false)
+            }
             Edit::FindVessels => self.add_found(&mut draft, &mut notes, watch).map(|()| false),
             Edit::AddMask => self.add_mask(&mut draft, &mut notes, watch).map(|()| false),
             Edit::Cut { id, at } => self.cut_vessel(&mut draft, *id, *at).map(|()| false),

@@ -96,6 +96,11 @@ pub enum Edit {
         /// A place in a vessel.
         seed: Place,
     },
+    /// The whole vessel that a click lies in, from the nearest vessel that there is already to its end.
+    AddWholeVessel {
+        /// A place in the vessel.
+        click: Place,
+    },
     /// All vessels of the scan; doubtful ones wait until they are accepted.
     FindVessels,
     /// Doubtful branches are vessels as others from now on.
@@ -151,6 +156,7 @@ impl Edit {
             Self::Join { .. } => "join two vessels",
             Self::Remove { ids } => count(ids, "delete a vessel", "delete vessels"),
             Self::AddBranches { .. } => "add all branches from here",
+            Self::AddWholeVessel { .. } => "add a whole vessel",
             Self::FindVessels => "find all vessels",
             Self::Accept { ids } => count(ids, "accept a branch", "accept branches"),
             Self::LeaveOut { ids } => count(ids, "leave a branch out", "leave branches out"),

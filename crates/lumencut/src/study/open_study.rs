@@ -13,6 +13,7 @@ use lumencut_core::vessel_tree::Vessel;
 use lumencut_core::with_voxels;
 use lumencut_vessels::measure::cross_section::section_place;
 use lumencut_vessels::trace::clicks::tracer::Tracer;
+use lumencut_vessels::trace::find::found::Trees;
 
 use crate::study::content::{Content, Report};
 use crate::study::failure::{Failure, Result};
@@ -49,6 +50,8 @@ pub struct Study {
     /// What is known of the volume from one tracing to the next, and the lines that it gave last.
     pub(crate) tracer: Tracer,
     pub(crate) traced: Vec<usize>,
+    /// The vessels of the scan, once they were looked for.
+    pub(crate) trees: Option<Trees>,
     /// The largest id that a vessel of the document was given.
     pub(crate) last_id: u32,
     /// A mask that is read to be traced.

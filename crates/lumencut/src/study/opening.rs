@@ -31,6 +31,7 @@ impl Study {
     /// What is known of the voxels no longer counts: some of them are others now.
     pub fn voxels_changed(&mut self) {
         self.tracer = Default::default();
+        self.trees = None;
         self.forget_profiles();
         self.content.forget_windows();
         if let Some(held) = &mut self.content.held {

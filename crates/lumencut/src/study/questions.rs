@@ -108,6 +108,11 @@ of_the_study {
         study.path(&request, &|| (asking.clock)() >= end)?
     };
 
+    /// The points of the whole vessel that a click would add beside lines that there are already; null where it would add none, and
+    /// until the vessels of the scan were looked for.
+    [Turn::First] whole_vessel { click: Vector, beside: Vec<usize> } -> Option<Vec<Vector>> =
+        study.whole_vessel(click, &beside)?;
+
     /// The content of a line.
     [Turn::First] line { line: usize } -> LineContent = study.line(line)?;
 

@@ -143,12 +143,9 @@ impl Study {
     /// All vessels of the scan, down to the radius of Python, the doubtful ones last; and what is to be told of the scan.
     ///
     /// # Errors
-    /// `tracing` as [`found_vessels::find_vessels`], `volume` where none is open, `interrupted`.
+    /// `tracing` as [`found_vessels::told`], `volume` where none is open, `interrupted`.
     pub(crate) fn find_vessels(&mut self, watch: Watch) -> Result<(Vec<HeldLine>, Vec<String>)> {
-        let volume = self.content.held.as_ref().ok_or_else(no_volume)?.volume()?;
-        let Watch { stop, progress } = watch;
-        let request = FindRequest { smallest_radius: SMALLEST_RADIUS, stop, progress: Some(progress) };
-        let tree = found_vessels::find_vessels(&volume, &request)?;
+        let tree = found_vessels::told(self.trees(watch)?, SMALLEST_RADIUS)?;
         Ok((self.held_lines(tree.vessels)?, tree.notes))
     }
 

@@ -160,6 +160,10 @@ export type Edit = {
   /** A place in a vessel. */
   readonly seed: Vector;
 } | {
+  readonly "kind": "add_whole_vessel";
+  /** A place in the vessel. */
+  readonly click: Vector;
+} | {
   readonly "kind": "find_vessels"
 } | {
   readonly "kind": "accept";
@@ -897,6 +901,14 @@ export type Questions = {
     readonly message: PathRequest;
     readonly answer: ReadonlyArray<Vector> | null;
   };
+  /** The points of the whole vessel that a click would add beside lines that there are already; null where it would add none, and until the vessels of the scan were looked for. */
+  readonly whole_vessel: {
+    readonly message: {
+      readonly click: Vector;
+      readonly beside: ReadonlyArray<number>;
+    };
+    readonly answer: ReadonlyArray<Vector> | null;
+  };
   /** The content of a line. */
   readonly line: {
     readonly message: {
@@ -1082,6 +1094,7 @@ export const TURNS = {
   edit: { when: 'first', words: 'Tracing' },
   check_click: { when: 'first', words: null },
   path: { when: 'first', words: null },
+  whole_vessel: { when: 'first', words: null },
   line: { when: 'first', words: null },
   add_line: { when: 'first', words: null },
   show: { when: 'first', words: null },

@@ -6,15 +6,13 @@ use crate::trace::clicks::traced::Traced;
 use crate::trace::lines::centerline::Centerline;
 use crate::trace::lines::nearest_point::nearest_point;
 use crate::trace::lumen::refine::STEP;
+use crate::trace::lumen::within::holds;
 use lumencut_core::error::{Clicked, Error, ErrorKind, Result};
 use lumencut_core::math::arc_length::arc_lengths;
 
 /// How far from an earlier vessel's end a later one may begin to go on from there: in radii, and at least this length (mm).
 const END_TO_END: f64 = 0.7;
 const NEAREST_END: f64 = 1.0;
-
-/// How far beyond an end a vessel still holds what is next to it: in radii.
-const ENDS: f64 = 0.3;
 
 /// How much of a line tells in which direction it has left a vessel (mm).
 const LEAVING: f64 = 4.0;
@@ -48,7 +46,8 @@ pub fn joined(beside: &[Centerline], lines: Vec<Traced>) -> Result<Vec<Traced>> 
 
 fn joined_at_start(earlier: &[&Centerline], line: Traced, n: usize) -> Result<Traced> {
     let points = &line.line.points;
-    let inside = points.iter().take_while(|point| earlier.iter().any(|vessel| vessel.holds(**point))).count();
+    let inside =
+        points.iter().take_while(|point| earlier.iter().any(|vessel| holds(vessel, **point))).count();
     if inside + 1 >= points.len() {
         let found = "clicks whose vessel runs within earlier ones from end to end";
         let error =
@@ -96,20 +95,6 @@ fn place_of((vessel, n): (&Centerline, usize)) -> DVec3 {
 }
 
 impl Centerline {
-    /// Whether a place lies within the lumen; beyond the ends there is no lumen.
-    fn holds(&self, place: DVec3) -> bool {
-        let points = &self.points;
-        let near = nearest_point(points, place);
-        let across = place - points[near];
-        let last = points.len() - 1;
-        let slack = (ENDS * self.radius[near]).max(STEP);
-        let beyond = |end: usize, next: usize| {
-            near == end && across.dot((points[end] - points[next]).normalize_or_zero()) > slack
-        };
-        let is_beyond = beyond(0, 1) || beyond(last, last - 1);
-        across.length() < self.radius[near] && !is_beyond
-    }
-
     /// The junction with a line that begins near one of the ends.
     fn continued_at(&self, start: DVec3) -> Option<Junction> {
         let last = self.points.len() - 1;

@@ -13,15 +13,15 @@ pub const REACH: f64 = 1.5;
 
 /// A point of a vessel that is near a seed.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Near {
+pub(crate) struct Near {
     /// The number of the vessel.
-    vessel: usize,
+    pub vessel: usize,
     /// The point (mm, LPS).
-    point: DVec3,
+    pub point: DVec3,
     /// How far the seed is from it (mm).
-    distance: f64,
+    pub distance: f64,
     /// The same in radii of the vessel there.
-    radii: f64,
+    pub radii: f64,
 }
 
 /// The vessels of the part that a seed (mm, LPS) lies in, found as without a seed; where it lies in none of them fainter ones are
@@ -74,7 +74,7 @@ pub fn part_at(trees: &Trees, seed: DVec3, voxel: f64) -> std::result::Result<us
 }
 
 /// The point of a vessel that is nearest to a seed in units of the radius, which counts as `least` (mm) at least.
-fn near(vessel: usize, found: &FoundVessel, seed: DVec3, least: f64) -> Near {
+pub(crate) fn near(vessel: usize, found: &FoundVessel, seed: DVec3, least: f64) -> Near {
     let line = &found.line;
     let of = |n: usize| {
         let [from, to] = [line.points[n], line.points[n + 1]];

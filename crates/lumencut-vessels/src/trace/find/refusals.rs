@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use crate::trace::find::one_vessel::NoVessel;
 use crate::trace::lumen::lumen_model::in_words;
 use lumencut_core::error::{Error, ErrorKind};
 
@@ -29,6 +30,27 @@ pub fn not_here(seed: DVec3, value: f64, nearest: DVec3, distance: f64) -> Error
     let expected = "a point within a vessel";
     let error = Error::new(ErrorKind::Tracing, format!("seed {}", in_words(seed)), found, expected);
     error.mend("put the seed into a vessel, or trace between two points along it").at(seed, value)
+}
+
+/// The error for a click (mm, LPS) that gives no whole vessel, with the value there.
+pub fn no_whole_vessel(click: DVec3, value: f64, reason: NoVessel) -> Error {
+    let (found, expected) = match reason {
+        NoVessel::NotHere(_, distance) if distance.is_infinite() => {
+            ("no vessel was found in this scan".to_owned(), "a point within a vessel")
+        }
+        NoVessel::NotHere(_, distance) => (
+            format!("no vessel was found here; the nearest one is {distance:.1} mm away"),
+            "a point within a vessel",
+        ),
+        NoVessel::Already(_) => ("a vessel that is traced already".to_owned(), "one that is not"),
+    };
+    let error = Error::new(ErrorKind::Tracing, "this point", found, expected).at(click, value);
+    match reason {
+        NoVessel::NotHere(..) => {
+            error.mend("click the vessel at a second place: the way between both is traced")
+        }
+        NoVessel::Already(_) => error,
+    }
 }
 
 /// The error for a seed whose part has doubtful vessels alone; `doubt` is why the first one is doubtful, in words.

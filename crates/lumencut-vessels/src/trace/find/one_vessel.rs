@@ -1,0 +1,129 @@
+//! The whole vessel of one click, among those that were found: back to the nearest vessel that there is already, and on to its end.
+
+use glam::DVec3;
+
+use crate::trace::find::choose::near;
+use crate::trace::find::found::Trees;
+use crate::trace::lines::centerline::Centerline;
+use crate::trace::lines::nearest_point::nearest_point;
+use crate::trace::lumen::within::holds;
+
+/// A click chooses a vessel up to so many radii from its middle, or up to a voxel where that is more.
+pub use crate::trace::find::choose::REACH;
+
+/// Nearer than this the end of a branch is a point of the vessel that it hangs on (mm); they are equal but for rounding.
+const SAME: f64 = 1e-6;
+
+/// Why a click gives no vessel.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum NoVessel {
+    /// None was found there: the nearest point of one, and how far it is (mm); infinitely far where none was found at all.
+    NotHere(DVec3, f64),
+    /// The click lies within a vessel that there is already: its number.
+    Already(usize),
+}
+
+/// The vessel in whose lumen a click (mm, LPS) lies, the nearest in units of the radius, a sure one before a doubtful one. Where one of
+/// the vessels it hangs on leads to one that is there already (`beside`), its line begins at a point of that one; else it begins
+/// where it leaves the vessel that it hangs on. It ends with the vessel that was found, or where it enters one that is there already.
+///
+/// # Errors
+/// [`NoVessel`] for a click that lies in no vessel, or in one that is there already. `voxel` is the side of one (mm).
+pub fn one_vessel(
+    trees: &Trees,
+    click: DVec3,
+    voxel: f64,
+    beside: &[Centerline],
+) -> Result<Centerline, NoVessel> {
+    if let Some(number) = beside.iter().position(|vessel| holds(vessel, click)) {
+        return Err(NoVessel::Already(number));
+    }
+    let number = vessel_at(trees, click, voxel)?;
+    let own = &trees.vessels[number].line;
+    let (before, whole) = with_ancestors(trees, number);
+    let at = before + nearest_point(&own.points, click);
+    let met = |n: &usize| meets(beside, whole.points[*n]);
+    let first = (0..at).rev().find(met).or_else(|| meets(beside, whole.points[at]).then_some(at));
+    let last = (at + 1..whole.points.len()).find(met);
+    let range = first.unwrap_or(before)..=last.unwrap_or(whole.points.len() - 1);
+    let mut line = Centerline {
+        points: whole.points[range.clone()].to_vec(),
+        radius: whole.radius[range.clone()].to_vec(),
+        confidence: whole.confidence[range].to_vec(),
+    };
+    let end = line.points.len() - 1;
+    for (end, is_met) in [(0, first.is_some()), (end, last.is_some())] {
+        if is_met {
+            line.points[end] = nearest_of(beside, line.points[end]);
+        }
+    }
+    Ok(line)
+}
+
+/// The number of the vessel that a click chooses.
+fn vessel_at(trees: &Trees, click: DVec3, voxel: f64) -> Result<usize, NoVessel> {
+    let all = || {
+        trees.vessels.iter().enumerate().map(|(number, vessel)| near(number, vessel, click, voxel / REACH))
+    };
+    let within = |is_sure: bool| {
+        all()
+            .filter(|near| near.radii <= REACH && trees.vessels[near.vessel].doubt.is_none() == is_sure)
+            .min_by(|a, b| a.radii.total_cmp(&b.radii))
+    };
+    within(true).or_else(|| within(false)).map(|near| near.vessel).ok_or_else(|| {
+        let nearest = all().min_by(|a, b| a.distance.total_cmp(&b.distance));
+        nearest.map_or(NoVessel::NotHere(click, f64::INFINITY), |near| {
+            NoVessel::NotHere(near.point, near.distance)
+        })
+    })
+}
+
+/// The line of a vessel behind those of the vessels that it hangs on, up to where each is left; and how many points these have.
+fn with_ancestors(trees: &Trees, number: usize) -> (usize, Centerline) {
+    let mut whole = trees.vessels[number].line.clone();
+    let (mut before, mut of) = (0, number);
+    let mut is_left = vec![false; trees.vessels.len()];
+    while let Some((parent, left_at)) = parent(trees, of).filter(|(parent, _)| !is_left[*parent]) {
+        is_left[of] = true;
+        let line = &trees.vessels[parent].line;
+        let mut way = Centerline {
+            points: line.points[..left_at].to_vec(),
+            radius: line.radius[..left_at].to_vec(),
+            confidence: line.confidence[..left_at].to_vec(),
+        };
+        before += left_at;
+        way.append(whole);
+        (whole, of) = (way, parent);
+    }
+    (before, whole)
+}
+
+/// The vessel that one hangs on, and which of its points is the first one of that.
+fn parent(trees: &Trees, number: usize) -> Option<(usize, usize)> {
+    let child = &trees.vessels[number];
+    let start = child.line.points[0];
+    let others = trees.vessels.iter().enumerate();
+    others.filter(|(n, other)| *n != number && other.part == child.part).find_map(|(n, other)| {
+        let points = &other.line.points;
+        let at = nearest_point(points, start);
+        // Two that begin at one point hang on each other; neither is the way to the other.
+        (at > 0 && points[at].distance(start) <= SAME).then_some((n, at))
+    })
+}
+
+/// Whether a place lies within one of some vessels or on its line, but for the ends of these: there a vessel hangs on another one,
+/// which does not end for that.
+fn meets(beside: &[Centerline], place: DVec3) -> bool {
+    beside.iter().any(|vessel| {
+        let (points, last) = (&vessel.points, vessel.points.len() - 1);
+        let near = points[nearest_point(points, place)];
+        let is_at = |end: usize| near.distance(points[end]) <= vessel.radius[end].max(SAME);
+        (near.distance(place) <= SAME || holds(vessel, place)) && !is_at(0) && !is_at(last)
+    })
+}
+
+/// The nearest point of the vessels that hold a place.
+fn nearest_of(beside: &[Centerline], place: DVec3) -> DVec3 {
+    let points = beside.iter().map(|vessel| vessel.points[nearest_point(&vessel.points, place)]);
+    points.min_by(|a, b| a.distance(place).total_cmp(&b.distance(place))).unwrap_or(place)
+}

@@ -1,0 +1,106 @@
+/** A vessel by one click: the whole of it, from the nearest vessel that there is to its end. */
+import { expect, test } from '@playwright/test';
+import { button, countInput, expectBegun, nameOf, rows, startTracing, untraced } from './controls';
+import type { Viewer } from './page';
+
+/** Places in the coronal slice of the junction: across from its middle, and down, in heights of the pane. */
+const TRUNK = [0, 0.8] as const;
+const RIGHT = [-0.19, 0.22] as const;
+const LEFT = [0.19, 0.22] as const;
+const AIR = [0.4, 0.5] as const;
+
+async function at(viewer: Viewer, [across, down]: readonly [number, number]) {
+  const [width, height] = await viewer.size('coronal');
+  return [Math.round(width / 2 + across * height), Math.round(down * height)] as const;
+}
+
+const ghost = (viewer: Viewer) => viewer.pane('coronal').getByTestId('whole-vessel');
+
+test('a trunk and both of its branches take six actions: a click and Enter each', async ({ browser }) => {
+  const viewer = await untraced(browser);
+  await startTracing(viewer);
+  const counted = await countInput(viewer);
+  for (const [n, place] of [TRUNK, RIGHT, LEFT].entries()) {
+    await viewer.click(await at(viewer, place), 'coronal');
+    await expectBegun(viewer);
+    // The vessels of the scan are looked for once; after that a click shows what it would take.
+    await expect(ghost(viewer)).toHaveCount(n > 0 ? 1 : 0);
+    await viewer.press('Enter');
+    await expect(rows(viewer)).toHaveCount(n + 1);
+    await viewer.screenshot(`whole-vessel-${n}`);
+  }
+  const { clicks, keys } = await counted();
+  expect([clicks, keys]).toEqual([3, 3]);
+  // Both branches begin at the trunk: the three of them hang together, and are the whole of the junction.
+  await button(viewer, 'Done').click();
+  await viewer.rest();
+  await viewer.screenshot('whole-vessel-done');
+  await viewer.press('Control+z');
+  await expect(rows(viewer)).toHaveCount(2);
+  viewer.expectNoFault();
+  await viewer.close();
+});
+
+test('a double click or its button takes the whole vessel, and a second click elsewhere still traces to there', async ({
+  browser,
+}) => {
+  const viewer = await untraced(browser);
+  await startTracing(viewer);
+  await viewer.doubleClick(await at(viewer, TRUNK), 'coronal');
+  await expect(rows(viewer)).toHaveCount(1);
+  await viewer.click(await at(viewer, RIGHT), 'coronal');
+  await button(viewer, 'Whole vessel').click();
+  await expect(rows(viewer)).toHaveCount(2);
+  await expect(nameOf(viewer, 1)).toHaveValue('Vessel 2');
+  // The third one is traced as before, from click to click.
+  await viewer.click(await at(viewer, LEFT), 'coronal');
+  await expectBegun(viewer);
+  await viewer.click(await at(viewer, [0.1, 0.45]), 'coronal');
+  await expect(rows(viewer)).toHaveCount(3);
+  await expect(button(viewer, 'Whole vessel')).toHaveCount(0);
+  viewer.expectNoFault();
+  await viewer.close();
+});
+
+test('by keys alone: Enter twice at the cross-hair, and the key w', async ({ browser }) => {
+  const viewer = await untraced(browser);
+  await startTracing(viewer);
+  await viewer.click(await at(viewer, TRUNK), 'coronal');
+  await expectBegun(viewer);
+  // The point is taken back; the cross-hair stays where it was.
+  await viewer.press('Backspace');
+  await expect(button(viewer, 'Whole vessel')).toHaveCount(0);
+  await viewer.press('Enter');
+  await expectBegun(viewer);
+  await viewer.press('Enter');
+  await expect(rows(viewer)).toHaveCount(1);
+  await viewer.press('Control+z');
+  await expect(rows(viewer)).toHaveCount(0);
+  await viewer.press('Enter');
+  await expectBegun(viewer);
+  await viewer.press('w');
+  await expect(rows(viewer)).toHaveCount(1);
+  viewer.expectNoFault();
+  await viewer.close();
+});
+
+test('where no whole vessel is found the page says so, and the point stays for a second click', async ({
+  browser,
+}) => {
+  const viewer = await untraced(browser);
+  await startTracing(viewer);
+  await viewer.doubleClick(await at(viewer, TRUNK), 'coronal');
+  await expect(rows(viewer)).toHaveCount(1);
+  await viewer.click(await at(viewer, [0.005, 0.75]), 'coronal');
+  await viewer.press('w');
+  await expect(viewer.problem).toContainText('a vessel that is traced already');
+  await expect(rows(viewer)).toHaveCount(1);
+  await expect(button(viewer, 'Whole vessel')).toBeVisible();
+  await viewer.press('Escape');
+  await viewer.press('Escape');
+  await viewer.click(await at(viewer, AIR), 'coronal');
+  await expect(viewer.problem).toBeVisible();
+  await expect(button(viewer, 'Whole vessel')).toHaveCount(0);
+  viewer.expectNoFault();
+  await viewer.close();
+});

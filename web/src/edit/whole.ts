@@ -1,0 +1,48 @@
+/** The whole vessel of one click: shown once the vessels of the scan are known, and taken by Enter, a double click or its button. */
+import { computed, effect, signal } from '@preact/signals';
+import type { Asked } from '../core/asked';
+import { Latest } from '../core/latest';
+import type { Vector } from '../core/messages';
+import { document_ } from '../state/history';
+import { tool } from '../state/tool';
+import { commit, isDone } from './committing';
+import { candidate, coming, drawn, first, isDrawing } from './drawing';
+import { endVessel } from './pointing';
+
+/** The place whose whole vessel can be taken: the only one that was clicked of a vessel. */
+export const only = computed<Vector | null>(() =>
+  tool.value === 'trace' && !drawn.value && coming.value.length === 0
+    ? (candidate.value ?? first.value)
+    : null,
+);
+
+/** The vessel that would be taken; null where none is known. */
+export const whole = signal<readonly Vector[] | null>(null);
+
+/** Shows what would be taken from now on; gives what ends it. */
+export function followWhole(engine: Asked): () => void {
+  const latest = new Latest();
+  return effect(() => {
+    const click = only.value;
+    const beside = document_.value.vessels.filter(({ doubt }) => doubt === null).map(({ line }) => line);
+    whole.value = null;
+    if (click) {
+      latest.run(async () => {
+        const found = await engine.ask('whole_vessel', { click, beside }).catch(() => null);
+        whole.value = only.value === click ? found : whole.value;
+      });
+    }
+  });
+}
+
+/** Takes the whole vessel of the point that was clicked, which stays where none is found; says whether there was such a point. */
+export function takeWhole(engine: Asked): boolean {
+  const click = only.value;
+  if (click) {
+    endVessel();
+    void isDone(commit(engine, { kind: 'add_whole_vessel', click })).then((done) => {
+      first.value = done || isDrawing.value || tool.value !== 'trace' ? first.value : click;
+    });
+  }
+  return click !== null;
+}
