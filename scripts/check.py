@@ -132,6 +132,7 @@ def python_lints() -> list[Check]:
     commands = {
         "format of Python": ("ruff", "format", "--check"),
         "lint of Python": ("ruff", "check"),
+        "lint of the workflow": ("zizmor", "--offline", "--quiet", ".github"),
         "types": ("mypy",),
         "types of the scripts": ("mypy", *SCRIPTS),
     }

@@ -15,12 +15,14 @@ from lumencut.cli.cfa import cfa
 from lumencut.cli.compare_methods import compare_methods
 from lumencut.cli.cpr import cpr
 from lumencut.cli.demo import demo
+from lumencut.cli.doctor import doctor
 from lumencut.cli.evaluate import evaluate
+from lumencut.cli.first_words import first_words
 from lumencut.cli.info import info
 from lumencut.cli.lumen_map import lumen_map
 from lumencut.cli.measure import measure
 from lumencut.cli.render import render
-from lumencut.cli.report import reported, verbose_option
+from lumencut.cli.report import reported, say, verbose_option
 from lumencut.cli.spiral import spiral
 from lumencut.cli.summarize import summarize
 from lumencut.cli.trace import trace
@@ -52,6 +54,7 @@ def _version(ctx: click.Context, _: click.Parameter, asked: bool) -> None:
 @click.group(
     "lumencut",
     cls=_Program,
+    invoke_without_command=True,
     context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110},
     epilog="Files stay on this machine. Lumencut is not a medical device.",
 )
@@ -59,8 +62,11 @@ def _version(ctx: click.Context, _: click.Parameter, asked: bool) -> None:
     "--version", is_flag=True, expose_value=False, is_eager=True, callback=_version, help="Show the version."
 )
 @verbose_option
-def main() -> None:
+@click.pass_context
+def main(ctx: click.Context) -> None:
     """Show the lumen of all vessels of a CT or MR angiography in one freely rotatable view."""
+    if ctx.invoked_subcommand is None:
+        say(first_words())
 
 
 for _command in (
@@ -82,6 +88,7 @@ for _command in (
     summarize,
     bids,
     settings,
+    doctor,
     demo,
 ):
     main.add_command(_command)

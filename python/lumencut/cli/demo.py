@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import sys
 import time
 from collections.abc import Iterator
 from pathlib import Path
@@ -11,6 +10,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import click
 
+from lumencut.cli.first_words import program
 from lumencut.cli.options import device_option
 from lumencut.cli.report import bar, detail, say, timings, verbose_option, warn
 
@@ -56,13 +56,7 @@ def demo(
     _spin(renderer, directory / "turntable.webp")
     detail(f"device: {renderer.device}")
     say(f"made in {time.perf_counter() - start:.1f} s")
-    say(f"turn it in your browser: {_program()} view --demo")
-
-
-def _program() -> str:
-    """How to call this program again: it need not be on the path."""
-    called = Path(sys.argv[0])
-    return str(called) if called.name == "lumencut" else "lumencut"
+    say(f"turn it in your browser: {program()} view --demo")
 
 
 def _scene(cache: Path | None, device: Literal["auto", "cpu", "gpu"]) -> tuple[Renderer, Any]:

@@ -1,0 +1,42 @@
+"""What ``lumencut`` says where nothing is asked of it: three things to try."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+
+def program() -> str:
+    """How to call this program again: it need not be on the path."""
+    called = Path(sys.argv[0])
+    return str(called) if called.name == "lumencut" else "lumencut"
+
+
+def first_words() -> str:
+    """Return what a newcomer can try at once; only what this installation can do."""
+    from lumencut import __version__
+    from lumencut.viewer.page import FOLDER
+
+    name = program()
+    has_page = (FOLDER / "index.html").is_file()
+    scan = "your own scan in the viewer: a DICOM folder or zip, NIfTI, NRRD or MetaImage"
+    details = "what your own file holds, and what is odd about it"
+    tries = (
+        (f"{name} view --demo", "a CT of an aorta with a stent graft, in your browser")
+        if has_page
+        else (f"{name} demo", "pictures of a CT of an aorta with a stent graft, in the folder demo"),
+        (f"{name} view SCAN", scan) if has_page else (f"{name} info SCAN", details),
+        (f"{name} render SCAN --find -o vessels.png", "a picture of all vessels that are found in it"),
+    )
+    width = max(len(command) for command, _ in tries)
+    return "\n".join(
+        (
+            f"Lumencut {__version__}: the lumen of all vessels of a CT or MR angiography in one view.",
+            "",
+            "Three things to try:",
+            *(f"  {command:<{width}}   {what}" for command, what in tries),
+            "",
+            f"All commands: {name} --help. Where something does not work: {name} doctor.",
+            "Files stay on this machine. Lumencut is not a medical device.",
+        )
+    )
