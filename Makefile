@@ -18,7 +18,7 @@ RUST_SOURCES := Cargo.toml Cargo.lock pyproject.toml $(wildcard crates/*/Cargo.t
 
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
-.PHONY: help demo page site test test-long lint format settings types fuzz bench bench-gpu bench-dicom calibration compare-dicom wheel licences lock clean develop tools toolchain
+.PHONY: help demo docs page site test test-long lint format settings types fuzz bench bench-gpu bench-dicom calibration compare-dicom wheel licences lock clean develop tools toolchain
 
 help: ## List the commands.
 	@sed -n 's/^\([a-z-]*\):.*## /  make \1\t/p' $(MAKEFILE_LIST) | expand -t 22
@@ -38,11 +38,14 @@ page: toolchain ## Build the viewer's page into the package where its sources ch
 site: toolchain ## Write the viewer's page into ./site, for any server of files; needs Node.
 	@$(PYTHON) scripts/page.py --site site
 
+docs: develop tools $(VENV)/.docs ## Build the site of the documentation into ./docs-site, its pictures anew.
+	@$(BIN)/python scripts/docs.py
+
 test: ## Run every check; the last line is `N passed, N failed`.
 	@$(PYTHON) scripts/check.py
 
-test-long: develop tools ## Run what takes minutes by itself: uncertainties in 288 scenes, containers, and a million damaged files.
-	$(BIN)/python -m pytest --quiet --numprocesses=2 tests/long_calibration.py tests/long_cohort.py tests/long_containers.py
+test-long: develop tools page $(VENV)/.docs ## Run what takes minutes by itself: uncertainties in 288 scenes, containers, the site of the documentation, and a million damaged files.
+	$(BIN)/python -m pytest --quiet --numprocesses=2 tests/long_calibration.py tests/long_cohort.py tests/long_containers.py tests/long_docs.py
 	@$(PYTHON) scripts/fuzz.py --runs $(or $(RUNS),1000000)
 
 lint: ## Run only format, lint, types and documentation checks.
@@ -95,11 +98,12 @@ lock: $(VENV)/.python ## Resolve the Python requirements anew into requirements/
 	$(PIP) uv
 	$(RESOLVE) --group build --output-file requirements/runtime.lock
 	$(RESOLVE) --group dev --constraints requirements/runtime.lock --output-file requirements/dev.lock
+	$(RESOLVE) --group docs --constraints requirements/dev.lock --output-file requirements/docs.lock
 	$(RESOLVE) --group peers --constraints requirements/dev.lock --output-file requirements/peers.lock
 	$(RESOLVE) --group wheel --constraints requirements/runtime.lock --output-file requirements/wheel.lock
 
 clean: ## Remove everything that the other commands made.
-	rm -rf $(VENV) target dist demo site python/lumencut/viewer/page .pytest_cache .mypy_cache .ruff_cache .hypothesis
+	rm -rf $(VENV) target dist demo docs-site site python/lumencut/viewer/page .pytest_cache .mypy_cache .ruff_cache .hypothesis
 	rm -f python/lumencut/_lumencut*.so
 	find python tests scripts -name __pycache__ -type d -prune -exec rm -rf {} +
 
@@ -111,7 +115,7 @@ toolchain:
 	@$(PYTHON) scripts/toolchain.py rust
 
 # The stamps: an empty environment, what the package needs, what its developers need, what links its wheels,
-# what it is compared with, the package itself.
+# what makes the site of the documentation, what it is compared with, the package itself.
 $(VENV)/.python:
 	@$(PYTHON) scripts/toolchain.py python
 	$(PYTHON) -m venv $(VENV)
@@ -122,6 +126,10 @@ $(VENV)/.runtime: requirements/runtime.lock $(VENV)/.python
 	@touch $@
 
 $(VENV)/.dev: requirements/dev.lock $(VENV)/.runtime
+	$(PIP) --require-hashes --requirement $<
+	@touch $@
+
+$(VENV)/.docs: requirements/docs.lock $(VENV)/.dev
 	$(PIP) --require-hashes --requirement $<
 	@touch $@
 

@@ -35,7 +35,8 @@ CHECKS = ("--locked", "--profile", "checks")
 SCRIPTS = tuple(
     f"scripts/{name}.py"
     for name in (
-        *("build_backend", "check", "frames", "fuzz", "licences", "notices", "page", "render_phantom"),
+        *("build_backend", "check", "docs", "docs_api", "docs_pages", "docs_site", "frames", "fuzz"),
+        *("licences", "notices", "page", "render_phantom"),
         *("settings", "source_files", "toolchain", "wheel", "window_table"),
     )
 )
@@ -149,6 +150,12 @@ def page_lints() -> list[Check]:
             "page of the viewer", ("make", "--no-print-directory", "page"), lane=PAGE, needs=("toolchain",)
         ),
         Check("lint of the page", ("npm", "run", "lint", "--silent", "--prefix", "web"), lane=PAGE),
+        Check(
+            "types of the examples",
+            ("npm", "run", "examples", "--silent", "--prefix", "web"),
+            lane=PAGE,
+            needs=("tools",),
+        ),
         Check("size of the page", ("npm", "run", "size", "--silent", "--prefix", "web"), lane=PAGE),
     ]
 

@@ -135,11 +135,14 @@ def pins(path: str) -> dict[str, set[str]]:
 
 def test_locks_hold_what_is_declared():
     project = toml("pyproject.toml")
-    runtime, dev, wheel = (pins(f"requirements/{name}.lock") for name in ("runtime", "dev", "wheel"))
+    runtime, dev, docs, wheel = (
+        pins(f"requirements/{name}.lock") for name in ("runtime", "dev", "docs", "wheel")
+    )
     groups = project["dependency-groups"]
     for lock, declared in (
         (runtime, project["project"]["dependencies"] + groups["build"]),
         (dev, [line for line in groups["dev"] if isinstance(line, str)]),
+        (docs, groups["docs"]),
         (wheel, [line for line in groups["wheel"] if isinstance(line, str)]),
     ):
         for requirement in map(Requirement, declared):
@@ -148,6 +151,9 @@ def test_locks_hold_what_is_declared():
             assert all(requirement.specifier.contains(version) for version in versions), requirement
     for lock in (dev, wheel):
         assert {name: versions for name, versions in lock.items() if name in runtime} == runtime
+    # They are installed into one environment, one after the other.
+    both = docs.keys() & dev.keys()
+    assert {name: docs[name] for name in both} == {name: dev[name] for name in both}
     assert project["build-system"]["requires"] == groups["build"]
 
 

@@ -8,6 +8,9 @@ function freePort(): string {
   return spawnSync(process.execPath, ['-e', script], { encoding: 'utf-8' }).stdout.trim();
 }
 
+/** The built site of the documentation, for its own tests, which are left out where there is none. */
+const docs = process.env.LUMENCUT_DOCS_SITE;
+
 process.env.LUMENCUT_E2E_PORT ??= freePort();
 const port = process.env.LUMENCUT_E2E_PORT;
 const plain = ['--no-sandbox', '--disable-background-networking', '--no-first-run'];
@@ -43,13 +46,19 @@ export default defineConfig({
     actionTimeout: 30_000,
     navigationTimeout: 60_000,
   },
-  webServer: {
-    command: `npx vite preview --config e2e/served.config.ts --host 127.0.0.1 --port ${port} --strictPort`,
-    url: `http://127.0.0.1:${port}/`,
-    timeout: 20_000,
-  },
+  webServer: docs
+    ? []
+    : {
+        command: `npx vite preview --config e2e/served.config.ts --host 127.0.0.1 --port ${port} --strictPort`,
+        url: `http://127.0.0.1:${port}/`,
+        timeout: 20_000,
+      },
   projects: [
-    { name: 'cpu', testIgnore: 'gpu.spec.ts', use: { launchOptions: launch(plain) } },
+    {
+      name: 'cpu',
+      testIgnore: docs ? 'gpu.spec.ts' : ['gpu.spec.ts', 'docs.spec.ts'],
+      use: { launchOptions: launch(plain) },
+    },
     {
       name: 'gpu',
       testMatch: ['gpu.spec.ts', 'native.spec.ts'],

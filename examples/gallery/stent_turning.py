@@ -1,0 +1,12 @@
+"""A view that turns.
+
+One view shows one diameter: a narrowing that is not round is judged from all sides.
+"""
+
+import lumencut
+from lumencut import demo
+
+volume, tree = demo.stent_scene(demo.default_cache())
+renderer = lumencut.Renderer(volume, tree)
+camera = lumencut.fitted_turn(lumencut.Camera.anterior(tree, size=(320, 420)), tree)
+lumencut.save_animation(lumencut.turntable(renderer, camera, frames=36), "stent_turning.webp")

@@ -1,0 +1,19 @@
+"""All vessels cut open in one view.
+
+An aorta with a stent graft, from the front and obliquely from the left: every lumen is as wide as it is,
+and the struts of the stent are white. Yellow lines mark where the depth of the cut leaps.
+"""
+
+import numpy as np
+from PIL import Image
+
+import lumencut
+from lumencut import demo
+
+volume, tree = demo.stent_scene(demo.default_cache())
+renderer = lumencut.Renderer(volume, tree)
+anterior = lumencut.Camera.anterior(tree, size=(320, 560))
+turned = anterior.rotated(degrees=55)
+oblique = lumencut.Camera.fitted(tree, turned.direction, turned.up, size=(320, 560))
+pictures = [renderer.render(camera).image for camera in (anterior, oblique)]
+Image.fromarray(np.hstack(pictures)).save("stent_views.webp")

@@ -1,0 +1,19 @@
+"""From two points to a table of diameters.
+
+A vessel is traced between two points along it and measured; the table has a row for each section, with its
+uncertainty.
+"""
+
+import lumencut
+from lumencut import phantom
+
+scan = phantom.helix()
+ends = scan.tree[0].points[[10, -10]]
+tree = lumencut.trace(scan.volume, ends)
+lumencut.write_centerlines(tree, "helix.vtp")
+
+profile = lumencut.measure(scan.volume, tree[0])
+profile.save("helix.csv")
+middle = len(profile.arc_length) // 2
+diameter, doubt = profile.diameter_equivalent[middle], profile.uncertainty[middle]
+print(f"{tree[0].length:.0f} mm long, in the middle {diameter:.2f} ± {doubt:.2f} mm wide")

@@ -1,0 +1,132 @@
+"""Build the site of the documentation into ./docs-site: offline, searchable, with pictures made anew.
+
+    .venv/bin/python scripts/docs.py
+
+Pages are put together in target/docs, the scripts of the gallery make their pictures there, MkDocs makes
+HTML, and what it made is looked through. Only a whole site takes the place of the one before.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import shutil
+import subprocess
+import sys
+import time
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+from docs_api import api_pages
+from docs_pages import GALLERY, PICTURES, ROOT, PageError, Script, page_sources, scripts_of, site_page
+from docs_site import SiteError, check_site
+
+WORK = ROOT / "target/docs"
+PAGES, SITE = WORK / "pages", WORK / "site"
+#: What the pages of the site need beside their text.
+OWN_FILES = ("site.css", "iframe-worker.js")
+#: How long one picture may take (s).
+_PATIENCE = 300
+
+
+def write_pages(folder: Path) -> None:
+    """Write all pages, and copy what they link to."""
+    for name, source in page_sources().items():
+        text, files = site_page(source)
+        _write(folder / name, text)
+        for target, path in files.items():
+            (folder / target).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copyfile(path, folder / target)
+    for name, text in api_pages().items():
+        _write(folder / name, text)
+    for path in (*(ROOT / "docs" / name for name in OWN_FILES), ROOT / "web/public/icon.svg"):
+        shutil.copyfile(path, folder / path.name)
+
+
+def _write(path: Path, text: str) -> None:
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(text, "utf-8")
+
+
+def check_stent() -> None:
+    """Fail at once where the CT that most pictures show cannot be had."""
+    from lumencut.demo import default_cache, stent_scene
+    from lumencut.errors import LumencutError
+
+    try:
+        stent_scene(default_cache())
+    except LumencutError as error:
+        raise PageError(f"the CT of the gallery: {error}") from error
+
+
+def draw(script: Script, folder: Path) -> float:
+    """Run a script of the gallery; the seconds that it took."""
+    start = time.monotonic()
+    paths = [str(ROOT / "python"), os.environ.get("PYTHONPATH", "")]
+    environment = os.environ | {"PYTHONPATH": os.pathsep.join(filter(None, paths))}
+    try:
+        done = subprocess.run(
+            [sys.executable, "-W", "error", script.path],
+            cwd=folder,
+            env=environment,
+            capture_output=True,
+            text=True,
+            timeout=_PATIENCE,
+        )
+    except subprocess.TimeoutExpired:
+        raise PageError(f"{script.path.name}: found no end after {_PATIENCE} s") from None
+    if done.returncode:
+        raise PageError(f"{script.path.name}: {done.stderr.strip().splitlines()[-1]}")
+    assert script.picture is not None
+    if not (folder / script.picture).is_file():
+        raise PageError(
+            f"{script.path.name}: found no {script.picture} after it ran; expected that it makes one"
+        )
+    return time.monotonic() - start
+
+
+def draw_all(folder: Path) -> None:
+    """Make all pictures of the gallery, two at a time."""
+    folder.mkdir(parents=True)
+    scripts = scripts_of(GALLERY)
+    with ThreadPoolExecutor(2) as pool:
+        taken = list(pool.map(lambda script: draw(script, folder), scripts))
+    for script, seconds in zip(scripts, taken, strict=True):
+        print(f"{seconds:8.1f}  {script.path.stem}")
+
+
+def build() -> None:
+    """Make the site in `target/docs`."""
+    shutil.rmtree(WORK, ignore_errors=True)
+    check_stent()
+    write_pages(PAGES)
+    draw_all(PAGES / PICTURES)
+    # MkDocs says on stderr what it reads; warnings end it.
+    environment = os.environ | {"NO_MKDOCS_2_WARNING": "true"}
+    mkdocs = [sys.executable, "-m", "mkdocs", "build", "--strict", "--quiet"]
+    if subprocess.run(mkdocs, cwd=ROOT, env=environment, check=False).returncode:
+        raise PageError("MkDocs: found the warnings above; expected none")
+    # It is for a server at the root of a host alone.
+    (SITE / "404.html").unlink()
+    check_site(SITE)
+
+
+def main() -> int:
+    """Build, and put the whole site where it belongs."""
+    parser = argparse.ArgumentParser(description="Build the site of the documentation into ./docs-site.")
+    parser.add_argument("--output", type=Path, default=ROOT / "docs-site", help="where the site goes")
+    target: Path = parser.parse_args().output
+    start = time.monotonic()
+    try:
+        build()
+    except (PageError, SiteError) as error:
+        print(f"docs: {error}; no site was written", file=sys.stderr)
+        return 1
+    shutil.rmtree(target, ignore_errors=True)
+    shutil.move(SITE, target)
+    print(f"{target / 'index.html'}: built in {time.monotonic() - start:.0f} s")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,86 @@
+"""The pages that tell every public name of the Python package, grouped by subject."""
+
+from __future__ import annotations
+
+import ast
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+_CONTENTS = ROOT / "python/lumencut/__init__.py"
+
+#: The groups: the page's name, its title, and the public names on it, in their order.
+GROUPS: dict[str, tuple[str, tuple[str, ...]]] = {
+    "scenes": (
+        "Scans and vessels",
+        (
+            *("read_volume", "list_series", "SeriesReport", "ScanDetails", "Volume"),
+            *("read_centerlines", "write_centerlines", "Vessel", "VesselTree", "Gap"),
+        ),
+    ),
+    "pictures": (
+        "Pictures",
+        (
+            *(
+                "render",
+                "Renderer",
+                "Frame",
+                "Camera",
+                "VIEWS",
+                "Settings",
+                "Window",
+                "Opacity",
+                "Focus",
+                "Slab",
+            ),
+            *("TransferFunction", "turntable", "fitted_turn", "flight", "save_animation"),
+            *("Device", "devices", "get_threads", "set_threads"),
+        ),
+    ),
+    "reformations": (
+        "Reformations",
+        (
+            *("Reformation", "cpr", "PlanarReformation", "TangentialReformation", "straightened_volume"),
+            *("StraightenedVolume", "cfa", "FeatureAggregation", "lumen_map", "LumenMap", "Ostium", "spiral"),
+            *("SpiralReformation", "uncurl", "Uncurled", "untangled", "UntangledTree", "mpcpr", "cr"),
+        ),
+    ),
+    "tracing": (
+        "Tracing",
+        ("find_vessels", "trace", "Tracer", "trace_from", "trace_mask", "brightest"),
+    ),
+    "measuring": (
+        "Measuring",
+        ("measure", "Measurements", "Profile", "Flag", "Stenosis", "cross_section", "CrossSection"),
+    ),
+    "cohorts": (
+        "Cohorts and evaluation",
+        ("batch", "BatchSummary", "evaluate", "Evaluation", "compare_centerlines", "CenterlineComparison"),
+    ),
+    "errors": (
+        "Errors",
+        (
+            *("LumencutError", "Mend", "VolumeError", "VesselTreeError", "CameraError", "SettingsError"),
+            *("DeviceError", "TracingError", "MeasuringError", "FormatError", "SeriesError", "FileError"),
+            *("MissingPackageError", "DeviceWarning", "SpaceWarning"),
+        ),
+    ),
+}
+#: No part of the method: the version, which needs no page.
+UNTOLD = {"__version__"}
+
+
+def public_names() -> dict[str, str]:
+    """Every public name of the package, and the module that it lives in; read, not imported."""
+    block = next(node for node in ast.parse(_CONTENTS.read_text("utf-8")).body if isinstance(node, ast.If))
+    imports = [node for node in block.body if isinstance(node, ast.ImportFrom)]
+    return {alias.name: f"{node.module}" for node in imports for alias in node.names}
+
+
+def api_pages() -> dict[str, str]:
+    """The pages by their names in the site, each a heading and the names that mkdocstrings tells."""
+    homes = public_names()
+    pages = {}
+    for page, (title, names) in GROUPS.items():
+        told = "\n\n".join(f"::: {homes[name]}.{name}" for name in names)
+        pages[f"api/{page}.md"] = f"# {title}\n\nAll of these are names of `lumencut`.\n\n{told}\n"
+    return pages

@@ -1,0 +1,197 @@
+"""The documentation's site: its pages and links, its scripts, and what is refused of a built site."""
+
+import re
+import runpy
+from pathlib import Path
+
+import pytest
+from PIL import Image
+
+import lumencut
+from lumencut import demo
+
+from script_modules import SCRIPTS  # isort: skip - the next ones are found by it
+import docs
+import docs_api
+import docs_pages
+import docs_site
+from stent_scene import stent_stand_in
+
+ROOT = SCRIPTS.parent
+
+EXAMPLES = [script.path for script in docs_pages.scripts_of(docs_pages.EXAMPLES)]
+GALLERY = [script.path for script in docs_pages.scripts_of(docs_pages.GALLERY)]
+
+
+# Pages
+
+
+def test_every_page_is_in_the_navigation_and_the_other_way_round():
+    named = re.findall(r"^      - (\S+\.md)$", (ROOT / "mkdocs.yml").read_text("utf-8"), re.MULTILINE)
+    assert len(named) > 30
+    assert sorted(named) == sorted([*docs_pages.page_sources(), *docs_api.api_pages()])
+
+
+def test_every_public_name_is_told_on_one_page():
+    told = [name for _, names in docs_api.GROUPS.values() for name in names]
+    assert len(told) == len(set(told))
+    assert set(told) | docs_api.UNTOLD == set(lumencut.__all__)
+    assert set(docs_api.public_names()) == set(lumencut.__all__)
+
+
+def headings(text: str) -> set[str]:
+    """The anchors of a page, as GitHub and the site make them."""
+    plain = re.sub(r"^```.*?^```$", "", text, flags=re.DOTALL | re.MULTILINE)
+    lines = re.findall(r"^#+ (.*)$", plain, re.MULTILINE)
+    return {re.sub(r"[^\w\- ]", "", line.lower()).replace(" ", "-") for line in lines}
+
+
+@pytest.mark.parametrize("name", [*docs_pages.page_sources(), "README.md", "examples/README.md"])
+def test_every_link_of_a_page_leads_somewhere(name):
+    source = docs_pages.page_sources().get(name, ROOT / name)
+    docs_pages.site_page(source)
+    for link in re.findall(r"\]\(([^)\s]+)\)", source.read_text("utf-8")):
+        target, _, anchor = link.partition("#")
+        path = (source.parent / target).resolve() if target else source
+        if anchor and path.suffix == ".md" and not re.match("[a-z]+:", link):
+            assert anchor in headings(path.read_text("utf-8")), link
+
+
+def test_links_are_those_of_the_site(tmp_path):
+    text, files = docs_pages.site_page(ROOT / "docs/pictures.md")
+    assert "](METHOD.md)" in text
+    assert "](BENCHMARKS.md#five-criteria)" in text
+    assert files["images/csr.webp"] == ROOT / "docs/images/csr.webp"
+    assert "](command-line.md)" in docs_pages.site_page(ROOT / "docs/gallery.md")[0]
+
+
+def test_a_link_that_leads_nowhere_is_refused(monkeypatch, tmp_path):
+    monkeypatch.setattr(docs_pages, "ROOT", tmp_path)
+    page = tmp_path / "docs" / "page.md"
+    page.parent.mkdir()
+    page.write_text("See [this](nowhere.md).", "utf-8")
+    with pytest.raises(docs_pages.PageError, match=r"docs/page.md: found the link nowhere.md"):
+        docs_pages.site_page(page)
+    page.write_text("```\n[code](nowhere.md)\n```\n[there](page.md#a) [else](https://example.org)", "utf-8")
+    assert docs_pages.site_page(page)[1] == {}
+
+
+# Scripts
+
+
+@pytest.mark.parametrize("path", [*EXAMPLES, *GALLERY], ids=lambda path: path.stem)
+def test_every_script_is_a_card_of_one_page(path):
+    page = "gallery.md" if path in GALLERY else "how-to.md"
+    assert (ROOT / "docs" / page).read_text("utf-8").count(f"(../{path.relative_to(ROOT)})") == 1
+    text, _ = docs_pages.site_page(ROOT / "docs" / page)
+    script = docs_pages.script_of(path)
+    assert f"### {script.title}\n" in text
+    assert "    import lumencut\n" in script.card()
+    assert (f"](gallery/{path.stem}.webp)" in text) == (path in GALLERY)
+
+
+def test_a_script_without_words_is_refused(tmp_path):
+    path = tmp_path / "silent.py"
+    path.write_text('"""No more than a title."""\nimport lumencut\n', "utf-8")
+    with pytest.raises(docs_pages.PageError, match=r"silent.py: found no title and text"):
+        docs_pages.script_of(path)
+
+
+@pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
+def test_an_example_runs_and_says_something(path, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    runpy.run_path(str(path), run_name="__main__")
+    assert len(capsys.readouterr().out.split()) > 3
+    written = re.findall(r'(?:save|write_centerlines)\((?:tree, )?"([^"]+)"', path.read_text("utf-8"))
+    assert [name for name in written if not (tmp_path / name).stat().st_size] == []
+
+
+@pytest.fixture(scope="module")
+def stent():
+    return stent_stand_in()
+
+
+@pytest.mark.parametrize("path", GALLERY, ids=lambda path: path.stem)
+def test_a_script_of_the_gallery_makes_its_picture(path, stent, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(demo, "stent_scene", lambda cache: stent)
+    runpy.run_path(str(path), run_name="__main__")
+    with Image.open(tmp_path / docs_pages.script_of(path).picture) as picture:
+        low, high = picture.convert("L").getextrema()
+    assert high - low > 100
+
+
+# The site
+
+
+PAGE = '<html><head>{head}</head><body><h1 id="top">T</h1>{body}</body></html>'
+
+
+@pytest.fixture
+def built(tmp_path):
+    """A site of two pages and a sheet."""
+
+    def write(head="", body="", css=""):
+        (tmp_path / "index.html").write_text(PAGE.format(head=head, body=body), "utf-8")
+        (tmp_path / "other.html").write_text(PAGE.format(head="", body=""), "utf-8")
+        (tmp_path / "site.css").write_text(css, "utf-8")
+        return tmp_path
+
+    return write
+
+
+def test_a_good_site_passes(built):
+    body = '<a href="other.html#top">a</a><a href="#top">b</a><a href="https://example.org">c</a>'
+    docs_site.check_site(built('<link rel="stylesheet" href="site.css">', f'{body}<img src="data:,">'))
+
+
+@pytest.mark.parametrize(
+    ("parts", "fault"),
+    [
+        ({"head": '<script src="https://example.org/a.js"></script>'}, "asks https://example.org/a.js"),
+        ({"head": '<link rel="stylesheet" href="//example.org/a.css">'}, "asks //example.org/a.css"),
+        ({"head": '<link rel="preconnect" href="https://example.org">'}, "asks https://example.org"),
+        ({"css": "a { background: url('https://example.org/a.png') }"}, "asks https://example.org/a.png"),
+        ({"css": "@import 'https://example.org/a.css';"}, "asks https://example.org/a.css"),
+        ({"body": '<img src="absent.webp">'}, "fetches absent.webp, which is not there"),
+        ({"body": '<a href="absent.html">a</a>'}, "links to absent.html, which is not there"),
+        ({"body": '<a href="other.html#absent">a</a>'}, "where no such heading is"),
+    ],
+)
+def test_a_site_that_asks_others_or_leads_nowhere_is_refused(built, parts, fault):
+    with pytest.raises(docs_site.SiteError, match=re.escape(fault)):
+        docs_site.check_site(built(**parts))
+
+
+def test_an_empty_site_is_refused(tmp_path):
+    with pytest.raises(docs_site.SiteError, match="found no page"):
+        docs_site.check_site(tmp_path)
+
+
+def test_without_the_ct_of_the_demo_nothing_is_built(tmp_path, monkeypatch, capsys):
+    def unreachable(cache):
+        raise demo.UnreachableError("imageio", "no network", "a wheel from the package index")
+
+    former = tmp_path / "site"
+    former.mkdir()
+    (former / "index.html").write_text("the one before", "utf-8")
+    monkeypatch.setattr(demo, "stent_scene", unreachable)
+    monkeypatch.setattr(docs, "WORK", tmp_path / "work")
+    monkeypatch.setattr("sys.argv", ["docs.py", "--output", str(former)])
+    assert docs.main() == 1
+    said = capsys.readouterr().err
+    assert "the CT of the gallery: imageio: found no network" in said
+    assert "no site was written" in said
+    assert (former / "index.html").read_text("utf-8") == "the one before"
+
+
+@pytest.mark.parametrize(
+    ("code", "said"),
+    [("raise ValueError('no such vessel')", "no such vessel"), ("pass", "found no broken.webp after it ran")],
+)
+def test_a_picture_that_cannot_be_made_ends_the_build(tmp_path, monkeypatch, code, said):
+    path = tmp_path / "broken.py"
+    path.write_text(f'"""A title.\n\nA text.\n"""\n{code}\n', "utf-8")
+    monkeypatch.setattr(docs_pages, "GALLERY", Path(tmp_path))
+    with pytest.raises(docs_pages.PageError, match=said):
+        docs.draw(docs_pages.script_of(path), tmp_path)
