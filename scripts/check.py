@@ -37,7 +37,7 @@ SCRIPTS = tuple(
     for name in (
         *("build_backend", "check", "docs", "docs_api", "docs_pages", "docs_site", "frames", "fuzz"),
         *("licences", "notices", "page", "render_phantom"),
-        *("settings", "source_files", "toolchain", "wheel", "window_table"),
+        *("settings", "source_files", "toolchain", "types_for_users", "wheel", "window_table"),
     )
 )
 TOOLS = ("python", "rust", "targets", "vulkan", "page", "browser")
@@ -151,10 +151,7 @@ def page_lints() -> list[Check]:
         ),
         Check("lint of the page", ("npm", "run", "lint", "--silent", "--prefix", "web"), lane=PAGE),
         Check(
-            "types of the examples",
-            ("npm", "run", "examples", "--silent", "--prefix", "web"),
-            lane=PAGE,
-            needs=("tools",),
+            "types for users", (f"{BIN}/python", "scripts/types_for_users.py"), lane=PAGE, needs=("tools",)
         ),
         Check("size of the page", ("npm", "run", "size", "--silent", "--prefix", "web"), lane=PAGE),
     ]

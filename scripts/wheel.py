@@ -47,8 +47,9 @@ class Environment:
     folder: Path
 
     def run(self, *command: str | Path) -> None:
-        """Run a command of the environment, in its folder, as if there were no repository."""
+        """Run a command of the environment, in its folder, without the repository, Rust and Node."""
         outside = {name: value for name, value in os.environ.items() if not name.startswith("PYTHON")}
+        outside["PATH"] = str(self.folder / "bin")
         program = self.folder / "bin" / str(command[0])
         subprocess.run((program, *command[1:]), cwd=self.folder, env=outside, check=True)
 
@@ -162,7 +163,8 @@ def try_out(wheels: Sequence[Path], folder: Path) -> None:
     for number, wheel in enumerate(wheels):
         say(f"trial of {wheel.name}: installed in {'an empty' if number == 0 else 'the same'} environment")
         environment.install(wheel)
-        environment.run("lumencut", "--version")
+        environment.run("lumencut")
+        environment.run("lumencut", "doctor")
         picture = PICTURES / f"{wheel.stem}.png"
         environment.run("python", "-I", ROOT / "scripts/render_phantom.py", picture)
 

@@ -15,6 +15,7 @@ import docs
 import docs_api
 import docs_pages
 import docs_site
+import types_for_users
 from stent_scene import stent_stand_in
 
 ROOT = SCRIPTS.parent
@@ -195,3 +196,19 @@ def test_a_picture_that_cannot_be_made_ends_the_build(tmp_path, monkeypatch, cod
     monkeypatch.setattr(docs_pages, "GALLERY", Path(tmp_path))
     with pytest.raises(docs_pages.PageError, match=said):
         docs.draw(docs_pages.script_of(path), tmp_path)
+
+
+# Types
+
+
+def symbol(name, *, known=True, ambiguous=False):
+    return {"name": f"lumencut.{name}", "isTypeKnown": known, "isTypeAmbiguous": ambiguous}
+
+
+def test_public_names_without_a_known_type_are_named():
+    symbols = [symbol("Frame"), symbol("render", known=False), symbol("Vessel", ambiguous=True)]
+    report = {"typeCompleteness": {"symbols": [*symbols, symbol("cli.main", known=False)]}}
+    names = {"Frame", "render", "Vessel"}
+    assert list(types_for_users.unknown(report, names)) == ["lumencut.render", "lumencut.Vessel"]
+    with pytest.raises(ValueError, match="found not every public name"):
+        list(types_for_users.unknown(report, {*names, "Camera"}))

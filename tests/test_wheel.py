@@ -1,5 +1,6 @@
 """A wheel that would not install or run everywhere is noticed before it is kept."""
 
+import sys
 import zipfile
 
 import pytest
@@ -79,3 +80,11 @@ def test_a_wheel_for_one_python_alone_is_noticed(wheel, made, tmp_path):
     made().rename(path)
     with pytest.raises(wheel.PackageError, match="expected the stable ABI"):
         wheel.check_wheel(path)
+
+
+def test_a_wheel_is_tried_without_rust_and_node(wheel, tmp_path):
+    (tmp_path / "bin").mkdir()
+    (tmp_path / "bin/python").symlink_to(sys.executable)
+    seen = "import os, pathlib, shutil; pathlib.Path('seen').write_text(repr([*map(shutil.which, {!r})]))"
+    wheel.Environment(tmp_path).run("python", "-c", seen.format(("cargo", "rustc", "node", "npm")))
+    assert (tmp_path / "seen").read_text("utf-8") == "[None, None, None, None]"

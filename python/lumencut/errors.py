@@ -29,7 +29,10 @@ class LumencutError(Exception):
     """
 
     def __init__(self, subject: str, found: str, expected: str, mend: str = "") -> None:
-        self.subject, self.found, self.expected, self.mend = subject, found, expected, mend
+        self.subject: str = subject
+        self.found: str = found
+        self.expected: str = expected
+        self.mend: str = mend
         super().__init__(subject, found, expected, mend)
 
     def __str__(self) -> str:

@@ -66,19 +66,21 @@ class FeatureAggregation(Reformation):
     def __init__(
         self, surface: PlanarReformation, feature: Feature, level: float | None, radius: float
     ) -> None:
-        self.feature, self.level = feature, level
+        self.feature: Feature = feature
+        self.level: float | None = level
         axes = _AXES.format(shown=_SHOWN[feature].format(level=level))
         kept = ("pixel_spacing", "up", "smoothing")
         parameters = {name: surface.recipe.parameters[name] for name in kept}
         parameters |= {"radius": radius, "feature": feature, "level": level}
         recipe = ReformationRecipe(f"CFA, {feature}", axes, parameters, "cfa")
         super().__init__(surface._renderer, surface._core, surface._given, recipe, measurable=True)
+        self.angles: int
         self._aggregated, self.angles = self._renderer._core.aggregate(
             self._renderer.volume, surface._core, checked(self._given), (feature, level), self.pixel_spacing
         )
         columns = self.size[0]
         beside = np.arange(-(columns // 2), columns // 2 + 1, dtype=np.float64)
-        self.radius = beside * self.pixel_spacing
+        self.radius: npt.NDArray[np.float64] = beside * self.pixel_spacing
 
     def __repr__(self) -> str:
         """Return the size."""

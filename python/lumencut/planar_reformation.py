@@ -90,10 +90,13 @@ class PlanarReformation(Reformation):
         parameters: dict[str, Any],
         rolled: _Rolled | None = None,
     ) -> None:
-        self.mode, self.angle = parameters["mode"], parameters["angle"]
+        self.mode: Mode = parameters["mode"]
+        self.angle: float = parameters["angle"]
         recipe = ReformationRecipe(f"{self.mode} CPR", _AXES[self.mode], parameters, "cpr")
         super().__init__(renderer, core, given, recipe, measurable=self.mode != "projected")
-        self.roll = None if rolled is None else np.interp(self.arc_length, *rolled)
+        self.roll: npt.NDArray[np.float64] | None = (
+            None if rolled is None else np.interp(self.arc_length, *rolled)
+        )
 
     def rotated(self, angle: float | None = None, *, degrees: float | None = None) -> PlanarReformation:
         """Return the same vessel seen from another side; renderer, volume and frames are used again.

@@ -63,8 +63,9 @@ class Reformation:
         measurable: bool,
     ) -> None:
         self._renderer, self._core, self._given = renderer, core, given
-        self.recipe, self.measurable = recipe, measurable
-        self.pixel_spacing = core.pixel_spacing
+        self.recipe: ReformationRecipe = recipe
+        self.measurable: bool = measurable
+        self.pixel_spacing: float = core.pixel_spacing
         self.timings: dict[str, float] = {}
 
     def __repr__(self) -> str:

@@ -40,7 +40,8 @@ class StraightenedVolume:
     """
 
     def __init__(self, volume: Volume, surface: PlanarReformation) -> None:
-        self.volume, self._core = volume, surface._core
+        self.volume: Volume = volume
+        self._core = surface._core
 
     @property
     def arc_length(self) -> npt.NDArray[np.float64]:

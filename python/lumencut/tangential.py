@@ -42,7 +42,8 @@ class TangentialReformation(Reformation):
     def __init__(
         self, renderer: Renderer, vessel: Vessel, camera: Camera, smoothing: float, given: Settings
     ) -> None:
-        self.camera, self._vessel, self._smoothing = camera, vessel, smoothing
+        self.camera: Camera = camera
+        self._vessel, self._smoothing = vessel, smoothing
         core = _lumencut.tangential_layout(vessel.points, smoothing, camera)
         parameters = {"mode": self.mode, "camera": camera_parameters(camera), "smoothing": smoothing}
         recipe = ReformationRecipe("tangential CPR", _AXES, parameters, "cpr")

@@ -62,8 +62,11 @@ class Uncurled(Reformation):
         how: tuple[float | None, float],
         given: Settings,
     ) -> None:
-        self.amount, self.camera, self._vessel, self._how = amount, camera, vessel, how
+        self.amount: float = amount
+        self.camera: Camera = camera
+        self.width: float | None
         self.width, smoothing = how
+        self._vessel, self._how = vessel, how
         core = _lumencut.Uncurl(vessel.points, smoothing, camera, amount, self.width)
         parameters = {
             "camera": camera_parameters(camera),

@@ -106,10 +106,12 @@ class LumenMap(Reformation):
     _core: _lumencut.LumenMap
 
     def __init__(self, mapped: MappedVessel, settings: Settings, mode: Mode, wanted: dict[str, Any]) -> None:
-        self.mode, self._mapped, self._wanted = mode, mapped, wanted
-        self.mean_radius, self.profile = mapped.wall.mean_radius, mapped.profile
+        self.mode: Mode = mode
+        self._mapped, self._wanted = mapped, wanted
+        self.mean_radius: float = mapped.wall.mean_radius
+        self.profile: Profile | None = mapped.profile
         level = wanted["calcium_level"]
-        self.calcium_level = mapped.wall.calcium_level if level is None else level
+        self.calcium_level: float | None = mapped.wall.calcium_level if level is None else level
         self._band = _band_of(mode, wanted["band"])
         directions = (wanted["angle"], wanted["overlap"])
         core = mapped.wall.map(

@@ -93,9 +93,11 @@ class UntangledTree(Reformation):
         recipe = ReformationRecipe("untangled CPR", _AXES, parameters, "untangled")
         super().__init__(renderer, core, given, recipe, measurable=True)
         self._tree = tree
-        self.overlaps = tuple(core.overlaps)
-        self.parts = tuple(LaidOut(*part) for part in core.laid_out())
-        self.closures = tuple(np.array(places) for places in core.closures)
+        self.overlaps: tuple[int, ...] = tuple(core.overlaps)
+        self.parts: tuple[LaidOut, ...] = tuple(LaidOut(*part) for part in core.laid_out())
+        self.closures: tuple[npt.NDArray[np.float64], ...] = tuple(
+            np.array(places) for places in core.closures
+        )
 
     @property
     def rotations(self) -> dict[int, float]:

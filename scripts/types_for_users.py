@@ -1,0 +1,55 @@
+"""See that an editor knows every type: pyright, strict, on the examples, and the types of all public names.
+
+    .venv/bin/python scripts/types_for_users.py
+
+Needs the page's npm packages, of which pyright is one.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from collections.abc import Iterator
+from typing import Any
+
+from docs_api import ROOT, UNTOLD, public_names
+
+PYRIGHT = ROOT / "web/node_modules/.bin/pyright"
+
+
+def pyright(*words: str, captured: bool = False) -> subprocess.CompletedProcess[str]:
+    """Run pyright with the sources of the package before what is installed."""
+    environment = os.environ | {"PYTHONPATH": str(ROOT / "python")}
+    return subprocess.run(
+        (PYRIGHT, *words), cwd=ROOT, env=environment, capture_output=captured, text=True, check=False
+    )
+
+
+def unknown(report: dict[str, Any], names: set[str]) -> Iterator[str]:
+    """The public names whose type no editor can know for sure, of all that pyright reports."""
+    symbols = report["typeCompleteness"]["symbols"]
+    if not names <= {symbol["name"].partition(".")[2] for symbol in symbols}:
+        raise ValueError("found not every public name in the report of pyright; expected all")
+    for symbol in symbols:
+        public = symbol["name"].partition(".")[2] in names
+        if public and (not symbol["isTypeKnown"] or symbol["isTypeAmbiguous"]):
+            yield symbol["name"]
+
+
+def main() -> int:
+    """Check the examples, then the public names."""
+    if not PYRIGHT.exists():
+        print(f"types: found no {PYRIGHT.relative_to(ROOT)}; expected it; run npm ci in web", file=sys.stderr)
+        return 1
+    status = pyright("--warnings").returncode
+    told = pyright("--verifytypes", "lumencut", "--ignoreexternal", "--outputjson", captured=True)
+    wrong = list(unknown(json.loads(told.stdout), public_names().keys() - UNTOLD))
+    for name in wrong:
+        print(f"types: found a type of {name} that is not stated; expected that all are", file=sys.stderr)
+    return 1 if status or wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
