@@ -10,7 +10,7 @@ RESOLVE := $(BIN)/uv pip compile pyproject.toml --universal --python-version 3.1
 
 # How the extension module is compiled: `release` as users get it, or `checks` as the checks and the demo do, to have it soon.
 PROFILE := release
-# The demo takes the module that is there, of whatever profile.
+# The demo and the pictures of the documentation take the module that is there, of whatever profile.
 DEMO_PROFILE = $(or $(patsubst $(VENV)/.lumencut-%,%,$(firstword $(wildcard $(VENV)/.lumencut-*))),checks)
 # What the extension module is built from: it is rebuilt when one of these is newer than the last build.
 RUST_SOURCES := Cargo.toml Cargo.lock pyproject.toml $(wildcard crates/*/Cargo.toml) \
@@ -38,7 +38,8 @@ page: toolchain ## Build the viewer's page into the package where its sources ch
 site: toolchain ## Write the viewer's page into ./site, for any server of files; needs Node.
 	@$(PYTHON) scripts/page.py --site site
 
-docs: develop tools $(VENV)/.docs ## Build the site of the documentation into ./docs-site, its pictures anew.
+docs: toolchain $(VENV)/.docs ## Build the site of the documentation into ./docs-site, its pictures anew.
+	@$(MAKE_COMMAND) --no-print-directory develop PROFILE=$(DEMO_PROFILE)
 	@$(BIN)/python scripts/docs.py
 
 test: ## Run every check; the last line is `N passed, N failed`.

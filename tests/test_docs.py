@@ -9,6 +9,7 @@ from PIL import Image
 
 import lumencut
 from lumencut import demo
+from lumencut.cli import main
 
 from script_modules import SCRIPTS  # isort: skip - the next ones are found by it
 import docs
@@ -75,6 +76,40 @@ def test_a_link_that_leads_nowhere_is_refused(monkeypatch, tmp_path):
         docs_pages.site_page(page)
     page.write_text("```\n[code](nowhere.md)\n```\n[there](page.md#a) [else](https://example.org)", "utf-8")
     assert docs_pages.site_page(page)[1] == {}
+
+
+PAGES = {**docs_pages.page_sources(), "README.md": ROOT / "README.md"}
+
+
+def blocks(language: str) -> list[tuple[str, str]]:
+    """The blocks of code of all pages, with the names of the pages."""
+    fence = re.compile(rf"^```{language}\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+    return [(name, block) for name, path in PAGES.items() for block in fence.findall(path.read_text("utf-8"))]
+
+
+def test_every_option_that_a_page_shows_is_one_of_its_command():
+    lines = [(page, line) for page, block in blocks("sh") for line in block.splitlines()]
+    shown = [(page, line.partition(" # ")[0].split()) for page, line in lines if line.startswith("lumencut ")]
+    assert len(shown) > 60
+    wrong = []
+    for page, (_, *words) in shown:
+        command = main.commands.get(words[0]) if words else main
+        known = (
+            {name for one in command.params for name in (*one.opts, *one.secondary_opts)} if command else {}
+        )
+        wrong += [(page, word) for word in words if word.startswith("--") and word.split("=")[0] not in known]
+        wrong += [] if command else [(page, words[0])]
+    assert wrong == []
+
+
+def test_every_name_that_a_page_shows_is_public():
+    shown = {
+        (page, name)
+        for page, block in blocks("python")
+        for name in re.findall(r"\blumencut\.([A-Za-z]\w*)\(", block)
+    }
+    assert len(shown) > 30
+    assert [(page, name) for page, name in sorted(shown) if name not in lumencut.__all__] == []
 
 
 # Scripts

@@ -19,7 +19,7 @@ def first_words() -> str:
 
     name = program()
     has_page = (FOLDER / "index.html").is_file()
-    scan = "your own scan in the viewer: a DICOM folder or zip, NIfTI, NRRD or MetaImage"
+    scan = "your own scan: DICOM folder or zip, NIfTI, NRRD, MetaImage"
     details = "what your own file holds, and what is odd about it"
     tries = (
         (f"{name} view --demo", "a CT of an aorta with a stent graft, in your browser")
