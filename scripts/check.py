@@ -40,7 +40,7 @@ SCRIPTS = tuple(
         *("settings", "source_files", "toolchain", "types_for_users", "wheel", "window_table"),
     )
 )
-TOOLS = ("python", "rust", "targets", "vulkan", "page", "browser")
+TOOLS = ("python", "rust", "targets", "vulkan", "page", "browser", "dicom")
 FUZZED = "crates/lumencut-io/fuzz/Cargo.toml"
 FUZZ_RUNS = 110_000
 """Inputs of libFuzzer, over all formats."""

@@ -1,6 +1,7 @@
 """Says clearly what of the toolchain is missing.
 
-That may be Python, Rust, a target that Rust compiles for, Vulkan, Node or Chromium.
+That may be Python, Rust, a target that Rust compiles for, Vulkan, Node, Chromium, or what judges DICOM
+files.
 
 Needs nothing but Python itself: it runs before there is an environment.
 """
@@ -14,6 +15,7 @@ import re
 import shutil
 import subprocess
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -31,6 +33,12 @@ TARGETS = (
 
 #: What lets the tests of the GPU run without one: the loader of Vulkan, and a driver that is software.
 VULKAN_PACKAGES = ("libvulkan1", "mesa-vulkan-drivers")
+#: What judges the DICOM files that Lumencut writes: command, and the package of Debian that brings it.
+DICOM_TOOLS = {"dciodvfy": "dicom3tools", "dcm2pnm": "dcmtk", "Orthanc": "orthanc"}
+#: Orthanc's plugin for DICOMweb, which is a library, and its package.
+DICOMWEB_PLUGIN, DICOMWEB_PACKAGE = "libOrthancDicomWeb.so", "orthanc-dicomweb"
+#: Where Debian installs the plugins of Orthanc.
+ORTHANC_PLUGINS = Path("/usr/share/orthanc/plugins")
 #: Where drivers of Vulkan are registered.
 DRIVERS = (Path("/usr/share/vulkan/icd.d"), Path("/etc/vulkan/icd.d"))
 
@@ -145,21 +153,63 @@ def add_wasm() -> None:
         subprocess.run(["rustup", "component", "add", "rust-src"], check=False, cwd=ROOT)
 
 
-def add_browser() -> None:
-    """Chromium is there for the tests of the page; on Debian, root adds it."""
-    if shutil.which("chromium"):
-        return
-    install = ["apt-get", "install", "--yes", "--no-install-recommends", "chromium"]
-    if shutil.which("apt-get") is None or os.geteuid() != 0:
-        refuse("no chromium on the PATH", "the browser of the tests", f"as root: {' '.join(install)}")
-    quiet = os.environ | {"DEBIAN_FRONTEND": "noninteractive"}
+def apt_command(packages: Sequence[str]) -> list[str]:
+    """What installs packages of Debian."""
+    return ["apt-get", "install", "--yes", "--no-install-recommends", *packages]
+
+
+def is_apt_allowed() -> bool:
+    """Whether this process may install packages of Debian."""
+    return shutil.which("apt-get") is not None and os.geteuid() == 0
+
+
+def apt_install(packages: Sequence[str]) -> None:
+    """Install packages of Debian, as far as that works; no server that they bring is started."""
+    install = apt_command(packages)
+    # At run level 1 Debian starts no services.
+    quiet = os.environ | {"DEBIAN_FRONTEND": "noninteractive", "RUNLEVEL": "1"}
+    # The list of packages may be missing or too old to install from.
     for command in (install, ["apt-get", "update"], install):
         print(" ".join(command), flush=True)
         done = subprocess.run(command, check=False, env=quiet, stdin=subprocess.DEVNULL).returncode == 0
         if done and command is install:
             break
+
+
+def add_browser() -> None:
+    """Chromium is there for the tests of the page; on Debian, root adds it."""
+    if shutil.which("chromium"):
+        return
+    packages = ("chromium",)
+    if not is_apt_allowed():
+        by_hand = f"as root: {' '.join(apt_command(packages))}"
+        refuse("no chromium on the PATH", "the browser of the tests", by_hand)
+    apt_install(packages)
     if shutil.which("chromium") is None:
         refuse("no chromium after apt-get", "the browser of the tests", "check the network connection")
+
+
+def missing_of_dicom() -> list[str]:
+    """The packages of Debian that judge DICOM files and are not here."""
+    # Debian keeps servers where the PATH of others than root may not lead.
+    path = f"{os.environ.get('PATH', '')}{os.pathsep}/usr/sbin"
+    packages = [package for tool, package in DICOM_TOOLS.items() if shutil.which(tool, path=path) is None]
+    return packages + ([] if (ORTHANC_PLUGINS / DICOMWEB_PLUGIN).exists() else [DICOMWEB_PACKAGE])
+
+
+def add_dicom() -> None:
+    """What judges DICOM files, and the PACS of the tests, are there; on Debian, root adds them."""
+    missing = missing_of_dicom()
+    if not missing:
+        return
+    by_hand = f"as root: {' '.join(apt_command(missing))} (or the same of another distribution)"
+    if not is_apt_allowed():
+        refuse(f"no {', '.join(missing)}", "what judges DICOM files in the tests", by_hand)
+    apt_install(missing)
+    if still := missing_of_dicom():
+        refuse(
+            f"no {', '.join(still)} after apt-get", "what judges DICOM files", "check the network connection"
+        )
 
 
 def missing_of_vulkan() -> str:
@@ -177,20 +227,14 @@ def add_vulkan() -> None:
     missing = missing_of_vulkan() if sys.platform == "linux" else ""
     if not missing:
         return
-    install = ["apt-get", "install", "--yes", "--no-install-recommends", *VULKAN_PACKAGES]
-    by_hand = f"as root: {' '.join(install)} (or the same of another distribution)"
-    if shutil.which("apt-get") is None or os.geteuid() != 0:
+    by_hand = f"as root: {' '.join(apt_command(VULKAN_PACKAGES))} (or the same of another distribution)"
+    if not is_apt_allowed():
         refuse(missing, "Vulkan, which the tests of the GPU need", by_hand)
-    quiet = os.environ | {"DEBIAN_FRONTEND": "noninteractive"}
-    # The list of packages may be missing or too old to install from.
-    for command in (install, ["apt-get", "update"], install):
-        print(" ".join(command), flush=True)
-        done = subprocess.run(command, check=False, env=quiet, stdin=subprocess.DEVNULL).returncode == 0
-        if done and command is install:
-            break
+    apt_install(VULKAN_PACKAGES)
     missing = missing_of_vulkan()
     if missing:
-        refuse(f"{missing} after {' '.join(install)}", "Vulkan", "check the network connection")
+        tried = " ".join(apt_command(VULKAN_PACKAGES))
+        refuse(f"{missing} after {tried}", "Vulkan", "check the network connection")
 
 
 def main() -> None:
@@ -202,6 +246,7 @@ def main() -> None:
         "vulkan": add_vulkan,
         "page": add_page,
         "browser": add_browser,
+        "dicom": add_dicom,
     }
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("what", choices=checks, nargs="+")

@@ -198,6 +198,28 @@ def test_a_missing_browser_is_installed_by_root_and_else_refused(toolchain, monk
     assert ran == ["install"]
 
 
+def test_missing_judges_of_dicom_are_installed_by_root_and_else_refused(toolchain, monkeypatch, tmp_path):
+    there, asked = {"apt-get", "dcm2pnm"}, []
+    monkeypatch.setattr(toolchain.shutil, "which", lambda name, **_: name if name in there else None)
+    monkeypatch.setattr(toolchain, "ORTHANC_PLUGINS", tmp_path)
+
+    def installs(command, env, **_):
+        asked.append((command[4:], env["RUNLEVEL"]))
+        there.update(toolchain.DICOM_TOOLS)
+        (tmp_path / toolchain.DICOMWEB_PLUGIN).touch()
+        return subprocess.CompletedProcess(command, 0)
+
+    monkeypatch.setattr(toolchain.subprocess, "run", installs)
+    monkeypatch.setattr(toolchain.os, "geteuid", lambda: 1000)
+    with pytest.raises(SystemExit, match="no dicom3tools, orthanc, orthanc-dicomweb; expected"):
+        toolchain.add_dicom()
+    monkeypatch.setattr(toolchain.os, "geteuid", lambda: 0)
+    toolchain.add_dicom()
+    toolchain.add_dicom()
+    # At run level 1 no server is started, which would listen beyond this machine.
+    assert asked == [(["dicom3tools", "orthanc", "orthanc-dicomweb"], "1")]
+
+
 def test_a_missing_vulkan_is_installed_by_root_and_else_refused(toolchain, monkeypatch, tmp_path):
     (tmp_path / "driver.json").touch()
     monkeypatch.setattr(toolchain.sys, "platform", "linux")
