@@ -7,7 +7,7 @@ import os
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
@@ -18,6 +18,10 @@ from lumencut._values import KeepsReadOnly
 from lumencut.camera import Camera
 from lumencut.errors import FormatError, SettingsError, VolumeError
 from lumencut.frame_source import FrameSource
+
+if TYPE_CHECKING:
+    from lumencut.dicom_objects.picture import Picture
+    from lumencut.dicom_objects.study import Study
 
 #: Formats of Pillow without transparency.
 _OPAQUE = ("BMP", "EPS", "JPEG", "MPO", "PCX")
@@ -185,13 +189,17 @@ class Frame(KeepsReadOnly):
         """
         from lumencut import annotation
 
-        image = self.image
-        if self._source is None:
-            raise VolumeError("source of the frame", "a frame made by hand", "a rendered frame", "use render")
-        return annotation.annotated(image, self.camera, self._source, vessel_names=vessel_names)
+        return annotation.annotated(self.image, self.camera, self._known_source(), vessel_names=vessel_names)
 
     def save(
-        self, path: str | os.PathLike[str], *, annotate: bool = False, vessel_names: bool = False
+        self,
+        path: str | os.PathLike[str],
+        *,
+        annotate: bool = False,
+        vessel_names: bool = False,
+        study: Any = None,
+        anonymous: bool = False,
+        compress: bool = False,
     ) -> None:
         """Write the picture, or with the ending ``.npz`` all arrays; a file appears only once it is whole.
 
@@ -203,29 +211,73 @@ class Frame(KeepsReadOnly):
         Parameters
         ----------
         path : path-like
-            The ending names the format: a picture format of Pillow (``.png``, ``.tif``, …) or ``.npz``.
+            The ending names the format: a picture format of Pillow (``.png``, ``.tif``, …), ``.npz``, or
+            ``.dcm`` for a DICOM Secondary Capture in the study of the scan.
         annotate : bool, default False
             Write the picture with labels, see :meth:`annotated`. The arrays of ``.npz`` have none.
         vessel_names : bool, default False
             The names of the vessels among the labels.
+        study : Volume or path-like, optional
+            For ``.dcm``: a volume that was read from DICOM, or a DICOM folder, file or zip archive, whose
+            study the picture is put into; where not given, the study of the scan that is shown.
+        anonymous : bool, default False
+            For ``.dcm``: leave patient and study out, and the names of vessels too. A study of its own is
+            made for each scan. That is not the Basic Profile of PS3.15.
+        compress : bool, default False
+            For ``.dcm``: write the pixels as JPEG 2000, lossless.
 
         Raises
         ------
         FormatError
-            For an ending that names no format.
+            For an ending that names no format; for ``.dcm`` where there is no one study to belong to.
         FileError
             Where the file cannot be written.
         SettingsError
-            For names of vessels on a picture without labels.
+            For names of vessels on a picture without labels, and for what only ``.dcm`` can hold.
         """
         path = checked_path(path, WRITABLE)
         if vessel_names and not annotate:
             raise SettingsError("vessel_names", "True without annotate", "annotate=True beside it")
+        if path.suffix.lower() == ".dcm":
+            labels = {"annotate": annotate, "vessel_names": vessel_names}
+            self._save_object(path, **labels, study=study, anonymous=anonymous, compress=compress)
+            return
+        check_dicom_alone(path, study=study, anonymous=anonymous, compress=compress)
         if path.suffix.lower() == ".npz":
             replace_whole(path, self._write_arrays)
             return
         image = self.annotated(vessel_names=vessel_names) if annotate else self.image
         save_picture(image, path, self._png_options(annotate=annotate, vessel_names=vessel_names))
+
+    def _save_object(
+        self, path: Path, *, study: Any, anonymous: bool, compress: bool, number: int = 1, **labels: bool
+    ) -> None:
+        """Write the picture as DICOM, with its place in a series of several views."""
+        from lumencut.dicom_objects.picture import write_picture
+
+        labels["vessel_names"] &= not anonymous
+        made, found = self._as_object(**labels), self._study(study, anonymous=anonymous)
+        write_picture(path, made, found, number=number, compress=compress)
+
+    def _as_object(self, *, annotate: bool, vessel_names: bool) -> Picture:
+        """The picture with what its DICOM object says of it."""
+        from lumencut.dicom_objects.views import view_picture
+
+        image = self.annotated(vessel_names=vessel_names) if annotate else self.image
+        return view_picture(image, self.camera, self._known_source(), has_cut=self.has("depth"))
+
+    def _study(self, study: Any, *, anonymous: bool) -> Study:
+        """The study that DICOM objects of the frame belong to."""
+        from lumencut.dicom_objects.chosen_study import chosen_study
+
+        origin = self._known_source().origin
+        assert origin is not None, "whoever renders a frame knows its scan"
+        return chosen_study(origin, study, anonymous=anonymous)
+
+    def _known_source(self) -> FrameSource:
+        if self._source is None:
+            raise VolumeError("source of the frame", "a frame made by hand", "a rendered frame", "use render")
+        return self._source
 
     def _png_options(self, *, annotate: bool, vessel_names: bool) -> dict[str, Any]:
         """What Pillow writes into a PNG beside the picture."""
@@ -245,6 +297,14 @@ class Frame(KeepsReadOnly):
         arrays: dict[str, Any] = {name: getattr(self, name) for name in _IMAGES if self.has(name)}
         with path.open("wb") as file:
             np.savez_compressed(file, **arrays)
+
+
+def check_dicom_alone(path: Path, **given: Any) -> None:
+    """Refuse what only a DICOM file can hold, for a file of another format."""
+    for name, value in given.items():
+        if value is not None and value is not False:
+            found = f"{value!r}, with the ending {path.suffix!r}"
+            raise SettingsError(name, found, "the ending .dcm", "leave it out for other files")
 
 
 def picture_as_png(image: npt.NDArray[np.uint8]) -> bytes:

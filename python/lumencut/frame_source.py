@@ -6,6 +6,7 @@ from collections import Counter
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, cast
 
+from lumencut.dicom_objects.study import Origin
 from lumencut.settings import Settings
 from lumencut.transfer import TransferFunction
 from lumencut.window import Window
@@ -36,6 +37,8 @@ class FrameSource:
         Each named vessel and where its name belongs.
     method : str, default "csr"
         The method: ``"csr"``, ``"mpcpr"`` or ``"cr"``.
+    origin : Origin or None
+        The scan, as far as DICOM objects tell of it; None for a source made by hand.
     """
 
     settings: Settings
@@ -45,6 +48,7 @@ class FrameSource:
     vessels: int
     vessel_ends: tuple[VesselEnd, ...]
     method: str = "csr"
+    origin: Origin | None = None
 
 
 def frame_source(
@@ -59,7 +63,14 @@ def frame_source(
     window = cast(Window | None, _context_window(settings) if tree is None else settings.window)
     vessels = 0 if tree is None else len(tree)
     return FrameSource(
-        settings, window, volume.states_spacing, volume.states_orientation, vessels, ends, method
+        settings,
+        window,
+        volume.states_spacing,
+        volume.states_orientation,
+        vessels,
+        ends,
+        method,
+        volume._origin,
     )
 
 

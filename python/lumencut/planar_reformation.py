@@ -94,6 +94,7 @@ class PlanarReformation(Reformation):
         self.angle: float = parameters["angle"]
         recipe = ReformationRecipe(f"{self.mode} CPR", _AXES[self.mode], parameters, "cpr")
         super().__init__(renderer, core, given, recipe, measurable=self.mode != "projected")
+        self.is_projection = self.mode == "projected"
         self.roll: npt.NDArray[np.float64] | None = (
             None if rolled is None else np.interp(self.arc_length, *rolled)
         )
@@ -131,13 +132,13 @@ class PlanarReformation(Reformation):
             return f"{self.mode}, {self.recipe.parameters['roll']} side"
         return f"{self.mode} {round(math.degrees(self.angle)) % 360}°"
 
-    def annotated(self) -> npt.NDArray[np.uint8]:
+    def annotated(self, *, vessel_names: bool = True) -> npt.NDArray[np.uint8]:
         """Return the picture with labels as every reformation has them; see `Reformation.annotated`.
 
         Where the rows follow a side of the lumen, a strip to the right of the picture tells their angle: from
         0 at its left edge to half of a turn at its right one.
         """
-        image = super().annotated()
+        image = super().annotated(vessel_names=vessel_names)
         return image if self.roll is None else np.hstack([image, _strip(self.roll)])
 
     def _edges(self) -> dict[str, str]:

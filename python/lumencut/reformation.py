@@ -15,13 +15,16 @@ from lumencut._checked_settings import checked
 from lumencut._checks import numbers
 from lumencut._files import WRITABLE, checked_path, replace_whole
 from lumencut.errors import CameraError
-from lumencut.frame import picture_as_png, save_picture
+from lumencut.frame import check_dicom_alone, picture_as_png, save_picture
 from lumencut.renderer import Renderer
 from lumencut.settings import Settings
 from lumencut.window import Window
 
 if TYPE_CHECKING:
+    from lumencut.dicom_objects.picture import Picture
+    from lumencut.dicom_objects.study import Study
     from lumencut.reformation_recipe import ReformationRecipe
+    from lumencut.volume import Volume
 
 
 #: On narrower pictures (pixels) there is no room for a sentence.
@@ -50,6 +53,8 @@ class Reformation:
         before anything was made.
     """
 
+    #: Whether distances in the image are those that a viewer sees, so that a ruler may measure them.
+    is_projection: bool = False
     #: What a file of arrays holds.
     _arrays: tuple[str, ...] = ("image", "value", "position", "arc_length", "folded")
 
@@ -180,12 +185,17 @@ class Reformation:
         """
         return self._core.pixel_from_world(_points(points, 3))
 
-    def annotated(self) -> npt.NDArray[np.uint8]:
+    def annotated(self, *, vessel_names: bool = True) -> npt.NDArray[np.uint8]:
         """Return the picture with labels, RGBA, uint8, shape (H, W, 4); a side below 200 pixels gets none.
 
         The labels are what the reformation is called, the window, what rows and columns are (on pictures of
         at least 400 columns), a scale bar where distances can be measured, and the sides of the patient
         where edges look to them.
+
+        Parameters
+        ----------
+        vessel_names : bool, default True
+            Where a reformation writes the names of vessels; without them their ids stand there.
         """
         from lumencut.annotation import window_words, with_labels
 
@@ -206,7 +216,15 @@ class Reformation:
         """The sides of the patient that edges look to."""
         return {}
 
-    def save(self, path: str | os.PathLike[str], *, annotate: bool = False) -> None:
+    def save(
+        self,
+        path: str | os.PathLike[str],
+        *,
+        annotate: bool = False,
+        study: Any = None,
+        anonymous: bool = False,
+        compress: bool = False,
+    ) -> None:
         """Write the picture, or with the ending ``.npz`` all arrays; a file appears only once it is whole.
 
         Parameters
@@ -214,18 +232,30 @@ class Reformation:
         path : path-like
             The ending names the format: a picture format of Pillow (``.png``, ``.tif``, …) or ``.npz``, which
             holds ``image``, ``value``, ``position``, ``arc_length`` and ``folded``. A ``.png`` also says in
-            words what its rows and columns are, and how it was made.
+            words what its rows and columns are, and how it was made. ``.dcm`` is a DICOM Secondary Capture.
         annotate : bool, default False
             Write the picture with labels, see :meth:`annotated`.
+        study, anonymous, compress
+            For ``.dcm``, as in :meth:`Frame.save`. The object states the size of a pixel only where the
+            picture is a projection: a ruler across any other would be wrong.
 
         Raises
         ------
         FormatError
-            For an ending that names no format.
+            For an ending that names no format; for ``.dcm`` where there is no one study to belong to.
         FileError
             Where the file cannot be written.
+        SettingsError
+            For what only ``.dcm`` can hold.
         """
         path = checked_path(path, WRITABLE)
+        if path.suffix.lower() == ".dcm":
+            from lumencut.dicom_objects.picture import write_picture
+
+            made = self._as_object(annotate=annotate, vessel_names=not anonymous)
+            write_picture(path, made, self._study(study, anonymous=anonymous), compress=compress)
+            return
+        check_dicom_alone(path, study=study, anonymous=anonymous, compress=compress)
         if path.suffix.lower() == ".npz":
             replace_whole(path, self._write_arrays)
         else:
@@ -233,6 +263,29 @@ class Reformation:
 
             image = self.annotated() if annotate else self.image
             save_picture(image, path, png_options(self.recipe, self.settings))
+
+    def _as_object(self, *, annotate: bool, vessel_names: bool) -> Picture:
+        """The picture with what its DICOM object says of it."""
+        from lumencut.dicom_objects.views import reformed_picture
+
+        volume = self._renderer.volume
+        edges = self._edges() if volume is not None and volume.states_orientation else {}
+        is_true = self.is_projection and volume is not None and volume.states_spacing
+        image = self.annotated(vessel_names=vessel_names) if annotate else self.image
+        return reformed_picture(
+            image, self.recipe, self.settings, edges, self.pixel_spacing if is_true else None
+        )
+
+    def _study(self, study: Any, *, anonymous: bool) -> Study:
+        """The study that DICOM objects of the reformation belong to."""
+        from lumencut.dicom_objects.chosen_study import chosen_study
+
+        return chosen_study(self._known_volume()._origin, study, anonymous=anonymous)
+
+    def _known_volume(self) -> Volume:
+        volume = self._renderer.volume
+        assert volume is not None, "a reformation shows a volume"
+        return volume
 
     def _write_arrays(self, path: Path) -> None:
         arrays: dict[str, Any] = {name: getattr(self, name) for name in self._arrays}

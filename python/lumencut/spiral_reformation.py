@@ -78,12 +78,12 @@ class SpiralReformation(Reformation):
             raise SettingsError("sampling of the spiral CPR", repr(self.sampling), "'arc', for areas")
         return columns * self.pixel_spacing * self.pitch
 
-    def annotated(self) -> npt.NDArray[np.uint8]:
+    def annotated(self, *, vessel_names: bool = True) -> npt.NDArray[np.uint8]:
         """Return the picture with labels as every reformation has them, and with a ruler in mm²."""
         from lumencut.annotation import SMALLEST_SIDE
         from lumencut.lettering import Sheet
 
-        image = super().annotated()
+        image = super().annotated(vessel_names=vessel_names)
         volume = self._renderer.volume
         states_spacing = volume is not None and volume.states_spacing
         if self.sampling != "arc" or min(self.size) < SMALLEST_SIDE or not states_spacing:

@@ -38,6 +38,7 @@ class TangentialReformation(Reformation):
     """
 
     mode = "tangential"
+    is_projection = True
 
     def __init__(
         self, renderer: Renderer, vessel: Vessel, camera: Camera, smoothing: float, given: Settings

@@ -227,14 +227,14 @@ class LumenMap(Reformation):
         largest = float(known.max()) if known.size else 0.0
         return 0.0, max(math.ceil(largest * 2) / 2, 0.5)
 
-    def annotated(self) -> npt.NDArray[np.uint8]:
+    def annotated(self, *, vessel_names: bool = True) -> npt.NDArray[np.uint8]:
         """Return the picture with labels, RGBA, uint8; a side below 200 pixels gets none.
 
         The labels are those of every reformation, the names of vessels at their openings, and a scale of the
         colours where there are any.
         """
-        image = super().annotated()
-        places = [(one.name or str(one.vessel), one.pixel) for one in self.ostia]
+        image = super().annotated(vessel_names=vessel_names)
+        places = [((one.name if vessel_names else None) or str(one.vessel), one.pixel) for one in self.ostia]
         unit = _SHOWN[self.mode][1]
         return with_scale(image, places, None if unit is None else (*self._scale, unit))
 

@@ -112,7 +112,7 @@ class UntangledTree(Reformation):
         """The id of the vessel that each pixel shows, int32, shape (H, W), -1 where nothing is shown."""
         return self._core.vessel()
 
-    def annotated(self) -> npt.NDArray[np.uint8]:
+    def annotated(self, *, vessel_names: bool = True) -> npt.NDArray[np.uint8]:
         """Return the picture with labels, RGBA, uint8, shape (H, W, 4); a side below 200 pixels gets none.
 
         The labels are those of every reformation, an arc with degrees where a branch is turned by more than
@@ -122,7 +122,7 @@ class UntangledTree(Reformation):
         from lumencut.lettering import Sheet
         from lumencut.vessel_labels import write_names
 
-        image = super().annotated()
+        image = super().annotated(vessel_names=vessel_names)
         if min(image.shape[:2]) < SMALLEST_SIDE:
             return image
         sheet = Sheet(image)
@@ -133,15 +133,15 @@ class UntangledTree(Reformation):
         for part in self.parts:
             if abs(part.turn) > _DRAWN_FROM:
                 _draw_turn(sheet, part)
-        write_names(sheet, list(self._ends().items()))
+        write_names(sheet, list(self._ends(vessel_names).items()))
         return sheet.pixels()
 
-    def _ends(self) -> dict[str, tuple[float, float]]:
+    def _ends(self, names: bool) -> dict[str, tuple[float, float]]:
         """The name of each vessel, or its id, and where it ends in the image."""
         ends: dict[str, tuple[float, float]] = {}
         for part in self.parts:
             column, row = part.pixels[0 if part.is_reversed else -1]
-            name = self._tree[part.vessel].name or str(part.vessel)
+            name = (self._tree[part.vessel].name if names else None) or str(part.vessel)
             # A vessel that grows backwards ends in its first part, others in their last one.
             if name not in ends or not part.is_reversed:
                 ends[name] = (float(column), float(row))

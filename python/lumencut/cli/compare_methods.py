@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from lumencut.cli import options
+from lumencut.cli.dicom import check_objects, dicom_options, is_object, save_sheet
 from lumencut.cli.labels import check_labels, label_options, labels_of
 from lumencut.cli.like import (
     beside_session,
@@ -32,6 +33,7 @@ from lumencut.cli.scene import (
 from lumencut.cli.settings import setting_options, settings_from
 
 if TYPE_CHECKING:
+    from lumencut.camera import Camera
     from lumencut.comparison import Panel
     from lumencut.untangled_tree import UntangledTree
 
@@ -44,8 +46,8 @@ if TYPE_CHECKING:
     type=options.FILE,
     multiple=True,
     required=True,
-    help="Picture (.png, .tif, .webp, …); may be repeated. Each of several views is written to every output, "
-    "with its name before the ending or in the place of {view}.",
+    help="Picture (.png, .tif, .webp, …) or .dcm (DICOM); may be repeated. Each of several views is written "
+    "to every output, with its name before the ending or in the place of {view}.",
 )
 @click.option(
     "--radius-offset",
@@ -71,6 +73,7 @@ if TYPE_CHECKING:
 @options.several_views_options
 @like_option
 @label_options
+@dicom_options
 @setting_options
 @verbose_option
 def compare_methods(
@@ -96,12 +99,12 @@ def compare_methods(
     _check(output, views[0][1].size, chosen, (radius_offset, arc_threshold))
     check_scene(files, chosen, settings)
     check_labels(chosen, output, views[0][1].size)
+    check_objects(chosen, output)
     renderer, scene = read_scene(files, chosen)
     warn_of_window(settings, renderer)
     warn_of_vessels(chosen, recipe, renderer)
 
     from lumencut.comparison import panels, side_by_side
-    from lumencut.frame import save_picture
     from lumencut.untangling import untangled_of
 
     for picture, (_, view) in zip(planned, views, strict=True):
@@ -116,9 +119,19 @@ def compare_methods(
             with busy(f"writing {path.name}"):
                 labels = labels_of(path, chosen, recipe)
                 further = [] if tree is None else [("Untangled CPR", _picture(tree, labels))]
-                save_picture(side_by_side(found, _labelled(found, labels), further), path)
+                labels["vessel_names"] &= not (is_object(path) and chosen["anonymous"])
+                sheet = side_by_side(found, _labelled(found, labels), further)
+                about = ("CSR beside other methods", _words(camera), settings)
+                save_sheet(sheet, path, chosen, about, renderer.volume)
             say(f"{path}: {shown(camera, settings, renderer)}")
     detail(f"device: {renderer.device}")
+
+
+def _words(camera: Camera) -> str:
+    """What the sheet shows, for its DICOM object."""
+    from lumencut.orientation import view_name
+
+    return f"mpCPR, CR and CSR side by side, and how far their depths differ. View {view_name(camera)}."
 
 
 def _picture(tree: UntangledTree, labels: dict[str, bool]) -> Any:

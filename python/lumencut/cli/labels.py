@@ -22,7 +22,7 @@ def label_options(command: Command) -> Command:
             "--annotate/--no-annotate",
             default=None,
             help="Letters at the edges for the sides of the patient (R, L, A, P, S, I), the view, the window "
-            "and a scale bar; default: on for a .png picture, off for other files and turntables. "
+            "and a scale bar; default: on for .png and .dcm pictures, off for other files and turntables. "
             "Sides below 200 pixels get none.",
         ),
         click.option(
@@ -59,7 +59,7 @@ def labels_of(path: Path, chosen: dict[str, Any], recipe: Recipe | None) -> dict
     names = chosen["vessel_names"]
     annotate = chosen["annotate"]
     if annotate is None:
-        usual = path.suffix.lower() == ".png" if recipe is None else recipe.annotate
+        usual = path.suffix.lower() in (".png", ".dcm") if recipe is None else recipe.annotate
         annotate = usual or bool(names)
     if names is None:
         names = recipe is not None and recipe.vessel_names

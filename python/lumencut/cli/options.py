@@ -283,8 +283,8 @@ def check_picture(path: Path) -> None:
     from PIL import Image
 
     kind = Image.registered_extensions().get(path.suffix.lower())
-    if path.suffix.lower() != ".npz" and kind not in Image.SAVE:
-        known = "a picture format such as .png, .tif or .webp, or .npz"
+    if path.suffix.lower() not in (".npz", ".dcm") and kind not in Image.SAVE:
+        known = "a picture format such as .png, .tif or .webp, .dcm (DICOM), or .npz"
         raise click.UsageError(f"{path}: found the ending {path.suffix!r}; expected {known}")
     check_folder(path)
 

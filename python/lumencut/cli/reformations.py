@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from lumencut.cli import options
+from lumencut.cli.dicom import check_objects, dicom_options, object_options, save_sheet
 from lumencut.cli.like import typed
 from lumencut.cli.mistakes import check_files, check_reading
 from lumencut.cli.parameters import VECTOR
@@ -35,7 +36,7 @@ output_option = click.option(
     "--output",
     type=options.FILE,
     required=True,
-    help="Picture (.png, .tif, .webp, …); .npz for the arrays of one vessel.",
+    help="Picture (.png, .tif, .webp, …); .dcm (DICOM); .npz for the arrays of one vessel.",
 )
 
 smoothing_option = click.option(
@@ -80,7 +81,10 @@ def vessel_options(command: options.Command) -> options.Command:
 
 def picture_options(command: options.Command) -> options.Command:
     """Add the options of what stands on the picture, of how files are read, and of how values are shown."""
-    parts = (annotate_option, like_option, options.reading_options, look_options, verbose_option)
+    parts = (
+        *(annotate_option, like_option, dicom_options),
+        *(options.reading_options, look_options, verbose_option),
+    )
     return options.added(parts, command)
 
 
@@ -108,6 +112,7 @@ def read_vessels(
 ) -> tuple[Renderer, VesselTree, list[tuple[str, Vessel]]]:
     """Return a renderer of the files, the tree, and the vessels that are chosen with their titles."""
     files = scene_from(chosen)
+    check_objects(chosen, [chosen["output"]])
     check_files(files.volume, files.centerlines)
     check_reading(chosen, [chosen["volume"]], has_centerlines=True)
     voxels, tree = read_files(files, chosen)
@@ -138,7 +143,7 @@ def write_each(
     made = [_made(title, vessel, make) for title, vessel in vessels]
     output, annotate = chosen["output"], chosen["annotate"]
     with busy(f"writing {output.name}"):
-        _write(output, made, [title for title, _ in vessels], annotate=annotate)
+        _write(chosen, made, [title for title, _ in vessels], annotate=annotate)
     count = "1 vessel" if len(made) == 1 else f"{len(made)} vessels"
     window = made[0].shown_window
     shown = "" if window is None else f", window {window.width:.4g}/{window.level:.4g}"
@@ -154,17 +159,17 @@ def write_beside(
 ) -> None:
     """Make several images of each vessel, told `make` as `shown`, and write them, a line for each vessel."""
     from lumencut.contact_sheet import contact_sheet
-    from lumencut.frame import save_picture
 
-    pictures, titles = [], []
+    pictures, titles, all_made = [], [], []
     for title, vessel in vessels:
         for name in shown:
             made = _made(f"{title} ({name})", vessel, partial(make, shown=name))
             pictures.append(made.annotated() if chosen["annotate"] else made.image)
             titles.append(f"{title}, {made.recipe.name}")
+            all_made.append(made)
     with busy(f"writing {chosen['output'].name}"):
         starts = range(0, len(pictures), len(shown))
-        save_picture(contact_sheet(pictures, titles, starts), chosen["output"])
+        _save_sheet(contact_sheet(pictures, titles, starts), chosen, all_made)
     count = "1 vessel" if len(vessels) == 1 else f"{len(vessels)} vessels"
     say(f"{chosen['output']}: {', '.join(shown)} of {count}")
 
@@ -182,12 +187,20 @@ def _made(title: str, vessel: Vessel, make: Callable[[Vessel], Reformation]) -> 
     return made
 
 
-def _write(output: Path, made: list[Reformation], titles: list[str], *, annotate: bool) -> None:
+def _write(chosen: dict[str, Any], made: list[Reformation], titles: list[str], *, annotate: bool) -> None:
     from lumencut.contact_sheet import contact_sheet
-    from lumencut.frame import save_picture
 
+    output = chosen["output"]
     if len(made) == 1:
-        made[0].save(output, annotate=annotate)
+        made[0].save(output, annotate=annotate, **object_options(output, chosen))
         return
     pictures = [one.annotated() if annotate else one.image for one in made]
-    save_picture(contact_sheet(pictures, titles), output)
+    _save_sheet(contact_sheet(pictures, titles), chosen, made)
+
+
+def _save_sheet(sheet: Any, chosen: dict[str, Any], made: list[Reformation]) -> None:
+    """Write the pictures of several vessels, or several of one, on one sheet."""
+    recipes = {one.recipe.name: one.recipe.axes for one in made}
+    words = " ".join(f"{name}: {axes}" for name, axes in recipes.items())
+    about = (f"CPR {', '.join(recipes)}", words, made[0].settings)
+    save_sheet(sheet, chosen["output"], chosen, about, made[0]._known_volume())

@@ -8,6 +8,7 @@ from typing import Any
 import click
 
 from lumencut.cli import options
+from lumencut.cli.dicom import check_objects, dicom_options, is_object, object_options
 from lumencut.cli.found_vessels import check_found, found_options
 from lumencut.cli.labels import check_labels, label_options, labels_of
 from lumencut.cli.like import (
@@ -41,7 +42,7 @@ from lumencut.cli.settings import paper_option, setting_options, settings_from
     type=options.FILE,
     multiple=True,
     required=True,
-    help="Picture (.png, .tif, .webp, …), or .npz for depth, vessels, values and positions too; "
+    help="Picture (.png, .tif, .webp, …), .dcm (DICOM), or .npz for depth, vessels, values and positions; "
     "may be repeated. Each of several views is written to every output, with its name before the ending or "
     "in the place of {view}.",
 )
@@ -55,6 +56,7 @@ from lumencut.cli.settings import paper_option, setting_options, settings_from
 @click.option("--ras", is_flag=True, help="The seed is in RAS, not LPS.")
 @like_option
 @label_options
+@dicom_options
 @paper_option
 @setting_options
 @verbose_option
@@ -92,10 +94,11 @@ def render(
         raise click.UsageError("--ras without --seed does nothing; leave it out")
     check_scene(files, chosen, settings)
     check_labels(chosen, output, views[0][1].size)
+    check_objects(chosen, output)
     renderer, scene = read_scene(files, chosen)
     warn_of_window(settings, renderer)
     warn_of_vessels(chosen, recipe, renderer)
-    for picture, (_, view) in zip(planned, views, strict=True):
+    for number, (picture, (_, view)) in enumerate(zip(planned, views, strict=True), 1):
         camera = camera_of(view, scene, chosen, recipe)
         name = "" if len(planned) == 1 else f" {name_of(picture.view)}"
         with bar(f"rendering{name}", "share") as told:
@@ -105,6 +108,10 @@ def render(
             warn_of_emptiness(f"no pixel of the view{name}", frame.camera, renderer)
         for path in picture.paths:
             with busy(f"writing {path.name}"):
-                frame.save(path, **labels_of(path, chosen, recipe))
+                labels = labels_of(path, chosen, recipe)
+                if is_object(path):
+                    frame._save_object(path, **labels, **object_options(path, chosen), number=number)
+                else:
+                    frame.save(path, **labels)
             say(f"{path}: {shown(frame.camera, settings, renderer)}")
     detail(f"device: {renderer.device}")

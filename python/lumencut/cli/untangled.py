@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from lumencut.cli import options, reformations
+from lumencut.cli.dicom import check_objects, object_options
 from lumencut.cli.mistakes import check_files, check_reading
 from lumencut.cli.parameters import VECTOR
 from lumencut.cli.report import busy, detail, say, timings, warn
@@ -102,13 +103,14 @@ def untangled(**given: Any) -> None:
     timings("tree", made.timings)
     output = chosen["output"]
     with busy(f"writing {output.name}"):
-        made.save(output, annotate=chosen["annotate"])
+        made.save(output, annotate=chosen["annotate"], **object_options(output, chosen))
     _tell(str(output), made)
 
 
 def _renderer(chosen: dict[str, Any], settings: Settings) -> Renderer:
     """A renderer of the vessels that are chosen, with the window of all."""
     files = scene_from(chosen)
+    check_objects(chosen, [chosen["output"]])
     check_files(files.volume, files.centerlines)
     check_reading(chosen, [chosen["volume"]], has_centerlines=True)
     voxels, tree = read_files(files, chosen)

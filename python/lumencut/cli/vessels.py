@@ -55,8 +55,14 @@ def named_vessels(tree: VesselTree, chosen: dict[str, Any]) -> list[tuple[str, V
 
 
 def titled_vessels(tree: VesselTree, chosen: dict[str, Any]) -> list[tuple[str, Vessel]]:
-    """Return what options choose, each with its ids, its name and its length as a title."""
-    return [(_title(number, vessel), vessel) for number, vessel in named_vessels(tree, chosen)]
+    """Return what options choose, each with its ids, its name and its length as a title.
+
+    With --anonymous the names are left out, which may be anybody's.
+    """
+    named = named_vessels(tree, chosen)
+    if chosen.get("anonymous"):
+        return [(f"vessel {n}, {vessel.length:.0f} mm", vessel) for n, (_, vessel) in enumerate(named, 1)]
+    return [(_title(number, vessel), vessel) for number, vessel in named]
 
 
 def _one(tree: VesselTree, word: str) -> int:

@@ -17,6 +17,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from lumencut.dicom_objects.study import Study
 from lumencut.errors import FileError, FormatError, LumencutError, VolumeError
 from lumencut.scan_details import ScanDetails
 from lumencut.volume import Volume
@@ -51,6 +52,7 @@ class VolumeFile:
     """What is told of the file to whoever asks, and is no reason to warn every reader."""
     states_spacing: bool = True
     states_orientation: bool = True
+    study: Study | None = None
     settled_type: np.dtype[Any] | None = None
     """The type that the voxels will have, where the headers alone settle it."""
 
@@ -62,7 +64,7 @@ class VolumeFile:
         with heeding(progress) as told_on, refusing(self.path, self.format, self.notes):
             voxels = self.load(told_on, filled)
         volume = _placed(self, voxels)
-        volume._filled_slices, volume._scan = self.filled, self.scan
+        volume._filled_slices, volume._scan, volume._study = self.filled, self.scan, self.study
         return volume
 
     def checked(self) -> VolumeFile:

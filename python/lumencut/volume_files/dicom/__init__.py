@@ -16,6 +16,7 @@ from lumencut.volume_files.dicom.files import File, read_files
 from lumencut.volume_files.dicom.headers import is_dicom
 from lumencut.volume_files.dicom.judging import Wanted, described, judged
 from lumencut.volume_files.dicom.sources import is_zip
+from lumencut.volume_files.dicom.study import study_of
 from lumencut.volume_files.dicom.values import load, settled_type
 from lumencut.volume_files.opened import Filled, Progress, VolumeFile, refusing
 
@@ -40,7 +41,7 @@ def opened(path: Path, wanted: Wanted, read: Callable[[list[str]], Sequence[File
     return VolumeFile(
         path, "DICOM", stack.size, series.stored, space, stack.world_from_index, voxels, notes,
         filled=stack.missing, details=series.details, scan=series.scan,
-        settled_type=settled_type(stack),
+        study=study_of([one.image for one in stack.slices]), settled_type=settled_type(stack),
     )  # fmt: skip
 
 

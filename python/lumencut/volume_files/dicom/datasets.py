@@ -25,6 +25,7 @@ class _Held(Source):
 
     number: int = 0
     pixels: bytes = b""
+    dataset: Any = None
 
     @property
     def name(self) -> str:
@@ -37,6 +38,10 @@ class _Held(Source):
     def open(self) -> BinaryIO:
         """Open the pixels for reading."""
         return io.BytesIO(self.pixels)
+
+    def attributes(self, tags: list[int]) -> Any:
+        """Give some attributes of the dataset."""
+        return _chosen(self.dataset, tags)
 
     def head(self, count: int) -> bytes:
         """Give the first bytes of the pixels."""
@@ -80,18 +85,26 @@ def _image(number: int, dataset: Any) -> Image:
         raise FormatError(f"{_SUBJECT}: dataset {number}", type(pixels).__name__, "pixels as bytes")
     # Before a dataset is written, the type of its pixels may be open.
     vr = element.VR if element and len(element.VR) == 2 else "OW"
-    source = _Held(_SUBJECT, len(pixels), number=number, pixels=pixels)
+    source = _Held(_SUBJECT, len(pixels), number=number, pixels=pixels, dataset=dataset)
     return Image(source, _header(dataset), 0, keyword, vr)
+
+
+def _chosen(dataset: Any, tags: Sequence[int]) -> Header:
+    """Some attributes of a dataset, those that it has."""
+    from pydicom.dataset import Dataset
+
+    header = Dataset()
+    for tag in tags:
+        if tag in dataset:
+            header[tag] = dataset[tag]
+    return header
 
 
 def _header(dataset: Any) -> Header:
     """The attributes that files are asked for; a dataset that was never in a file says less of itself."""
-    from pydicom.dataset import Dataset, FileMetaDataset
+    from pydicom.dataset import FileMetaDataset
 
-    header = Dataset()
-    for tag in header_tags():
-        if tag in dataset:
-            header[tag] = dataset[tag]
+    header = _chosen(dataset, header_tags())
     header.file_meta = getattr(dataset, "file_meta", None) or FileMetaDataset()
     header.set_original_encoding(*dataset.original_encoding)
     return header

@@ -15,8 +15,13 @@ Header = Any
 """A pydicom Dataset that holds the attributes below, without pixels."""
 
 _OWN_KEYWORDS = (
-    *("SpecificCharacterSet", "SOPClassUID", "PlanarConfiguration", "ExtendedOffsetTable"),
-    *("ExtendedOffsetTableLengths", "SharedFunctionalGroupsSequence", "PerFrameFunctionalGroupsSequence"),
+    *("SpecificCharacterSet", "SOPClassUID", "StudyInstanceUID", "PlanarConfiguration"),
+    *(
+        "ExtendedOffsetTable",
+        "ExtendedOffsetTableLengths",
+        "SharedFunctionalGroupsSequence",
+        "PerFrameFunctionalGroupsSequence",
+    ),
 )
 """What is read beside the attributes that the core judges by."""
 _HEAD = 1 << 17

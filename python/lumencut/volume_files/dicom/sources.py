@@ -9,7 +9,7 @@ import zlib
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import BinaryIO
+from typing import Any, BinaryIO
 
 from lumencut.errors import FormatError
 from lumencut.volume_files.opened import printable, refusing
@@ -58,6 +58,13 @@ class Source:
             return BoundedFile(self.path)
         with self.archive.open(self.member) as packed:
             return io.BytesIO(packed.read(self.size))
+
+    def attributes(self, tags: list[int]) -> Any:
+        """Read some attributes of a header that was read before, as a dataset of pydicom."""
+        import pydicom
+
+        with self.open() as stream:
+            return pydicom.dcmread(stream, stop_before_pixels=True, force=True, specific_tags=tags)
 
     def head(self, count: int) -> bytes:
         """Read its first bytes."""

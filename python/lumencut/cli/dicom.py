@@ -1,0 +1,98 @@
+"""Options for what is written as DICOM, and sheets of several pictures written so."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from lumencut.cli.options import FILE, Command, added
+
+if TYPE_CHECKING:
+    import numpy as np
+    import numpy.typing as npt
+
+    from lumencut.settings import Settings
+    from lumencut.volume import Volume
+
+_OPTIONS = ("like_study", "anonymous", "compress")
+
+
+def dicom_options(command: Command) -> Command:
+    """Add the options that say into which study a .dcm is put, and how its pixels are stored."""
+    return added((study_options, compress_option), command)
+
+
+def study_options(command: Command) -> Command:
+    """Add the options that say into which study a .dcm is put."""
+    parts = (
+        click.option(
+            "--like-study",
+            type=FILE,
+            metavar="FOLDER",
+            help="For .dcm: take patient and study of this DICOM folder, file or zip archive, as where "
+            "VOLUME is no DICOM.",
+        ),
+        click.option(
+            "--anonymous",
+            is_flag=True,
+            help="For .dcm: leave out the patient, the study and the names of vessels. That is not the Basic "
+            "Profile of the standard.",
+        ),
+    )
+    return added(parts, command)
+
+
+compress_option = click.option(
+    "--compress", is_flag=True, help="For .dcm: pixels as JPEG 2000, lossless; default: bare."
+)
+
+
+def is_object(path: Path) -> bool:
+    """Tell whether a file is to be DICOM."""
+    return path.suffix.lower() == ".dcm"
+
+
+def check_objects(chosen: dict[str, Any], outputs: Iterable[Path]) -> None:
+    """Refuse options of DICOM objects that exclude each other, or where none is written."""
+    asked = [f"--{name.replace('_', '-')}" for name in _OPTIONS if chosen.get(name)]
+    if asked and not any(is_object(path) for path in outputs):
+        raise click.UsageError(f"{asked[0]} does nothing without an output .dcm; name one, or leave it out")
+    if chosen["like_study"] is not None and chosen["anonymous"]:
+        raise click.UsageError("--like-study and --anonymous exclude each other; leave one of them out")
+
+
+def study_of(chosen: dict[str, Any]) -> dict[str, Any]:
+    """Return the study that objects are put into, as the functions of the package take it."""
+    return {"study": chosen["like_study"], "anonymous": chosen["anonymous"]}
+
+
+def object_options(path: Path, chosen: dict[str, Any]) -> dict[str, Any]:
+    """Return what `save` takes for a DICOM file, nothing for others."""
+    return {**study_of(chosen), "compress": chosen["compress"]} if is_object(path) else {}
+
+
+def save_sheet(
+    image: npt.NDArray[np.uint8],
+    path: Path,
+    chosen: dict[str, Any],
+    about: tuple[str, str, Settings],
+    volume: Volume | None,
+) -> None:
+    """Write several pictures on one sheet in the format that the ending names.
+
+    `about` is in short what the sheet shows, in words how it was made, and the settings.
+    """
+    from lumencut.frame import save_picture
+
+    if not is_object(path) or volume is None:
+        save_picture(image, path)
+        return
+    from lumencut.dicom_objects.chosen_study import chosen_study
+    from lumencut.dicom_objects.picture import write_picture
+    from lumencut.dicom_objects.views import joined_picture
+
+    study = chosen_study(volume._origin, chosen["like_study"], anonymous=chosen["anonymous"])
+    write_picture(path, joined_picture(image, *about), study, compress=chosen["compress"])

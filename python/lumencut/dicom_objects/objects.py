@@ -1,0 +1,161 @@
+"""What all objects have in common: patient, study, series, equipment, sources, and the file."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from datetime import datetime
+from pathlib import Path
+from typing import Any
+
+from lumencut import _lumencut
+from lumencut._files import replace_whole
+from lumencut.dicom_objects.study import NEVER_ABSENT, PATIENT, SCAN, UNPAIRED, VISIT, Study
+from lumencut.dicom_objects.uids import uid_of
+
+#: What every series says of itself, so that nobody takes it for more.
+RESEARCH = "(research, not for diagnosis)"
+#: Codes of the standard (DCM): why an image is named as a source, and how an object was derived.
+SOURCE_IMAGE = ("121322", "Source image for image processing operation")
+CURVED_REFORMATION = ("113073", "Curved multiplanar reformatting")
+#: The longest texts of the value representations LO, ST and LT.
+LO, ST, LT = 64, 1024, 10240
+
+
+@dataclass(frozen=True)
+class Kind:
+    """A kind of object: its class, and the series that it is put into.
+
+    Attributes
+    ----------
+    sop_class : str
+        UID of the SOP class.
+    title : str
+        What it shows, for the description of its series.
+    series_number : int
+        Far from the numbers that scanners give.
+    modality : str
+        The modality; that of the scan where empty.
+    """
+
+    sop_class: str
+    title: str
+    series_number: int
+    modality: str = ""
+
+
+def new_object(study: Study, kind: Kind, settings: str, number: int = 1) -> Any:
+    """Return a dataset with all but its content and its own UID.
+
+    Parameters
+    ----------
+    study : Study
+        The study that it belongs to.
+    kind : Kind
+        What it is.
+    settings : str
+        Objects of the same kind and with the same text are put into one series.
+    number : int, default 1
+        Its place in the series.
+    """
+    from pydicom.dataset import Dataset
+
+    data = Dataset()
+    for keyword in (*PATIENT, *VISIT, *SCAN):
+        if keyword in study.header and keyword not in ("Laterality", "PatientPosition"):
+            data[keyword] = study.header[keyword]
+    for keyword in NEVER_ABSENT:
+        if keyword not in data:
+            setattr(data, keyword, None)
+    data.Modality = kind.modality or study.text("Modality") or "OT"
+    data.SOPClassUID = kind.sop_class
+    parts = (study.text("StudyInstanceUID"), study.text("SeriesInstanceUID"), kind.sop_class, kind.title)
+    data.SeriesInstanceUID = uid_of("series", *parts, _lumencut.__version__, settings)
+    data.SeriesNumber, data.InstanceNumber = kind.series_number, number
+    data.SeriesDescription = cut(f"Lumencut {kind.title} {RESEARCH}", LO)
+    data.Manufacturer = data.ManufacturerModelName = "Lumencut"
+    data.SoftwareVersions = _lumencut.__version__
+    now = datetime.now()
+    data.ContentDate, data.ContentTime = now.strftime("%Y%m%d"), now.strftime("%H%M%S")
+    return data
+
+
+def add_laterality(data: Any, study: Study) -> None:
+    """Say which side of the body is shown: nothing where there is one, empty where it is not known."""
+    if study.text("BodyPartExamined").upper() not in UNPAIRED:
+        data.Laterality = study.text("Laterality")
+
+
+def add_sources(data: Any, study: Study, code: tuple[str, str], words: str) -> None:
+    """Say what an image was derived from, and how: `words` name no file."""
+    from pydicom.dataset import Dataset
+
+    data.DerivationDescription = cut(words, ST)
+    data.DerivationCodeSequence = [coded(*code)]
+    if not study.instances:
+        return
+    data.SourceImageSequence = [_reference(one) for one in study.instances]
+    for item in data.SourceImageSequence:
+        item.PurposeOfReferenceCodeSequence = [coded(*SOURCE_IMAGE)]
+    if series := study.text("SeriesInstanceUID"):
+        item = Dataset()
+        item.SeriesInstanceUID = series
+        item.ReferencedInstanceSequence = [_reference(one) for one in study.instances]
+        data.ReferencedSeriesSequence = [item]
+
+
+def coded(value: str, meaning: str, scheme: str = "DCM") -> Any:
+    """Return the item of a code."""
+    from pydicom.dataset import Dataset
+
+    item = Dataset()
+    item.CodeValue, item.CodingSchemeDesignator, item.CodeMeaning = value, scheme, meaning
+    return item
+
+
+def _reference(instance: tuple[str, str]) -> Any:
+    from pydicom.dataset import Dataset
+
+    item = Dataset()
+    item.ReferencedSOPClassUID, item.ReferencedSOPInstanceUID = instance
+    return item
+
+
+def cut(text: str, longest: int) -> str:
+    """Return a text in plain letters, as every character set has them, no longer than its element may be."""
+    plain = text.replace("°", " deg").replace("×", "x").replace("–", "-").encode("ascii", "replace").decode()
+    return plain if len(plain) <= longest else f"{plain[: longest - 4]} ..."
+
+
+def sealed(data: Any, *content: bytes) -> Any:
+    """Give an object the UID that follows from its study and series, its words and its content."""
+    about = ("SOPClassUID", "SeriesInstanceUID", "InstanceNumber", "DerivationDescription", "ImageComments")
+    texts = [str(data.get(keyword, "")) for keyword in about]
+    data.SOPInstanceUID = uid_of("instance", data.StudyInstanceUID, *texts, *content)
+    return data
+
+
+def write(data: Any, path: Path, encode: Callable[[Any], None] | None = None) -> None:
+    """Write an object as a file that appears only once it is whole.
+
+    Parameters
+    ----------
+    data : pydicom.Dataset
+        The object with its UID.
+    path : Path
+        The file.
+    encode : callable, optional
+        Compresses the pixels of the object.
+    """
+    import pydicom
+    from pydicom.dataset import FileMetaDataset
+    from pydicom.uid import UID, ExplicitVRLittleEndian
+
+    meta = FileMetaDataset()
+    meta.TransferSyntaxUID = ExplicitVRLittleEndian
+    meta.ImplementationClassUID = UID(uid_of("Lumencut"))
+    meta.ImplementationVersionName = cut(f"LUMENCUT {_lumencut.__version__}", 16)
+    data.file_meta = meta
+    if encode is not None:
+        encode(data)
+    replace_whole(path, lambda whole: pydicom.dcmwrite(whole, data, enforce_file_format=True))

@@ -1,0 +1,214 @@
+"""Pictures as Secondary Capture: what every PACS shows, one picture or several that follow each other."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from lumencut.dicom_objects.objects import (
+    CURVED_REFORMATION,
+    LT,
+    Kind,
+    add_laterality,
+    add_sources,
+    cut,
+    new_object,
+    sealed,
+    write,
+)
+from lumencut.dicom_objects.study import Study
+
+_CAPTURE = "1.2.840.10008.5.1.4.1.1.7"
+_GREY_FRAMES = f"{_CAPTURE}.2"
+_COLOUR_FRAMES = f"{_CAPTURE}.4"
+#: Parts of the body without a face; where none is stated, there may be one.
+_FACELESS = ("CHEST", "ABDOMEN", "PELVIS", "AORTA", "LEG", "EXTREMITY", "HEART", "ARM", "KNEE", "FOOT", "HIP")
+
+
+@dataclass(frozen=True, eq=False)
+class Picture:
+    """A picture and what its object says of it.
+
+    Attributes
+    ----------
+    image : numpy.ndarray, uint8, shape (H, W, 4)
+        The picture, RGBA; what is transparent becomes black.
+    method : str
+        In short what it is, such as ``"CSR"``.
+    words : str
+        How it was made, in words that name no file, no vessel and nobody.
+    settings : str
+        Pictures of the same method and with the same text are put into one series.
+    pixel_spacing : float or None
+        Side of a pixel (mm) where distances in the picture are those of the projection, else None: a ruler
+        across it would be wrong.
+    sides : tuple of (str, str) or None
+        The sides of the patient that rows (to the right) and columns (downwards) run to, as letters of
+        `lumencut.orientation`; None where they are not true in all of the picture.
+    comments : str, default ""
+        What stands beside the picture in a viewer, such as the view.
+    shows_body : bool, default False
+        Whether the surface of the body may be seen.
+    code : (str, str), default curved reformatting
+        How it was derived (DCM).
+    """
+
+    image: npt.NDArray[np.uint8]
+    method: str
+    words: str
+    settings: str
+    pixel_spacing: float | None
+    sides: tuple[str, str] | None
+    comments: str = ""
+    shows_body: bool = False
+    code: tuple[str, str] = CURVED_REFORMATION
+
+
+def write_picture(
+    path: Path, picture: Picture, study: Study, *, number: int = 1, compress: bool = False
+) -> None:
+    """Write a picture as Secondary Capture.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+    picture : Picture
+        What is written.
+    study : Study
+        Where it belongs.
+    number : int, default 1
+        Its place in the series.
+    compress : bool, default False
+        Write the pixels as JPEG 2000, lossless, in the place of bare numbers.
+    """
+    kind = Kind(_CAPTURE, picture.method, 9001)
+    data = _described(picture, study, kind, number)
+    colours = on_black(picture.image)
+    _set_colours(data, colours)
+    sealed(data, data.PixelData)
+    write(data, path, _packed if compress else None)
+
+
+def write_turning(
+    path: Path, pictures: Iterable[Picture], fps: float, study: Study, *, grey: bool, compress: bool
+) -> int:
+    """Write pictures that follow each other as one multi-frame Secondary Capture, and return how many.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+    pictures : iterable of Picture
+        Pictures of one size; the first tells how all were made.
+    fps : float
+        Frames per second.
+    study : Study
+        Where they belong.
+    grey : bool
+        Write grey bytes in the place of colours: some programs read such frames alone.
+    compress : bool
+        Write the pixels as JPEG 2000, lossless.
+    """
+    frames, first = [], None
+    for picture in pictures:
+        first = first or picture
+        colours = on_black(picture.image)
+        frames.append(greys(colours) if grey else colours)
+    assert first is not None, "whoever makes the pictures refuses none at all"
+    kind = Kind(_GREY_FRAMES if grey else _COLOUR_FRAMES, f"{first.method} turntable", 9003)
+    data = _described(first, study, kind, 1)
+    (_set_greys if grey else _set_colours)(data, np.stack(frames))
+    _set_timing(data, len(frames), fps)
+    sealed(data, data.PixelData)
+    write(data, path, _packed if compress else None)
+    return len(frames)
+
+
+def _described(picture: Picture, study: Study, kind: Kind, number: int) -> Any:
+    """An object with all but its pixels."""
+    data = new_object(study, kind, picture.settings, number)
+    add_laterality(data, study)
+    data.ConversionType = "WSD"
+    data.ImageType = ["DERIVED", "SECONDARY", picture.method.partition(" ")[0].upper()]
+    # It means text that tells who the patient is; sides, view and scale do not.
+    data.BurnedInAnnotation = "NO"
+    data.RecognizableVisualFeatures = "YES" if picture.shows_body and _may_have_face(study) else "NO"
+    data.PatientOrientation = [dicom_sides(side) for side in picture.sides] if picture.sides else None
+    add_sources(data, study, picture.code, picture.words)
+    if picture.comments:
+        data.ImageComments = cut(picture.comments, LT)
+    if picture.pixel_spacing is not None:
+        data.PixelSpacing = [f"{picture.pixel_spacing:.10g}"] * 2
+        data.PixelSpacingCalibrationType = "GEOMETRY"
+        data.PixelSpacingCalibrationDescription = "In the plane of the projection"
+    return data
+
+
+def _may_have_face(study: Study) -> bool:
+    return study.text("BodyPartExamined").upper() not in _FACELESS
+
+
+def dicom_sides(letters: str) -> str:
+    """Return the letters of sides of the patient as DICOM has them: head and feet, and no other letters."""
+    return letters.replace("S", "H").replace("I", "F")
+
+
+def on_black(image: npt.NDArray[np.uint8]) -> npt.NDArray[np.uint8]:
+    """Return an RGBA picture (H, W, 4) before black, RGB (H, W, 3)."""
+    if (image[..., 3] == 255).all():
+        return np.ascontiguousarray(image[..., :3])
+    part = image[..., 3:].astype(np.float32) / 255
+    return np.rint(image[..., :3] * part).astype(np.uint8)
+
+
+def greys(colours: npt.NDArray[np.uint8]) -> npt.NDArray[np.uint8]:
+    """Return the luminance (ITU-R BT.601) of colours (H, W, 3), uint8, shape (H, W)."""
+    return np.asarray(np.rint(colours @ np.array([0.299, 0.587, 0.114])), np.uint8)
+
+
+def _set_colours(data: Any, pixels: npt.NDArray[np.uint8]) -> None:
+    data.SamplesPerPixel, data.PhotometricInterpretation, data.PlanarConfiguration = 3, "RGB", 0
+    _set_bytes(data, pixels, pixels.shape[-3:-1])
+
+
+def _set_greys(data: Any, pixels: npt.NDArray[np.uint8]) -> None:
+    data.SamplesPerPixel, data.PhotometricInterpretation = 1, "MONOCHROME2"
+    # What the numbers mean is asked for of grey frames: shades, as they are.
+    data.RescaleIntercept, data.RescaleSlope, data.RescaleType = "0", "1", "US"
+    data.PresentationLUTShape = "IDENTITY"
+    _set_bytes(data, pixels, pixels.shape[-2:])
+
+
+def _set_bytes(data: Any, pixels: npt.NDArray[np.uint8], size: tuple[int, ...]) -> None:
+    data.Rows, data.Columns = size
+    data.BitsAllocated, data.BitsStored, data.HighBit, data.PixelRepresentation = 8, 8, 7, 0
+    stored = pixels.tobytes()
+    data.PixelData = stored + b"\0" * (len(stored) % 2)
+    data["PixelData"].VR = "OB"
+
+
+def _set_timing(data: Any, count: int, fps: float) -> None:
+    """Say how fast frames follow each other, and that they begin anew at the end."""
+    data.NumberOfFrames = count
+    data.FrameIncrementPointer = 0x00181063
+    data.FrameTime = f"{1000 / fps:.10g}"
+    data.RecommendedDisplayFrameRate = data.CineRate = max(1, round(fps))
+    data.PreferredPlaybackSequencing = 0
+
+
+def _packed(data: Any) -> None:
+    """Compress the pixels without loss."""
+    from pydicom.uid import JPEG2000Lossless
+
+    if data.PhotometricInterpretation == "RGB":
+        # The transform of colours that JPEG 2000 makes anyway is undone by every reader, if it is named.
+        data.PhotometricInterpretation = "YBR_RCT"
+    sealed_uid = data.SOPInstanceUID
+    data.compress(JPEG2000Lossless, encoding_plugin="pylibjpeg", generate_instance_uid=False)
+    assert data.SOPInstanceUID == sealed_uid, "the pixels are the same, and so is the object"

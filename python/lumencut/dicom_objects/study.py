@@ -1,0 +1,88 @@
+"""The study that a scan belongs to: what an object made from the scan repeats of its header, and what never.
+
+An attribute that is in none of the lists below is left behind: private ones, institution, the scanner's
+serial number, the request, and how the slices were acquired.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+#: Who the patient is, and what is known of that; empty under `anonymous`.
+PATIENT = (
+    *("PatientName", "PatientID", "IssuerOfPatientID", "PatientBirthDate", "PatientSex", "PatientAge"),
+    *("PatientIdentityRemoved", "DeidentificationMethod", "DeidentificationMethodCodeSequence"),
+)
+#: Which study it is; empty under `anonymous`.
+VISIT = (
+    *("StudyInstanceUID", "StudyDate", "StudyTime", "AccessionNumber", "StudyID", "StudyDescription"),
+    *("ReferringPhysicianName", "SpecificCharacterSet"),
+)
+#: What is shown. Once pixels were compressed with loss, whatever is made of them says so.
+SCAN = (
+    *("Modality", "BodyPartExamined", "Laterality", "PatientPosition"),
+    *("LossyImageCompression", "LossyImageCompressionRatio", "LossyImageCompressionMethod"),
+)
+#: What the classes of CT and MR images ask for beside that; no other object has it.
+ACQUISITION = (
+    *("KVP", "AcquisitionNumber", "RescaleType", "ScanningSequence", "SequenceVariant", "ScanOptions"),
+    *("MRAcquisitionType", "EchoTime", "EchoTrainLength", "RepetitionTime"),
+)
+#: What the standard asks to be there, even if empty.
+NEVER_ABSENT = (
+    *("PatientName", "PatientID", "PatientBirthDate", "PatientSex"),
+    *("StudyDate", "StudyTime", "ReferringPhysicianName", "StudyID", "AccessionNumber"),
+)
+#: Parts of the body of which there is one, so that no side of it is stated.
+UNPAIRED = (
+    *("HEAD", "NECK", "HEADNECK", "CHEST", "ABDOMEN", "PELVIS", "AORTA", "HEART", "CORONARYARTERY"),
+    *("WHOLEBODY", "BRAIN", "SPINE", "CSPINE", "TSPINE", "LSPINE", "SSPINE", "SKULL", "LIVER", "PANCREAS"),
+    *("ABDOMENPELVIS", "CHESTABDOMEN", "CHESTABDPELVIS", "NECKCHEST", "NECKCHESTABDPELV", "NECKCHESTABDOMEN"),
+    *("CEREBELLUM", "CIRCLEOFWILLIS", "MEDIASTINUM", "STOMACH", "SPLEEN", "BLADDER", "UTERUS", "PROSTATE"),
+    *("COLON", "RECTUM", "FACE", "JAW"),
+)
+#: All that is read of a header.
+READ = (*PATIENT, *VISIT, *SCAN, *ACQUISITION, "SeriesInstanceUID", "FrameOfReferenceUID")
+
+
+@dataclass(frozen=True)
+class Study:
+    """What is repeated of the study of a scan.
+
+    It holds the name of the patient where the scan does; nothing of it is shown by ``repr``.
+
+    Attributes
+    ----------
+    header : pydicom.Dataset
+        The attributes of `READ` that the scan has.
+    instances : tuple of (str, str)
+        SOP class and UID of each image of the scan.
+    study_count : int, default 1
+        How many studies the images belong to.
+    """
+
+    header: Any = field(repr=False)
+    instances: tuple[tuple[str, str], ...] = field(default=(), repr=False)
+    study_count: int = 1
+
+    def text(self, keyword: str) -> str:
+        """Return the value of an attribute as a text, empty where the scan has none."""
+        value = self.header.get(keyword)
+        return "" if value is None else str(value)
+
+
+@dataclass(frozen=True)
+class Origin:
+    """Where a picture comes from, as far as its DICOM object tells.
+
+    Attributes
+    ----------
+    study : Study or None
+        The study of the scan; None where the scan was not read from DICOM.
+    fingerprint : str
+        Tells scans apart by their grid and some of their voxels; it names nobody.
+    """
+
+    study: Study | None
+    fingerprint: str

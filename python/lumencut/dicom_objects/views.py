@@ -1,0 +1,130 @@
+"""What the object of a view says: how it was made, its pixels' size, and the sides of the patient."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from lumencut import _lumencut
+from lumencut.camera import Camera
+from lumencut.dicom_objects.objects import CURVED_REFORMATION, RESEARCH
+from lumencut.dicom_objects.picture import Picture
+from lumencut.frame_source import FrameSource
+from lumencut.orientation import edges, view_name
+from lumencut.picture_text import plain_settings
+from lumencut.reformation_recipe import ReformationRecipe, camera_parameters
+from lumencut.settings import Settings
+
+_METHODS = {"csr": "CSR", "mpcpr": "mpCPR", "cr": "CR"}
+_NAMES = {
+    "CSR": "Curved surface reformation (CSR)",
+    "mpCPR": "Multipath curved planar reformation (mpCPR)",
+    "CR": "Centerline reformation (CR)",
+}
+#: Codes of the standard (DCM) for pictures without a cut surface.
+_CONTEXT_CODES = {
+    "mip": ("113078", "Maximum intensity projection"),
+    "minip": ("113079", "Minimum intensity projection"),
+}
+_VOLUME_RENDERING = ("113074", "Volume rendering")
+
+
+def view_picture(
+    image: npt.NDArray[np.uint8], camera: Camera, source: FrameSource, *, has_cut: bool
+) -> Picture:
+    """Return the picture of a view with what its object says of it.
+
+    Parameters
+    ----------
+    image : numpy.ndarray, uint8, shape (H, W, 4)
+        The picture, with or without labels.
+    camera : Camera
+        The view.
+    source : FrameSource
+        What it was made from.
+    has_cut : bool
+        Whether vessels are cut open; else the context alone is shown.
+    """
+    settings = source.settings
+    method = _METHODS[source.method] if has_cut else (settings.context or "context")
+    code = CURVED_REFORMATION if has_cut else _CONTEXT_CODES.get(method, _VOLUME_RENDERING)
+    view = view_name(camera) if source.states_orientation else "orientation not stated"
+    sides = edges(camera) if source.states_orientation else {}
+    # A ruler across a picture of mpCPR, whose rows are moved, would be wrong.
+    is_true = source.states_spacing and source.method != "mpcpr"
+    words = (
+        f"{_NAMES.get(method, method.upper() + ' of the volume')} {_by()} View {view}; "
+        f"camera {json.dumps(_rounded(camera_parameters(camera)))}; {changed(settings)}"
+    )
+    return Picture(
+        image,
+        method.upper() if not has_cut else method,
+        words,
+        settings_text(settings),
+        camera.pixel_spacing if is_true else None,
+        (sides["right"], sides["bottom"]) if sides else None,
+        f"View {view}",
+        settings.context is not None,
+        code,
+    )
+
+
+def reformed_picture(
+    image: npt.NDArray[np.uint8], recipe: ReformationRecipe, settings: Settings, edges: dict[str, str],
+    spacing: float | None,
+) -> Picture:  # fmt: skip
+    """Return the picture of a reformation with what its object says of it.
+
+    Parameters
+    ----------
+    image : numpy.ndarray, uint8, shape (H, W, 4)
+        The picture, with or without labels.
+    recipe : ReformationRecipe
+        How it was made.
+    settings : Settings
+        How values are shown.
+    edges : dict
+        The sides of the patient that edges look to, as far as they are true.
+    spacing : float or None
+        Side of a pixel (mm); None where a ruler across the picture would be wrong.
+    """
+    parameters = json.dumps(_rounded(recipe.parameters))
+    words = f"{recipe.name} {_by()} {recipe.axes} Parameters {parameters}; {changed(settings)}"
+    sides = (edges["right"], edges["bottom"]) if {"right", "bottom"} <= edges.keys() else None
+    text = parameters + settings_text(settings)
+    short = "CFA" if recipe.command == "cfa" else "CPR"
+    return Picture(image, f"{short} {recipe.name}", words, text, spacing, sides, recipe.axes)
+
+
+def joined_picture(image: npt.NDArray[np.uint8], method: str, words: str, settings: Settings) -> Picture:
+    """Return several pictures on one sheet, which has no scale of its own, with what their object says."""
+    text = f"{words} {_by()} {changed(settings)}"
+    return Picture(image, method, text, settings_text(settings) + words, None, None, words, True)
+
+
+def _by() -> str:
+    return f"by Lumencut {_lumencut.__version__} {RESEARCH}."
+
+
+def settings_text(settings: Settings) -> str:
+    """Return settings as a text that tells them from all others."""
+    return json.dumps(plain_settings(settings), sort_keys=True, default=vars)
+
+
+def changed(settings: Settings) -> str:
+    """Return the settings that differ from the defaults, as a text."""
+    usual, used = plain_settings(Settings()), plain_settings(settings)
+    other = {name: value for name, value in used.items() if value != usual[name]}
+    return f"settings {json.dumps(_rounded(other), default=vars)}"
+
+
+def _rounded(value: Any) -> Any:
+    """A value of JSON whose numbers have six digits: enough to make it anew, and short."""
+    if isinstance(value, dict):
+        return {name: _rounded(one) for name, one in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [_rounded(one) for one in value]
+    return float(f"{value:.6g}") if isinstance(value, float) else value

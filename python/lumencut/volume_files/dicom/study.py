@@ -1,0 +1,80 @@
+"""The study that images belong to, with what objects made from them repeat of it."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from typing import Any
+
+from lumencut._files import checked_path
+from lumencut.dicom_objects.study import READ, Study
+from lumencut.errors import FileError, FormatError
+from lumencut.volume_files.dicom.files import read_files
+from lumencut.volume_files.dicom.headers import Image
+from lumencut.volume_files.opened import refusing
+
+_EXPECTED = "a DICOM folder, file or zip archive"
+
+
+def study_of(images: Sequence[Image]) -> Study:
+    """Return the study of images, the first of which tells what is repeated.
+
+    An attribute that cannot be read is left out, as if the image did not have it. What is odd about one, such
+    as a name of too many letters, is no matter of whoever looks at the scan.
+    """
+    first = images[0].source
+    with refusing(first, "DICOM", []):
+        header = _readable(first.attributes(_tags()))
+    seen: dict[str, str] = {}
+    studies: dict[str, None] = {}
+    for image in images:
+        kind, uid, study = (
+            str(image.header.get(f"{what}UID") or "") for what in ("SOPClass", "SOPInstance", "StudyInstance")
+        )
+        seen.setdefault(uid, kind)
+        studies[study] = None
+    instances = tuple((kind, uid) for uid, kind in seen.items() if uid and kind)
+    return Study(header, instances, len(studies))
+
+
+def study_below(path: str | os.PathLike[str]) -> Study:
+    """Return the one study of all DICOM files below a folder, in a zip archive, or of a single file.
+
+    Its images are those of the scan where they belong to one series, else none: which series the scan is
+    cannot be told.
+
+    Raises
+    ------
+    FormatError
+        Where there is no DICOM file.
+    FileError
+        For a path that is missing or cannot be read.
+    """
+    place = checked_path(path, _EXPECTED)
+    if not place.exists():
+        raise FileError(str(place), "no such file or folder", _EXPECTED)
+    images = [file.image for file in read_files(place, []) if file.image is not None]
+    if not images:
+        raise FormatError(str(place), "no DICOM file", _EXPECTED)
+    study = study_of(images)
+    series = {str(image.header.get("SeriesInstanceUID") or "") for image in images}
+    return study if len(series) == 1 else Study(study.header, (), study.study_count)
+
+
+def _tags() -> list[int]:
+    from pydicom.datadict import tag_for_keyword
+
+    return [tag for keyword in READ if (tag := tag_for_keyword(keyword)) is not None]
+
+
+def _readable(header: Any) -> Any:
+    """The attributes whose values can be read, each as it was written."""
+    from pydicom.dataset import Dataset
+
+    kept = Dataset()
+    for tag in sorted(header.keys()):
+        try:
+            kept[tag] = header[tag]
+        except Exception:  # what pydicom raises for damaged values is nearly everything
+            continue
+    return kept
