@@ -22,7 +22,7 @@ NEVER = ("InstitutionName", "DeviceSerialNumber", "RequestedProcedureID", "Opera
 
 @pytest.fixture(scope="module")
 def frame():
-    return lumencut.render(scan(), LINE, Camera.anterior(LINE, (220, 260)), settings=SETTINGS)
+    return lumencut.render(scan(), LINE, Camera.anterior(LINE, (400, 420)), settings=SETTINGS)
 
 
 def save(made, path, **how):
@@ -133,6 +133,9 @@ def test_anonymous_pictures_name_nobody(frame, tmp_path):
     assert source.SeriesInstanceUID not in str(data)
     # What a reader called a vessel may be anybody's name: it is not in the picture either.
     np.testing.assert_array_equal(data.pixel_array, on_black(frame.annotated()))
+    assert (
+        save(frame, tmp_path / "b.dcm", annotate=True, vessel_names=True).pixel_array != data.pixel_array
+    ).any()
     for made in (lumencut.untangled(scan(), LINE, frame.camera), lumencut.lumen_map(scan(), LINE[0])):
         shown = save(made, tmp_path / "c.dcm", annotate=True, anonymous=True).pixel_array
         np.testing.assert_array_equal(shown, on_black(made.annotated(vessel_names=False)))

@@ -19,6 +19,7 @@ from lumencut._files import WRITABLE, checked_path, move, private_folder, replac
 from lumencut._moving_pictures import Apng, MovingPicture, WebP
 from lumencut._wording import a
 from lumencut.errors import FileError, FormatError, MissingPackageError, SettingsError
+from lumencut.frame import check_dicom_alone
 
 if TYPE_CHECKING:
     from lumencut.frame import Frame
@@ -31,12 +32,27 @@ _NUMBER = re.compile(r"%0?\d*d")
 _MOVING: dict[str, type[MovingPicture]] = {".webp": WebP, ".png": Apng, ".apng": Apng}
 
 
-def writer_for(path: str | os.PathLike[str], *, annotate: bool = False, vessel_names: bool = False) -> Writer:
-    """Return what writes frames in the format that the path names, or refuse before anything is rendered."""
+def writer_for(
+    path: str | os.PathLike[str],
+    *,
+    annotate: bool = False,
+    vessel_names: bool = False,
+    dicom: dict[str, Any] | None = None,
+) -> Writer:
+    """Return what writes frames in the format that the path names, or refuse before anything is rendered.
+
+    `dicom` says how frames become a DICOM object (`study`, `anonymous`, `grey`, `compress`); without it none
+    can be written.
+    """
     checked = checked_path(path, WRITABLE)
-    labels = {"annotate": annotate, "vessel_names": vessel_names}
     if vessel_names and not annotate:
         raise SettingsError("vessel_names", "True without annotate", "annotate=True beside it")
+    labels = {"annotate": annotate, "vessel_names": vessel_names}
+    if dicom is not None and checked.suffix.lower() == ".dcm":
+        # What a reader called a vessel may be anybody's name.
+        labels["vessel_names"] &= not dicom["anonymous"]
+        return partial(_save_checked, checked, labels, partial(_save_object, checked, dicom))
+    check_dicom_alone(checked, **(dicom or {}))
     return partial(_save_checked, checked, labels, _writer(os.fspath(path), checked, labels))
 
 
@@ -93,7 +109,7 @@ def _writer(name: str, path: Path, labels: dict[str, bool]) -> Writer:
         return partial(_save_moving, path, _MOVING[suffix])
     if suffix == ".mp4":
         return partial(_save_video, path, _av())
-    expected = ".webp, .png, .apng, .mp4, a name such as frame-%03d.png, or a folder"
+    expected = ".webp, .png, .apng, .mp4, .dcm, a name such as frame-%03d.png, or a folder"
     raise FormatError(name, f"the ending {path.suffix!r}", expected)
 
 
@@ -137,6 +153,20 @@ def _save_sequence(pattern: Path, labels: dict[str, bool], frames: Iterable[Fram
         parent.mkdir(exist_ok=True)
         for number in range(count):
             move(folder / (pattern.name % number), parent / (pattern.name % number))
+
+
+def _save_object(path: Path, dicom: dict[str, Any], frames: Iterable[Frame], fps: float) -> None:
+    """Write frames, whose labels are on them, as one DICOM object."""
+    from lumencut.dicom_objects.picture import write_turning
+
+    frames = iter(frames)
+    first = next(frames, None)
+    if first is None:
+        raise _empty(path)
+    study = first._study(dicom["study"], anonymous=dicom["anonymous"])
+    unlabelled = {"annotate": False, "vessel_names": False}
+    pictures = (frame._as_object(**unlabelled) for frame in itertools.chain([first], frames))
+    write_turning(path, pictures, fps, study, grey=dicom["grey"], compress=dicom["compress"])
 
 
 def _save_video(path: Path, av: Any, frames: Iterable[Frame], fps: float) -> None:

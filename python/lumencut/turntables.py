@@ -111,6 +111,10 @@ def save_animation(
     *,
     annotate: bool = False,
     vessel_names: bool = False,
+    study: Any = None,
+    anonymous: bool = False,
+    grey: bool = False,
+    compress: bool = False,
 ) -> None:
     """Write frames as an animation that appears only once it is whole.
 
@@ -120,11 +124,16 @@ def save_animation(
         The frames, all of one size; a generator is read frame by frame.
     path : path-like
         ``.webp`` (small, slightly lossy), ``.png`` or ``.apng`` (lossless) or ``.mp4`` (needs the extra
-        ``[video]``); a name with a number such as ``frame-%03d.png`` or a folder: one picture per frame.
+        ``[video]``); ``.dcm``, a DICOM multi-frame Secondary Capture, in colours;
+        a name with a number such as ``frame-%03d.png`` or a folder: one picture per frame.
     fps : float, default 12
         Frames per second, from 1/60 to 1000.
     annotate, vessel_names : bool, default False
         Labels on the frames, as for :meth:`Frame.save`.
+    study, anonymous, compress
+        For ``.dcm``, as for :meth:`Frame.save`.
+    grey : bool, default False
+        For ``.dcm``: write grey frames, which some programs read alone.
 
     Raises
     ------
@@ -139,4 +148,5 @@ def save_animation(
     """
     from lumencut.animation import writer_for
 
-    writer_for(path, annotate=annotate, vessel_names=vessel_names)(frames, fps)
+    dicom = {"study": study, "anonymous": anonymous, "grey": grey, "compress": compress}
+    writer_for(path, annotate=annotate, vessel_names=vessel_names, dicom=dicom)(frames, fps)

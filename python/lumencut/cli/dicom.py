@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from lumencut.settings import Settings
     from lumencut.volume import Volume
 
-_OPTIONS = ("like_study", "anonymous", "compress")
+_OPTIONS = ("like_study", "anonymous", "compress", "grey")
 
 
 def dicom_options(command: Command) -> Command:

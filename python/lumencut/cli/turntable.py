@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from lumencut.cli import options
+from lumencut.cli.dicom import check_objects, dicom_options, is_object, study_of
 from lumencut.cli.labels import check_labels, label_options
 from lumencut.cli.parameters import Named, PlaceOnVessel
 from lumencut.cli.report import bar, detail, say, timings, verbose_option
@@ -42,7 +43,7 @@ AXIS_NAMES = ("superior", "up", "right", "direction")
     metavar="PATH",
     required=True,
     help=".webp (small, slightly lossy), .png or .apng (lossless), .mp4 (needs lumencut[video]), "
-    "frame-%03d.png or a folder (one picture per frame).",
+    ".dcm (DICOM), frame-%03d.png or a folder (one picture per frame).",
 )
 @click.option(
     "--axis",
@@ -77,6 +78,8 @@ AXIS_NAMES = ("superior", "up", "right", "direction")
 @click.option("--seconds", type=click.FloatRange(0.01, 3600), help="Duration in all (s), instead of --fps.")
 @options.view_options
 @label_options
+@dicom_options
+@click.option("--grey", is_flag=True, help="For .dcm: grey frames, which some programs read alone.")
 @paper_option
 @setting_options
 @verbose_option
@@ -110,8 +113,10 @@ def turntable(
     check_scene(files, chosen, settings)
     check_labels(chosen, [Path(output)], view.size)
     labels = {name: bool(chosen[name]) for name in ("annotate", "vessel_names")}
-    labels["annotate"] |= labels["vessel_names"]
-    write = _checked_writer(output, fps, labels, is_timed=is_timed)
+    labels["annotate"] |= labels["vessel_names"] or (is_object(Path(output)) and chosen["annotate"] is None)
+    check_objects(chosen, [Path(output)])
+    dicom = {**study_of(chosen), **{name: chosen[name] for name in ("grey", "compress")}}
+    write = _checked_writer(output, fps, labels | {"dicom": dicom}, is_timed=is_timed)
     _check_turn(view, frames, degrees, axis)
     renderer, scene = read_scene(files, chosen)
     warn_of_window(settings, renderer)
@@ -214,13 +219,13 @@ def _check_turn(view: Camera, frames: int, degrees: float, axis: Any) -> None:
         raise click.UsageError(str(error)) from error
 
 
-def _checked_writer(output: str, fps: float, labels: dict[str, bool], *, is_timed: bool) -> Writer:
+def _checked_writer(output: str, fps: float, how: dict[str, Any], *, is_timed: bool) -> Writer:
     """Refuse an output that cannot be written before any file is read."""
     from lumencut.animation import checked_fps, is_sequence, writer_for
 
     try:
         checked_fps(fps)
-        write = writer_for(output, **labels)
+        write = writer_for(output, **how)
         if is_timed and is_sequence(output):
             found = f"--fps and --seconds do nothing with one picture per frame ({output})"
             raise click.UsageError(f"{found}; leave them out, or name a moving file such as .webp")

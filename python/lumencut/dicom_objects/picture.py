@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -22,10 +22,15 @@ from lumencut.dicom_objects.objects import (
     write,
 )
 from lumencut.dicom_objects.study import Study
+from lumencut.errors import FormatError
 
 _CAPTURE = "1.2.840.10008.5.1.4.1.1.7"
 _GREY_FRAMES = f"{_CAPTURE}.2"
 _COLOUR_FRAMES = f"{_CAPTURE}.4"
+#: The longest element, in bytes.
+_LARGEST = 2**32 - 2**16
+#: What stands in the place of pixels that are stored already.
+_NO_IMAGE = np.empty((0, 0, 4), np.uint8)
 #: Parts of the body without a face; where none is stated, there may be one.
 _FACELESS = ("CHEST", "ABDOMEN", "PELVIS", "AORTA", "LEG", "EXTREMITY", "HEART", "ARM", "KNEE", "FOOT", "HIP")
 
@@ -90,7 +95,7 @@ def write_picture(
     kind = Kind(_CAPTURE, picture.method, 9001)
     data = _described(picture, study, kind, number)
     colours = on_black(picture.image)
-    _set_colours(data, colours)
+    _set_colours(data, colours.tobytes(), colours.shape[:2])
     sealed(data, data.PixelData)
     write(data, path, _packed if compress else None)
 
@@ -115,19 +120,39 @@ def write_turning(
     compress : bool
         Write the pixels as JPEG 2000, lossless.
     """
-    frames, first = [], None
+    pixels, shown = bytearray(), []
     for picture in pictures:
-        first = first or picture
         colours = on_black(picture.image)
-        frames.append(greys(colours) if grey else colours)
-    assert first is not None, "whoever makes the pictures refuses none at all"
-    kind = Kind(_GREY_FRAMES if grey else _COLOUR_FRAMES, f"{first.method} turntable", 9003)
-    data = _described(first, study, kind, 1)
-    (_set_greys if grey else _set_colours)(data, np.stack(frames))
-    _set_timing(data, len(frames), fps)
-    sealed(data, data.PixelData)
+        pixels += (greys(colours) if grey else colours).tobytes()
+        size = colours.shape[:2]
+        shown.append(replace(picture, image=_NO_IMAGE))
+        if len(pixels) > _LARGEST:
+            found = f"{len(shown)} frames of more than 4 GiB"
+            raise FormatError(
+                str(path), found, "what one DICOM object can hold", "take fewer or smaller frames"
+            )
+    if not shown:
+        raise FormatError(str(path), "no frames", "at least one frame")
+    kind = Kind(_GREY_FRAMES if grey else _COLOUR_FRAMES, f"{shown[0].method} turntable", 9003)
+    data = _described(_turning(shown), study, kind, 1)
+    (_set_greys if grey else _set_colours)(data, bytes(pixels), size)
+    _set_timing(data, len(shown), fps)
+    sealed(data, data.PixelData, str(data.FrameTime).encode())
     write(data, path, _packed if compress else None)
-    return len(frames)
+    return len(shown)
+
+
+def _turning(shown: list[Picture]) -> Picture:
+    """What is said of several views: how the first was made, and what is true of all."""
+    first = shown[0]
+    spacings, sides = ({getattr(one, name) for one in shown} for name in ("pixel_spacing", "sides"))
+    return replace(
+        first,
+        words=f"{len(shown)} frames, of which the first is: {first.words}",
+        comments=f"{len(shown)} frames. First: {first.comments}. Last: {shown[-1].comments}",
+        pixel_spacing=first.pixel_spacing if len(spacings) == 1 else None,
+        sides=first.sides if len(sides) == 1 else None,
+    )
 
 
 def _described(picture: Picture, study: Study, kind: Kind, number: int) -> Any:
@@ -172,24 +197,23 @@ def greys(colours: npt.NDArray[np.uint8]) -> npt.NDArray[np.uint8]:
     return np.asarray(np.rint(colours @ np.array([0.299, 0.587, 0.114])), np.uint8)
 
 
-def _set_colours(data: Any, pixels: npt.NDArray[np.uint8]) -> None:
+def _set_colours(data: Any, pixels: bytes, size: tuple[int, ...]) -> None:
     data.SamplesPerPixel, data.PhotometricInterpretation, data.PlanarConfiguration = 3, "RGB", 0
-    _set_bytes(data, pixels, pixels.shape[-3:-1])
+    _set_bytes(data, pixels, size)
 
 
-def _set_greys(data: Any, pixels: npt.NDArray[np.uint8]) -> None:
+def _set_greys(data: Any, pixels: bytes, size: tuple[int, ...]) -> None:
     data.SamplesPerPixel, data.PhotometricInterpretation = 1, "MONOCHROME2"
     # What the numbers mean is asked for of grey frames: shades, as they are.
     data.RescaleIntercept, data.RescaleSlope, data.RescaleType = "0", "1", "US"
     data.PresentationLUTShape = "IDENTITY"
-    _set_bytes(data, pixels, pixels.shape[-2:])
+    _set_bytes(data, pixels, size)
 
 
-def _set_bytes(data: Any, pixels: npt.NDArray[np.uint8], size: tuple[int, ...]) -> None:
+def _set_bytes(data: Any, pixels: bytes, size: tuple[int, ...]) -> None:
     data.Rows, data.Columns = size
     data.BitsAllocated, data.BitsStored, data.HighBit, data.PixelRepresentation = 8, 8, 7, 0
-    stored = pixels.tobytes()
-    data.PixelData = stored + b"\0" * (len(stored) % 2)
+    data.PixelData = pixels + b"\0" * (len(pixels) % 2)
     data["PixelData"].VR = "OB"
 
 
