@@ -10,6 +10,7 @@ import numpy as np
 from lumencut import _lumencut
 from lumencut._checks import integers, number
 from lumencut.errors import SettingsError
+from lumencut.mask_grid import on_grid_of
 from lumencut.vessel import Vessel
 from lumencut.vessel_gap import Gap
 from lumencut.vessel_tree import VesselTree
@@ -54,11 +55,12 @@ def trace_mask(
     volume : Volume or such an image, optional
         The angiography of the mask, with lumen brighter than the tissue around it. Its grid must be that of
         the mask: corners may differ by a tenth of a voxel, and axes may be stored in another order or
-        direction.
+        direction. A segmentation of DICOM may hold a part of the slices of its scan.
     labels : mapping of int to str, or iterable of int, optional
         Which values are lumen. With a mapping vessels get its names, such as ``{52: "aorta"}``. Without it
-        every value but 0 is lumen, and vessels are named ``"label 52"`` where there are several values. A
-        vessel with several labels is parted where one ends and the other begins.
+        every value but 0 is lumen, and vessels are named ``"label 52"`` where there are several values, or as
+        a segmentation of DICOM names its segments. A vessel with several labels is parted where one ends and
+        the other begins.
     shortest_branch : float, default 2
         How long a branch must be to stay, from the centerline of its parent to its cap, in radii of the
         parent. A branch that reaches four of its own radii beyond the parent's wall stays too.
@@ -78,7 +80,8 @@ def trace_mask(
     ------
     VolumeError
         For a mask that has no lumen or no background, holds floats that are no whole numbers, is a single
-        slice, is nowhere longer than wide, or lies on another grid than the volume.
+        slice, is nowhere longer than wide, or lies on another grid than the volume or in another frame of
+        reference.
     SettingsError
         For labels, a shortest branch or a bridge of another kind.
     KeyboardInterrupt
@@ -87,11 +90,13 @@ def trace_mask(
     grid = as_volume(mask)
     names = _names(labels)
     shown = None if volume is None else as_volume(volume)
+    if shown is not None:
+        grid = on_grid_of(grid, shown)
     shortest, widest = _at_least_zero("shortest_branch", shortest_branch), _at_least_zero("bridge", bridge)
     listed = None if names is None else list(names)
     found = _lumencut.trace_mask(grid, shown, listed, (shortest, _STEP, widest), progress)
     values = {label for *_, label, _ in found["vessels"]}
-    known = names or {}
+    known = names or grid._label_names
     several = len(values - {0}) > 1
     tree = VesselTree(
         Vessel(

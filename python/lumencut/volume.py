@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import functools
 import hashlib
+from collections.abc import Mapping
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -57,6 +59,10 @@ class Volume(KeepsReadOnly):
     _filled_slices: tuple[int, ...] = ()
     _scan = ScanDetails()
     _study: Study | None = None
+    _frame_of_reference = ""
+    #: Whether it is a segmentation of DICOM, and the names of its labels.
+    _is_segmentation = False
+    _label_names: Mapping[int, str] = MappingProxyType({})
 
     def __init__(
         self,
@@ -156,6 +162,11 @@ class Volume(KeepsReadOnly):
     def scan(self) -> ScanDetails:
         """How the scan was made, as the file tells it that the volume was read from."""
         return self._scan
+
+    @property
+    def frame_of_reference(self) -> str:
+        """The UID of the space of DICOM in which it lies; empty where its source states none."""
+        return self._frame_of_reference
 
     @property
     def corners(self) -> npt.NDArray[np.float64]:

@@ -8,6 +8,8 @@ use crate::wording::{listed, printable};
 
 /// What a directory of a disc calls itself.
 const DIRECTORY: &str = "Media Storage Directory";
+/// Objects that hold the shapes of structures, and no voxels.
+const SHAPES: [&str; 2] = ["RT Structure Set Storage", "Surface Segmentation Storage"];
 
 /// The images among the files; the others are noted.
 pub fn images<'a>(headers: &'a Headers, notes: &mut Vec<String>) -> Result<Vec<Image<'a>>> {
@@ -44,5 +46,14 @@ fn no_image(foreign: &[String]) -> Error {
         return Error::new("nothing in it", "DICOM images");
     };
     let error = Error::new(format!("no image: {}", listed(foreign)), "DICOM images");
-    if first.contains(DIRECTORY) { error.mend("give the folder that it is in") } else { error }
+    if first.contains(DIRECTORY) {
+        return error.mend("give the folder that it is in");
+    }
+    if SHAPES.iter().any(|shapes| foreign.iter().any(|name| name.contains(shapes))) {
+        return error.mend(
+            "convert its contours to a DICOM segmentation (SEG) or a label map, as the module Segmentations of 3D \
+             Slicer does",
+        );
+    }
+    error
 }

@@ -9,10 +9,11 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import click
 
 from lumencut.cli.options import FILE, added
-from lumencut.cli.report import bar, detail, say, warn
+from lumencut.cli.report import bar, busy, detail, say, warn
 from lumencut.errors import SettingsError
 
 if TYPE_CHECKING:
+    from lumencut.mask_files import MaskFile
     from lumencut.vessel_tree import VesselTree
     from lumencut.volume import Volume
 
@@ -25,14 +26,16 @@ WITH_MASK = ("label", "threshold", "bridge_gaps")
 def mask_options(command: _Command) -> _Command:
     """Add the options of a mask."""
     parts = (
-        click.option("--mask", type=FILE, metavar="FILE", help="A mask of the lumen, or a label map."),
+        click.option(
+            "--mask", type=FILE, metavar="FILE", help="A mask of the lumen, or a label map; also DICOM SEG."
+        ),
         click.option(
             "--label",
             multiple=True,
             metavar="52[=aorta]",
             help="A value of the mask that is lumen, and the name of its vessels; may be given again. Names "
-            "are also taken from files of 3D Slicer and TotalSegmentator, and stand for their values. "
-            "Default: every value but 0.",
+            "are also taken from DICOM SEG and from files of 3D Slicer and TotalSegmentator, and stand for "
+            "their values. Default: every value but 0.",
         ),
         click.option(
             "--threshold",
@@ -62,24 +65,28 @@ def mask_options(command: _Command) -> _Command:
 def traced_from_mask(chosen: dict[str, Any], volume: Volume | None) -> VesselTree:
     """Trace the mask that the options name, and say what was found."""
     from lumencut.mask_tracing import trace_mask
-    from lumencut.volume_files import read_volume
-    from lumencut.volume_files.label_names import read_label_names
 
     path: Path = chosen["mask"]
-    with bar(f"reading {path.name}", "slice") as told:
-        mask = read_volume(path, progress=told)
-    detail(f"{path}: {mask!r}")
-    known = read_label_names(path)
-    labels = _labels(chosen["label"], known)
+    with busy(f"looking into {path.name}"):
+        opened = _opened(path, chosen["label"])
     if chosen["threshold"] is not None:
-        if labels is not None:
+        if chosen["label"]:
             raise click.UsageError("--label and --threshold: a mask has either labels or a threshold")
-        mask = _above(mask, chosen["threshold"])
+        if opened.file.is_segmentation:
+            raise click.UsageError(
+                f"--threshold does nothing with {path}, a DICOM segmentation; leave it out"
+            )
+    with bar(f"reading {path.name}", "slice") as told:
+        mask = opened.read(told)
+    detail(f"{path}: {mask!r}")
+    labels = opened.labels
+    if chosen["threshold"] is not None:
+        mask, labels = _above(mask, chosen["threshold"]), None
     with bar(f"tracing {path.name}", "share") as told:
         tree = trace_mask(
             mask,
             volume,
-            labels=known or None if labels is None else labels,
+            labels=labels,
             shortest_branch=chosen["shortest_branch"],
             bridge=chosen["bridge_gaps"],
             progress=told,
@@ -88,12 +95,12 @@ def traced_from_mask(chosen: dict[str, Any], volume: Volume | None) -> VesselTre
     return tree
 
 
-def _labels(words: tuple[str, ...], known: dict[int, str]) -> dict[int, str] | None:
-    """The labels that the options choose; None where they choose none."""
-    from lumencut.volume_files.label_names import chosen_labels
+def _opened(path: Path, words: tuple[str, ...]) -> MaskFile:
+    """The mask, with the labels that the options choose."""
+    from lumencut.mask_files import open_mask
 
     try:
-        return chosen_labels(words, known) or None
+        return open_mask(path, words)
     except SettingsError as error:
         raise click.UsageError(f"--label {error.found}: expected {error.expected}") from error
 

@@ -8,8 +8,9 @@ import numpy.typing as npt
 from lumencut.centerline_file import CenterlineFile
 from lumencut.cohort.manifest import Study
 from lumencut.cohort.recipe import Reading
-from lumencut.cohort.sources import labels_of, places_of, reading_of
+from lumencut.cohort.sources import mask_of, places_of, reading_of
 from lumencut.errors import LumencutError
+from lumencut.mask_grid import place_within
 from lumencut.volume_files import open_volume
 from lumencut.volume_files.opened import VolumeFile
 
@@ -23,8 +24,7 @@ def trouble_of(study: Study, how: Reading) -> str:
         volume = open_volume(study.volume, **reading_of(study, how))
         match study.source:
             case "mask":
-                labels_of(study)
-                return _other_grid(volume, open_volume(study.given))
+                return _other_grid(volume, mask_of(study).file)
             case "centerlines":
                 CenterlineFile(study.given)
             case "points" | "seeds":
@@ -39,6 +39,9 @@ def trouble_of(study: Study, how: Reading) -> str:
 
 def _other_grid(volume: VolumeFile, mask: VolumeFile) -> str:
     """Say where the corners of a mask are not those of its volume, to a tenth of a voxel."""
+    if mask.is_segmentation:
+        place_within(mask, volume)
+        return ""
     apart = max(float(np.linalg.norm(_corners(volume) - corner, axis=1).min()) for corner in _corners(mask))
     steps = np.linalg.norm(volume.world_from_index[:3, :3], axis=0)
     if apart <= 0.1 * float(steps.max()):

@@ -12,6 +12,7 @@ from lumencut.centerlines import read_centerlines
 from lumencut.cohort.manifest import Study
 from lumencut.cohort.recipe import Centerlines, Reading
 from lumencut.errors import FormatError, TracingError
+from lumencut.mask_files import MaskFile, open_mask
 from lumencut.mask_tracing import trace_mask
 from lumencut.placement import check_meeting
 from lumencut.seed_tracing import trace_from
@@ -21,7 +22,6 @@ from lumencut.vessel_finding import find_vessels
 from lumencut.vessel_tree import VesselTree
 from lumencut.volume import Volume
 from lumencut.volume_files import read_volume
-from lumencut.volume_files.label_names import chosen_labels, read_label_names
 
 _Points = npt.NDArray[np.float64]
 
@@ -75,9 +75,9 @@ def vessels_of(study: Study, volume: Volume, how: Centerlines) -> StudyVessels:
             check_meeting(volume, tree)
             return StudyVessels(tree)
         case "mask":
-            mask = read_volume(study.given)
-            labels = labels_of(study)
-            return StudyVessels(trace_mask(mask, volume, labels=labels, shortest_branch=how.shortest_branch))
+            mask = mask_of(study)
+            tree = trace_mask(mask.read(), volume, labels=mask.labels, shortest_branch=how.shortest_branch)
+            return StudyVessels(tree)
         case "points":
             return StudyVessels(_along_points(study, volume, how))
         case "seeds":
@@ -93,17 +93,18 @@ def _most_important(found: VesselTree, how: Centerlines) -> StudyVessels:
     return StudyVessels(VesselTree([found[vessel] for vessel in found.parts[0]]), every.doubtful)
 
 
-def labels_of(study: Study) -> dict[int, str] | None:
-    """Return the labels of the mask that are lumen, with names; None for every value but 0.
+def mask_of(study: Study) -> MaskFile:
+    """Return the mask of a study, with the labels that are lumen.
 
     Raises
     ------
     SettingsError
         For a label that is no value and no name of the mask's file.
+    FormatError, FileError
+        For a mask that cannot be read.
     """
-    known = read_label_names(study.given)
     words = [word.strip() for word in study.reading.get("label", "").split(";")]
-    return chosen_labels([word for word in words if word], known) or known or None
+    return open_mask(study.given, [word for word in words if word])
 
 
 def places_of(study: Study, volume: Volume | None = None) -> _Points:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 import os
+from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -89,6 +90,7 @@ def read_volume(
     phase: str | float | None = None,
     fill_gaps: bool = False,
     resample_slices: bool = False,
+    segments: Iterable[int] | None = None,
     progress: Progress | None = None,
 ) -> Volume:
     """Read a volume; nothing is resampled unless asked for, shear and flips are kept.
@@ -111,6 +113,9 @@ def read_volume(
         instead of refusing it. The grid has the largest distance of which all distances are multiples, where
         that makes at most four times as many slices as there are; else the smallest distance, or what makes
         four times as many. `Volume.filled_slices` tells which slices are interpolated.
+    segments : iterable of int, optional
+        The numbers of the segments of a DICOM segmentation that are read; by default all, which must not
+        overlap then.
     progress : callable, optional
         Called with (slices read, slices in all); for DICOM with (files looked into, files in all) before.
 
@@ -118,7 +123,9 @@ def read_volume(
     -------
     Volume
         The voxels on their grid in world space (mm, LPS), integers wherever scaling leaves them exact, else
-        float32 (float64 where they are stored so). What was assumed is logged as a warning.
+        float32 (float64 where they are stored so). A DICOM segmentation becomes a label map: each voxel has
+        the number of its segment, or 0; fractional ones count from one half on. What was assumed is logged as
+        a warning.
 
     Raises
     ------
@@ -130,9 +137,9 @@ def read_volume(
         For a file that is missing or cannot be read.
     """
     told = progress if progress is not None else _untold
-    file = _open(path, _wanted(series, phase, fill_gaps, resample_slices), told)
+    file = _open(path, _wanted(series, phase, fill_gaps, resample_slices, segments), told)
     volume = file.volume(told)
-    if file.format != "DICOM":
+    if not file.format.startswith("DICOM"):
         told(volume.size[2], volume.size[2])
     log_oddities(file)
     return volume
@@ -145,11 +152,12 @@ def open_volume(
     phase: str | float | None = None,
     fill_gaps: bool = False,
     resample_slices: bool = False,
+    segments: Iterable[int] | None = None,
     progress: Progress | None = None,
 ) -> VolumeFile:
     """Read the headers that `read_volume` reads, and leave the voxels on disk; parameters are the same."""
     told = progress if progress is not None else _untold
-    return _open(path, _wanted(series, phase, fill_gaps, resample_slices), told)
+    return _open(path, _wanted(series, phase, fill_gaps, resample_slices, segments), told)
 
 
 def log_oddities(file: VolumeFile) -> None:
@@ -268,8 +276,19 @@ def _existing(given: str | os.PathLike[str]) -> Path:
     return path
 
 
-def _wanted(series: object, phase: object, *mended: bool) -> Wanted:
-    return Wanted(None if series is None else str(series), None if phase is None else str(phase), *mended)
+def _wanted(
+    series: object,
+    phase: object,
+    fill_gaps: bool,
+    resample_slices: bool,
+    segments: Iterable[int] | None = None,
+) -> Wanted:
+    chosen = None if segments is None else tuple(int(number) for number in segments)
+    return Wanted(_text(series), _text(phase), fill_gaps, resample_slices, chosen)
+
+
+def _text(value: object) -> str | None:
+    return None if value is None else str(value)
 
 
 def _open(given: str | os.PathLike[str], wanted: Wanted, progress: Progress) -> VolumeFile:

@@ -55,6 +55,12 @@ class VolumeFile:
     study: Study | None = None
     settled_type: np.dtype[Any] | None = None
     """The type that the voxels will have, where the headers alone settle it."""
+    frame_of_reference: str = ""
+    """The UID of the space that DICOM places the voxels in; empty where none is stated."""
+    label_names: dict[int, str] = field(default_factory=dict)
+    """The names of the labels, where the file is a DICOM segmentation."""
+    is_segmentation: bool = False
+    """Whether it is one: it may hold a part of the slices of its scan."""
 
     def volume(self, progress: Progress, filled: Filled = unfollowed) -> Volume:
         """Read the voxels; what `progress` raises passes through.
@@ -65,6 +71,8 @@ class VolumeFile:
             voxels = self.load(told_on, filled)
         volume = _placed(self, voxels)
         volume._filled_slices, volume._scan, volume._study = self.filled, self.scan, self.study
+        volume._frame_of_reference, volume._is_segmentation = self.frame_of_reference, self.is_segmentation
+        volume._label_names = self.label_names
         return volume
 
     def checked(self) -> VolumeFile:

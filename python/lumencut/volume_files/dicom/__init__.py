@@ -1,5 +1,6 @@
 """DICOM: one series of grey images, in a folder, a zip archive or a single file, becomes one volume.
 
+A segmentation becomes a label map.
 Headers are read and pixels decoded by pydicom and its plugins; the core judges the series.
 """
 
@@ -11,10 +12,12 @@ from typing import Any
 
 import numpy.typing as npt
 
+from lumencut.errors import FormatError
 from lumencut.series_report import SeriesReport
 from lumencut.volume_files.dicom.files import File, read_files
 from lumencut.volume_files.dicom.headers import is_dicom
 from lumencut.volume_files.dicom.judging import Wanted, described, judged
+from lumencut.volume_files.dicom.segmentation import open_segmentation, wanted_segmentation
 from lumencut.volume_files.dicom.sources import is_zip
 from lumencut.volume_files.dicom.study import study_of
 from lumencut.volume_files.dicom.values import load, settled_type
@@ -32,7 +35,15 @@ def opened(path: Path, wanted: Wanted, read: Callable[[list[str]], Sequence[File
     """Make one volume of the files that `read` gives, which takes the notes; `path` names them."""
     notes: list[str] = []
     with refusing(path, "DICOM", notes):
-        series = judged(path, read(notes), wanted, notes)
+        files = read(notes)
+        segmentation = wanted_segmentation(path, files, wanted)
+        if segmentation is not None:
+            return open_segmentation(path, segmentation, wanted.segments)
+        if wanted.segments is not None:
+            raise FormatError(
+                str(path), "no segmentation", "a DICOM segmentation, of which segments are read"
+            )
+        series = judged(path, files, wanted, notes)
     stack, space = series.stack, "LPS (as every DICOM)"
 
     def voxels(progress: Progress, filled: Filled) -> npt.NDArray[Any]:
@@ -42,6 +53,7 @@ def opened(path: Path, wanted: Wanted, read: Callable[[list[str]], Sequence[File
         path, "DICOM", stack.size, series.stored, space, stack.world_from_index, voxels, notes,
         filled=stack.missing, details=series.details, scan=series.scan,
         study=study_of([one.image for one in stack.slices]), settled_type=settled_type(stack),
+        frame_of_reference=str(stack.slices[0].image.header.get("FrameOfReferenceUID") or ""),
     )  # fmt: skip
 
 

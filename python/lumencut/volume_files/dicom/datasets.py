@@ -25,7 +25,7 @@ class _Held(Source):
 
     number: int = 0
     pixels: bytes = b""
-    dataset: Any = None
+    whole: Any = None
 
     @property
     def name(self) -> str:
@@ -41,7 +41,11 @@ class _Held(Source):
 
     def attributes(self, tags: list[int]) -> Any:
         """Give some attributes of the dataset."""
-        return _chosen(self.dataset, tags)
+        return _chosen(self.whole, tags)
+
+    def dataset(self) -> Any:
+        """Give the dataset itself."""
+        return self.whole
 
     def head(self, count: int) -> bytes:
         """Give the first bytes of the pixels."""
@@ -85,7 +89,7 @@ def _image(number: int, dataset: Any) -> Image:
         raise FormatError(f"{_SUBJECT}: dataset {number}", type(pixels).__name__, "pixels as bytes")
     # Before a dataset is written, the type of its pixels may be open.
     vr = element.VR if element and len(element.VR) == 2 else "OW"
-    source = _Held(_SUBJECT, len(pixels), number=number, pixels=pixels, dataset=dataset)
+    source = _Held(_SUBJECT, len(pixels), number=number, pixels=pixels, whole=dataset)
     return Image(source, _header(dataset), 0, keyword, vr)
 
 

@@ -15,8 +15,9 @@ Header = Any
 """A pydicom Dataset that holds the attributes below, without pixels."""
 
 _OWN_KEYWORDS = (
-    *("SpecificCharacterSet", "SOPClassUID", "StudyInstanceUID", "PlanarConfiguration"),
+    *("SpecificCharacterSet", "SOPClassUID", "StudyInstanceUID", "FrameOfReferenceUID"),
     *(
+        "PlanarConfiguration",
         "ExtendedOffsetTable",
         "ExtendedOffsetTableLengths",
         "SharedFunctionalGroupsSequence",

@@ -27,12 +27,13 @@ from lumencut.volume_files.dicom.stack import Fill, Slice, Stack
 
 @dataclass(frozen=True)
 class Wanted:
-    """What of a DICOM folder is to be read: which series and phase, and what is mended of it."""
+    """What of a DICOM folder is to be read: which series, phase and segments, and what is mended of it."""
 
     series: str | None = None
     phase: str | None = None
     fill_gaps: bool = False
     resample_slices: bool = False
+    segments: tuple[int, ...] | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -80,7 +81,8 @@ def headers_document(files: Sequence[File]) -> bytes:
 
 def wanted_document(wanted: Wanted) -> bytes:
     """Give what is to be read as the core takes it."""
-    return _document(asdict(wanted))
+    # Segments are no matter of series, which the core judges.
+    return _document({name: value for name, value in asdict(wanted).items() if name != "segments"})
 
 
 def _document(record: Record) -> bytes:

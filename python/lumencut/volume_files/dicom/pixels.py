@@ -95,7 +95,7 @@ class _OpenImage:
         self._compressed: list[bytes] | None = None
         self._inflated: bytes | None = None
         if image.pixels_at is None:
-            self._inflated = _inflated_pixels(self.stream)
+            self._inflated = inflated_pixels(self.stream)
         else:
             self.stream.seek(image.pixels_at)
 
@@ -126,7 +126,7 @@ class _OpenImage:
         return self._compressed[frame]
 
 
-def _inflated_pixels(stream: BinaryIO) -> bytes:
+def inflated_pixels(stream: BinaryIO) -> bytes:
     """The pixels of a deflated dataset, whose size was checked with its header."""
     import pydicom
 

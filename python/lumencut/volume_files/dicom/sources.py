@@ -66,6 +66,13 @@ class Source:
         with self.open() as stream:
             return pydicom.dcmread(stream, stop_before_pixels=True, force=True, specific_tags=tags)
 
+    def dataset(self) -> Any:
+        """Read all of its attributes but the pixels, as a dataset of pydicom."""
+        import pydicom
+
+        with self.open() as stream:
+            return pydicom.dcmread(stream, stop_before_pixels=True, force=True)
+
     def head(self, count: int) -> bytes:
         """Read its first bytes."""
         with open(self.path, "rb") if self.archive is None else self.archive.open(self.member) as file:

@@ -1,0 +1,72 @@
+"""Masks and label maps in files: which of their labels are lumen, and the voxels."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from lumencut.volume import Volume
+from lumencut.volume_files import log_oddities, open_volume
+from lumencut.volume_files.label_names import chosen_labels, read_label_names
+from lumencut.volume_files.opened import Progress, VolumeFile
+
+
+@dataclass(frozen=True)
+class MaskFile:
+    """A mask or label map whose voxels are still on disk.
+
+    Attributes
+    ----------
+    file : VolumeFile
+        The file; of a segmentation of DICOM no more than the chosen segments are read.
+    labels : dict of int to str, or None
+        The labels that are lumen, with their names; None for every value but 0.
+    """
+
+    file: VolumeFile
+    labels: dict[int, str] | None
+
+    def read(self, progress: Progress | None = None) -> Volume:
+        """Read the voxels.
+
+        Raises
+        ------
+        FormatError
+            For segments that overlap, and for damaged files.
+        """
+        mask = self.file.volume(progress if progress is not None else _untold)
+        log_oddities(self.file)
+        return mask
+
+
+def open_mask(path: str | os.PathLike[str], words: Iterable[str] = ()) -> MaskFile:
+    """Read the headers of a mask, and choose its labels.
+
+    Parameters
+    ----------
+    path : path-like
+        Whatever :func:`lumencut.read_volume` reads.
+    words : iterable of str
+        The labels that are lumen, as ``52``, ``52=aorta`` or by a name that the file has; by default all that
+        have a name, or every value but 0.
+
+    Raises
+    ------
+    SettingsError
+        For a word that is no value and no name of the file.
+    FormatError
+        For what is no mask that can be read.
+    FileError
+        For a file that is missing or cannot be read.
+    """
+    file = open_volume(path)
+    known = file.label_names or read_label_names(path)
+    labels = chosen_labels(words, known)
+    if labels and file.is_segmentation:
+        file = open_volume(path, segments=labels)
+    return MaskFile(file, labels or known or None)
+
+
+def _untold(done: int, total: int) -> None:
+    """Report progress to nobody."""
