@@ -96,6 +96,10 @@ class FileError(LumencutError, OSError):
     """A file that cannot be opened, read or written."""
 
 
+class PacsError(LumencutError, OSError):
+    """A PACS that cannot be reached, refuses, or does not give or take all that was asked of it."""
+
+
 class MissingPackageError(LumencutError, RuntimeError):
     """An optional package that the call needs is not installed."""
 

@@ -21,6 +21,7 @@ from lumencut.cli.first_words import first_words
 from lumencut.cli.info import info
 from lumencut.cli.lumen_map import lumen_map
 from lumencut.cli.measure import measure
+from lumencut.cli.pull import pull
 from lumencut.cli.render import render
 from lumencut.cli.report import reported, say, verbose_option
 from lumencut.cli.spiral import spiral
@@ -56,7 +57,7 @@ def _version(ctx: click.Context, _: click.Parameter, asked: bool) -> None:
     cls=_Program,
     invoke_without_command=True,
     context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110},
-    epilog="Files stay on this machine. Lumencut is not a medical device.",
+    epilog="Files stay on this machine unless you push them to a PACS. Lumencut is not a medical device.",
 )
 @click.option(
     "--version", is_flag=True, expose_value=False, is_eager=True, callback=_version, help="Show the version."
@@ -87,6 +88,7 @@ for _command in (
     batch,
     summarize,
     bids,
+    pull,
     settings,
     doctor,
     demo,

@@ -18,7 +18,7 @@ from lumencut.errors import DeviceWarning, LumencutError, SpaceWarning
 from lumencut.mends import Told, as_option, written
 
 #: Exit codes beside 0 and click's 2 for wrong usage.
-FAILED, INTERRUPTED = 1, 130
+FAILED, INCOMPLETE, INTERRUPTED = 1, 3, 130
 
 _VERBOSE = "lumencut.verbose"
 _WITH_OPTIONS = (Told, LumencutError)

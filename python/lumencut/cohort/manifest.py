@@ -10,6 +10,7 @@ from pathlib import Path
 
 from lumencut._files import checked_path
 from lumencut.cohort.manifest_table import Row, table_of
+from lumencut.dicomweb.address import is_address
 from lumencut.errors import FormatError
 
 #: The columns that say where centerlines come from; a study names one of them, or none.
@@ -173,19 +174,24 @@ def _study(row: Row, further: tuple[str, ...], home: Path, mistakes: list[str]) 
     source = sources[0] if sources else "none"
     made = Study(
         id=values["id"],
-        volume=home / values["volume"],
+        volume=Path(_within(home, values["volume"])),
         source=source,
         given=values.get(source, ""),
         reading={name: values[name] for name in READING if values.get(name)},
         further=tuple(values[name] for name in further),
     )
     if made.given and not made.given_as_text:
-        made = Study(made.id, made.volume, source, str(home / made.given), made.reading, made.further)
+        made = Study(made.id, made.volume, source, _within(home, made.given), made.reading, made.further)
     if "label" in made.reading and source != "mask":
         mistakes.append(f"{where}: a label without a mask")
     if "fwhm" in made.reading and not _is_width(made.reading["fwhm"]):
         mistakes.append(f"{where}: the fwhm {made.reading['fwhm']!r}, where a width in mm is expected")
     return made
+
+
+def _within(home: Path, given: str) -> str:
+    """A path as it is read from the folder of the table; an address of a PACS as it is."""
+    return given if is_address(given) else str(home / given)
 
 
 def _is_width(text: str) -> bool:

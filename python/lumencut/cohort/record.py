@@ -13,6 +13,7 @@ from typing import Any, Literal
 from lumencut import _lumencut
 from lumencut.cohort.layout import flush
 from lumencut.cohort.manifest import Study
+from lumencut.dicomweb.address import is_address
 from lumencut.errors import FileError, FormatError
 
 #: The version of what a record holds.
@@ -125,6 +126,10 @@ def origin_of(study: Study, recipe: str) -> Origin:
     said = [study.source, study.given if study.given_as_text else "", *sorted(study.reading.items())]
     told.update(json.dumps(said).encode())
     for path in study.files:
+        if is_address(path):
+            # A PACS does not change what has a UID.
+            told.update(f"\0{path}".encode())
+            continue
         for name, size, time in _stated(path):
             told.update(f"\0{name}\0{size}\0{time}".encode("utf-8", "surrogateescape"))
     return Origin(told.hexdigest()[:32], recipe)

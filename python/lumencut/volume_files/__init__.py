@@ -5,7 +5,7 @@ from __future__ import annotations
 import logging
 import os
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from lumencut._files import checked_path
+from lumencut.dicomweb.address import is_address
 from lumencut.errors import FileError, FormatError
 from lumencut.file_kinds import kind_of
 from lumencut.series_report import SeriesReport
@@ -23,7 +24,9 @@ from lumencut.volume_files.dicom import (
     is_zip,
     list_dicom_series,
     open_dicom,
+    opened,
 )
+from lumencut.volume_files.dicom.files import read_files
 from lumencut.volume_files.memory import as_volume
 from lumencut.volume_files.metaimage import open_metaimage
 from lumencut.volume_files.nifti import head_bytes, nifti_kind, open_nifti
@@ -98,7 +101,8 @@ def read_volume(
     Parameters
     ----------
     path : str or path
-        A DICOM folder, file or zip archive, NIfTI, NRRD or MetaImage file.
+        A DICOM folder, file or zip archive, NIfTI, NRRD or MetaImage file, or the address of a series or
+        study in a PACS: ``dicomweb:https://HOST/ROOT/studies/UID/series/UID``.
     series : str or int, optional
         Number or UID of the DICOM series to read where a folder holds several. By default the only one
         that can be an angiography volume.
@@ -135,6 +139,8 @@ def read_volume(
         For an unknown format, damaged files and whatever cannot be one regular volume.
     FileError
         For a file that is missing or cannot be read.
+    PacsError
+        For a PACS that cannot be reached, refuses, or does not give all of a series.
     """
     told = progress if progress is not None else _untold
     file = _open(path, _wanted(series, phase, fill_gaps, resample_slices, segments), told)
@@ -293,6 +299,8 @@ def _text(value: object) -> str | None:
 
 def _open(given: str | os.PathLike[str], wanted: Wanted, progress: Progress) -> VolumeFile:
     """Find the room by what the file holds, by its name only where the content does not tell."""
+    if is_address(given):
+        return _fetched(given, wanted, progress)
     path = _existing(given)
     notes: list[str] = []
     with heeding(progress) as told, refusing(path, "volume", notes):
@@ -313,6 +321,16 @@ def _open(given: str | os.PathLike[str], wanted: Wanted, progress: Progress) -> 
             raise _unknown(path)
     file.notes.extend(note for note in notes if note not in file.notes)
     return file.checked()
+
+
+def _fetched(given: str | os.PathLike[str], wanted: Wanted, progress: Progress) -> VolumeFile:
+    """A volume of a PACS, whose files lie in a folder of their own as long as it is held."""
+    from lumencut.dicomweb.source import fetched
+
+    with heeding(progress) as told:
+        folder = fetched(given, wanted.series, told)
+        file = opened(Path(given), wanted, lambda notes: read_files(folder.path, notes, told)).checked()
+    return replace(file, holds=folder)
 
 
 def _unknown(path: Path) -> FormatError:

@@ -60,6 +60,8 @@ class VolumeFile:
     label_names: dict[int, str] = field(default_factory=dict)
     """The names of the labels, where the file is a DICOM segmentation."""
     is_segmentation: bool = False
+    holds: object = None
+    """What must not go while the voxels are still to be read."""
     """Whether it is one: it may hold a part of the slices of its scan."""
 
     def volume(self, progress: Progress, filled: Filled = unfollowed) -> Volume:

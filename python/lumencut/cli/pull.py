@@ -1,0 +1,143 @@
+"""``lumencut pull``: studies and series of a PACS over DICOMweb, into a folder."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from lumencut.cli.options import FILE, Command, added
+from lumencut.cli.report import INCOMPLETE, bar, say, tell, verbose_option, warn
+
+if TYPE_CHECKING:
+    from lumencut.dicomweb.address import Address
+    from lumencut.dicomweb.client import Client
+    from lumencut.dicomweb.queries import Found
+
+#: As many studies as a table has where nobody asks for more.
+_MOST_STUDIES = 100
+_STUDY_COLUMNS = ("date", "patient", "modalities", "description", "series", "instances")
+_SERIES_COLUMNS = ("number", "modality", "description", "instances")
+
+
+def server_options(command: Command) -> Command:
+    """Add the options that say whom a PACS trusts, and whom it is trusted by."""
+    parts = (
+        click.option(
+            "--token-file",
+            type=FILE,
+            metavar="FILE",
+            help="A file that holds a token, read anew where it has expired. Else the environment's "
+            "LUMENCUT_DICOMWEB_TOKEN is sent, or name and password of ~/.netrc.",
+        ),
+        click.option(
+            "--ca",
+            type=FILE,
+            metavar="FILE",
+            help="The certificate of a private authority (PEM), trusted in place of the usual ones.",
+        ),
+    )
+    return added(parts, command)
+
+
+@click.command(short_help="Fetch a study or series from a PACS, or list its studies.")
+@click.argument("address")
+@click.option("-o", "--output", type=FILE, help="The folder for the files: SERIES/INSTANCE.dcm.")
+@click.option(
+    "--patient", metavar="NAME", help="List studies of a patient; * stands for the rest of the name."
+)
+@click.option("--date", metavar="DATE", help="List studies of a date: 20260131, 20260101-20260131.")
+@click.option("--modality", metavar="CT", help="List studies with this modality.")
+@click.option(
+    "--most",
+    type=click.IntRange(1),
+    default=_MOST_STUDIES,
+    show_default=True,
+    metavar="N",
+    help="As many studies are listed at most.",
+)
+@server_options
+@verbose_option
+@click.pass_context
+def pull(
+    ctx: click.Context,
+    address: str,
+    output: Path | None,
+    patient: str | None,
+    date: str | None,
+    modality: str | None,
+    most: int,
+    token_file: Path | None,
+    ca: Path | None,
+) -> None:
+    """Fetch what ADDRESS names from a PACS, or list what is there.
+
+    ADDRESS is that of a server of DICOMweb, of a study of it or of a series: https://HOST/ROOT/studies/UID
+    or https://HOST/ROOT/studies/UID/series/UID. Without a study the studies are listed with their addresses;
+    with one and without -o its series.
+
+    Each file appears only once it is whole. Run again, pull fetches what is missing alone. It leaves with 3
+    where something is still missing.
+
+    \b
+    lumencut pull https://pacs.example/dicom-web --patient 'Doe*' --modality CT
+    lumencut pull https://pacs.example/dicom-web/studies/1.2.3/series/1.2.3.4 -o scan
+    """  # noqa: D301 - click needs the control character itself
+    from lumencut.dicomweb.address import parsed_address
+    from lumencut.dicomweb.client import Client
+
+    place = parsed_address(address)
+    match = {"PatientName": patient, "StudyDate": date, "ModalitiesInStudy": modality}
+    wanted = {name: value for name, value in match.items() if value}
+    if wanted and place.study:
+        raise click.UsageError(
+            "--patient, --date and --modality list studies; leave the study out of ADDRESS"
+        )
+    if output is not None and not place.study:
+        raise click.UsageError("-o needs a study in ADDRESS: …/studies/UID; without -o studies are listed")
+    with Client(place, token_file, ca) as client:
+        if output is None:
+            _list(client, place, wanted, most)
+        elif not _pull(client, place, output):
+            ctx.exit(INCOMPLETE)
+
+
+def _list(client: Client, place: Address, wanted: dict[str, str], most: int) -> None:
+    from lumencut.dicomweb.queries import find_series, find_studies
+
+    if place.study:
+        _table(find_series(client, place), _SERIES_COLUMNS, "series")
+        return
+    found = find_studies(client, place, wanted, most + 1)
+    _table(found[:most], _STUDY_COLUMNS, "studies")
+    if len(found) > most:
+        tell(f"there are more than {most}: --patient, --date and --modality narrow them down")
+
+
+def _table(found: list[Found], columns: tuple[str, ...], what: str) -> None:
+    """Print a table, its addresses last: they are long, and what is copied."""
+    if not found:
+        tell(f"no {what} found")
+        return
+    rows = [columns, *(tuple(one.texts[name] for name in columns) for one in found)]
+    widths = [min(max(len(row[n]) for row in rows), 40) for n in range(len(columns))]
+    addresses = ["address", *(str(one.address) for one in found)]
+    for row, address in zip(rows, addresses, strict=True):
+        cells = [cell[:width].ljust(width) for cell, width in zip(row, widths, strict=True)]
+        say("  ".join([*cells, address]))
+
+
+def _pull(client: Client, place: Address, folder: Path) -> bool:
+    from lumencut.dicomweb.pulling import pull_instances
+    from lumencut.dicomweb.queries import find_instances
+
+    instances = find_instances(client, place)
+    with bar(f"fetching {len(instances)} instances", "instance") as told:
+        done = pull_instances(client, instances, folder, told)
+    before = done.listed - done.fetched - len(done.missing)
+    already = f", {before} were there" if before else ""
+    say(f"{folder}: {done.fetched} of {done.listed} instances fetched{already}")
+    if not done.is_complete:
+        warn(f"{len(done.missing)} instances are missing: {done.reasons}; run it again to fetch them alone")
+    return done.is_complete

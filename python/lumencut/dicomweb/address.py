@@ -1,0 +1,106 @@
+"""Addresses of a PACS: a server of DICOMweb, and a study or a series of it."""
+
+from __future__ import annotations
+
+import ipaddress
+import os
+import re
+from dataclasses import dataclass
+from urllib.parse import urlsplit
+
+from lumencut.errors import FormatError
+
+#: How an address begins wherever a file may stand as well.
+SCHEME = "dicomweb:"
+_FORM = "dicomweb:https://HOST/ROOT/studies/UID[/series/UID]"
+_UID = re.compile(r"[0-9]+(\.[0-9]+)*")
+_PATH = re.compile(r"(?P<root>.*?)/?(/studies/(?P<study>[^/]*)(/series/(?P<series>[^/]*))?)?/*")
+
+
+@dataclass(frozen=True)
+class Address:
+    """A place in a PACS.
+
+    Attributes
+    ----------
+    base : str
+        The address of the server, such as ``https://pacs.example/dicom-web``.
+    study, series : str
+        The UIDs of a study and of a series of it; empty where none is named.
+    """
+
+    base: str
+    study: str = ""
+    series: str = ""
+
+    def __str__(self) -> str:
+        return f"{SCHEME}{self.base}{self.path}"
+
+    @property
+    def path(self) -> str:
+        """What is named within the server, such as ``/studies/1.2.3``."""
+        study = f"/studies/{self.study}" if self.study else ""
+        return f"{study}/series/{self.series}" if self.series else study
+
+    @property
+    def host(self) -> str:
+        """The host and the port, for words."""
+        return urlsplit(self.base).netloc
+
+
+def is_address(given: str | os.PathLike[str]) -> bool:
+    """Tell an address of a PACS from the name of a file."""
+    return isinstance(given, (str, os.PathLike)) and str(given).startswith(SCHEME)
+
+
+def parsed_address(given: str | os.PathLike[str]) -> Address:
+    """Return the address that a text stands for.
+
+    Parameters
+    ----------
+    given : str or path
+        ``dicomweb:https://HOST/ROOT``, and behind it ``/studies/UID`` and ``/series/UID``; the word
+        ``dicomweb:`` may be missing.
+
+    Raises
+    ------
+    FormatError
+        For addresses with a name or a password in them, for http to other hosts than this one, and for
+        whatever is no such address.
+    """
+    # A path has lost one of two strokes that follow each other.
+    text = re.sub(r"^(https?):/+", r"\1://", str(given).removeprefix(SCHEME))
+    try:
+        parts = urlsplit(text)
+        host, _ = parts.hostname, parts.port
+    except ValueError:
+        raise FormatError("address", f"{text!r:.200}", _FORM) from None
+    if "@" in parts.netloc:
+        found = f"a name or a password in the address of {host}"
+        mend = "put them into ~/.netrc, or a token into the environment as LUMENCUT_DICOMWEB_TOKEN"
+        raise FormatError("address", found, "an address without them", mend)
+    path = _PATH.fullmatch(parts.path)
+    if parts.scheme not in ("http", "https") or not host or path is None or parts.query or parts.fragment:
+        raise FormatError("address", f"{text!r:.200}", _FORM)
+    if parts.scheme == "http" and not is_loopback(host):
+        found = f"http to {host}, which anybody on the way can read"
+        raise FormatError("address", found, "https, or http to this machine alone")
+    study, series = path["study"] or "", path["series"] or ""
+    if "/studies" in path["root"] or not all(is_uid(uid) for uid in (study, series) if uid):
+        raise FormatError("address", f"{text!r:.200}", _FORM)
+    return Address(f"{parts.scheme}://{parts.netloc}{path['root'].rstrip('/')}", study, series)
+
+
+def is_uid(text: str) -> bool:
+    """Tell a UID of DICOM, which is also safe as the name of a file."""
+    return len(text) <= 64 and _UID.fullmatch(text) is not None
+
+
+def is_loopback(host: str) -> bool:
+    """Tell whether a host is this machine."""
+    if host == "localhost":
+        return True
+    try:
+        return ipaddress.ip_address(host).is_loopback
+    except ValueError:
+        return False

@@ -1,0 +1,94 @@
+"""Who asks a PACS: a token of the environment or a file, or a name and a password of netrc; never shown."""
+
+from __future__ import annotations
+
+import base64
+import netrc
+import os
+from pathlib import Path
+
+from lumencut.errors import FileError
+
+TOKEN = "LUMENCUT_DICOMWEB_TOKEN"
+TOKEN_FILE = "LUMENCUT_DICOMWEB_TOKEN_FILE"
+CERTIFICATES = "LUMENCUT_DICOMWEB_CA"
+_WAYS = f"the environment as {TOKEN}, a file by --token-file or {TOKEN_FILE}, or ~/.netrc"
+
+
+class Credentials:
+    """What is sent as Authorization to one host.
+
+    A file of a token goes before the environment, and that before netrc.
+
+    Parameters
+    ----------
+    host : str
+        The host, for which netrc may have a name and a password.
+    token_file : path, optional
+        Holds a token alone; by default what the environment names.
+
+    Raises
+    ------
+    FileError
+        For files that cannot be read or hold nothing.
+    """
+
+    def __init__(self, host: str, token_file: Path | None = None) -> None:
+        named = os.environ.get(TOKEN_FILE)
+        self._host = host
+        self._token_file = token_file if token_file is not None else Path(named) if named else None
+        self._header = self._read()
+
+    def __repr__(self) -> str:
+        return f"Credentials({'some' if self._header else 'none'})"
+
+    @property
+    def header(self) -> str:
+        """The value of Authorization; empty where nothing is known of the host."""
+        return self._header
+
+    @property
+    def mend(self) -> str:
+        """What to do where they are refused, in words."""
+        return f"give a token that is valid in {_WAYS}"
+
+    def renewed(self) -> bool:
+        """Read them anew; tell whether others are there now."""
+        before, self._header = self._header, self._read()
+        return self._header != before
+
+    def _read(self) -> str:
+        if self._token_file is not None:
+            return f"Bearer {_token_in(self._token_file)}"
+        if token := os.environ.get(TOKEN, "").strip():
+            return f"Bearer {token}"
+        return self._of_netrc()
+
+    def _of_netrc(self) -> str:
+        place = Path(os.environ.get("NETRC") or Path.home() / ".netrc")
+        if not place.is_file():
+            return ""
+        try:
+            found = netrc.netrc(place).authenticators(self._host)
+        except (netrc.NetrcParseError, UnicodeDecodeError):
+            # The message of the parser quotes the line, and so the password.
+            raise FileError(
+                str(place), "a line that is none of netrc", "machine, login and password"
+            ) from None
+        except OSError as error:
+            raise FileError(str(place), error.strerror or str(error), "a file that can be read") from None
+        if found is None:
+            return ""
+        login, _, password = found
+        return "Basic " + base64.b64encode(f"{login}:{password}".encode()).decode()
+
+
+def _token_in(path: Path) -> str:
+    try:
+        token = path.read_text("utf-8").strip()
+    except (OSError, UnicodeDecodeError) as error:
+        found = (error.strerror if isinstance(error, OSError) else None) or "no text"
+        raise FileError(str(path), found, "a file with a token") from None
+    if not token or not token.isprintable() or not token.isascii():
+        raise FileError(str(path), "no token, or one with odd letters", "a file with a token alone")
+    return token

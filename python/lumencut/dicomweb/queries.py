@@ -1,0 +1,131 @@
+"""What a PACS has (QIDO-RS): studies, their series, and the instances of these."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from lumencut.dicomweb.address import Address, is_uid
+from lumencut.dicomweb.client import Client
+from lumencut.errors import PacsError
+
+_PAGE = 500
+_STUDY, _SERIES, _INSTANCE = "0020000D", "0020000E", "00080018"
+_STUDY_TEXTS = {
+    "date": "00080020",
+    "patient": "00100010",
+    "patient_id": "00100020",
+    "modalities": "00080061",
+    "description": "00081030",
+    "series": "00201206",
+    "instances": "00201208",
+}
+_SERIES_TEXTS = {
+    "number": "00200011",
+    "modality": "00080060",
+    "description": "0008103E",
+    "instances": "00201209",
+}
+
+
+@dataclass(frozen=True)
+class Found:
+    """A study or series that a PACS tells of: its address, and what it says of it as texts."""
+
+    address: Address
+    texts: Mapping[str, str]
+
+
+@dataclass(frozen=True)
+class Instance:
+    """One object in a PACS, by its UIDs."""
+
+    study: str
+    series: str
+    uid: str
+
+    @property
+    def path(self) -> str:
+        """Where it lies in the PACS."""
+        return f"/studies/{self.study}/series/{self.series}/instances/{self.uid}"
+
+
+def find_studies(client: Client, address: Address, match: Mapping[str, str], most: int) -> list[Found]:
+    """Find studies by attributes of DICOM (wildcards ``*`` and ``?``, dates as ``20260101-20261231``)."""
+    fields = {"includefield": ",".join(_STUDY_TEXTS.values()), **match}
+    found = []
+    for one in _pages(client, "/studies", fields, _STUDY, most):
+        uid = _text(one, _STUDY)
+        found.append(Found(Address(address.base, uid), _texts(one, _STUDY_TEXTS)))
+    return found
+
+
+def has_study(client: Client, uid: str) -> bool:
+    """Tell whether the PACS knows a study."""
+    return any(_text(one, _STUDY) == uid for one in client.json("/studies", {"StudyInstanceUID": uid}))
+
+
+def find_series(client: Client, address: Address) -> list[Found]:
+    """Find the series of a study."""
+    fields = {"includefield": ",".join(_SERIES_TEXTS.values())}
+    found = []
+    for one in _pages(client, f"/studies/{address.study}/series", fields, _SERIES):
+        texts = _texts(one, _SERIES_TEXTS)
+        found.append(Found(Address(address.base, address.study, _text(one, _SERIES)), texts))
+    return sorted(found, key=lambda one: (len(one.texts["number"]), one.texts["number"]))
+
+
+def find_instances(client: Client, address: Address) -> list[Instance]:
+    """Find the instances of a series, or of all series of a study.
+
+    Raises
+    ------
+    PacsError
+        Where there are none, or the PACS refuses.
+    """
+    series = [address] if address.series else [one.address for one in find_series(client, address)]
+    found: list[Instance] = []
+    for one in series:
+        listed = _pages(client, f"{one.path}/instances", {}, _INSTANCE)
+        found += [Instance(one.study, one.series, _text(each, _INSTANCE)) for each in listed]
+    if not found:
+        what = "series" if address.series else "study"
+        raise PacsError(str(address), f"no such {what}", f"a {what} that the PACS has", "check the UIDs")
+    return found
+
+
+def _pages(
+    client: Client, path: str, fields: Mapping[str, str], key: str, most: int | None = None
+) -> Iterator[dict[str, Any]]:
+    """All that a search finds, page by page, up to `most`. Servers may know no pages, or shorter ones."""
+    seen: set[str] = set()
+    while most is None or len(seen) < most:
+        size = _PAGE if most is None else min(_PAGE, most - len(seen))
+        page = client.json(path, {**fields, "limit": str(size), "offset": str(len(seen))})
+        news = [one for one in page if _text(one, key) not in seen]
+        for one in news:
+            uid = _text(one, key)
+            if not is_uid(uid):
+                raise PacsError(path, f"{uid!r:.80} for a UID", "numbers with points between them")
+            seen.add(uid)
+            yield one
+        if not news:
+            return
+
+
+def _texts(one: Mapping[str, Any], tags: Mapping[str, str]) -> dict[str, str]:
+    return {name: _text(one, tag) for name, tag in tags.items()}
+
+
+def _text(one: Mapping[str, Any], tag: str) -> str:
+    """The values of an attribute in the JSON of DICOM as one printable text; empty where it has none."""
+    element = one.get(tag)
+    values = element.get("Value") if isinstance(element, dict) else None
+    texts = []
+    for value in values if isinstance(values, list) else ():
+        # A name has several ways to be written.
+        shown = next(iter(value.values()), "") if isinstance(value, dict) else value
+        texts.append("" if shown is None else str(shown))
+    joined = "\\".join(texts)
+    return "".join(letter if letter.isprintable() else "�" for letter in joined)[:200]
