@@ -22,6 +22,7 @@ from lumencut.cli.info import info
 from lumencut.cli.lumen_map import lumen_map
 from lumencut.cli.measure import measure
 from lumencut.cli.pull import pull
+from lumencut.cli.push import push
 from lumencut.cli.render import render
 from lumencut.cli.report import reported, say, verbose_option
 from lumencut.cli.spiral import spiral
@@ -89,6 +90,7 @@ for _command in (
     summarize,
     bids,
     pull,
+    push,
     settings,
     doctor,
     demo,

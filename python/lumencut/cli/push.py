@@ -1,0 +1,128 @@
+"""``lumencut push``: DICOM objects to a PACS over DICOMweb."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from lumencut.cli.options import FILE
+from lumencut.cli.pull import server_options
+from lumencut.cli.report import INCOMPLETE, bar, busy, complain, detail, say, tell, verbose_option, warn
+from lumencut.errors import PacsError
+
+if TYPE_CHECKING:
+    from lumencut.dicomweb.address import Address
+    from lumencut.dicomweb.client import Client
+    from lumencut.dicomweb.objects import Outgoing
+
+_NOT_BACK = "what is in a PACS cannot be taken back from here"
+
+
+@click.command(short_help="Send DICOM objects to a PACS.")
+@click.argument("files", type=FILE, nargs=-1, required=True, metavar="FILES... ADDRESS")
+@click.option("--dry-run", is_flag=True, help="List the objects and the address, and ask nobody.")
+@click.option("--new-study", is_flag=True, help="Send objects of studies that the PACS does not have, too.")
+@click.option("--yes", is_flag=True, help="Do not ask before the first push to an address.")
+@server_options
+@verbose_option
+@click.pass_context
+def push(
+    ctx: click.Context,
+    files: tuple[Path, ...],
+    dry_run: bool,
+    new_study: bool,
+    yes: bool,
+    token_file: Path | None,
+    ca: Path | None,
+) -> None:
+    """Send the DICOM objects in FILES to the PACS at ADDRESS.
+
+    FILES are files, folders or zip archives; ADDRESS is that of a server of DICOMweb: https://HOST/ROOT.
+    What is sent cannot be taken back from here. Studies that the PACS does not have are refused, since
+    results belong beside their scan.
+
+    Each object that the PACS refuses is named with the reason, and all others are looked up afterwards. Push
+    leaves with 3 where one is not there.
+
+    \b
+    lumencut push results/ https://pacs.example/dicom-web --dry-run
+    lumencut push results/ https://pacs.example/dicom-web
+    """  # noqa: D301 - click needs the control character itself
+    from lumencut.dicomweb.address import parsed_address
+    from lumencut.dicomweb.client import Client
+    from lumencut.dicomweb.objects import outgoing_objects
+
+    if len(files) < 2:
+        raise click.UsageError("found one argument; expected FILES, then the ADDRESS of the PACS")
+    address = parsed_address(files[-1])
+    if address.study:
+        raise click.UsageError("ADDRESS names a study; objects know theirs, so leave /studies/… out")
+    with busy("looking into files"):
+        objects, left_out = outgoing_objects(files[:-1])
+    if left_out:
+        tell(f"left out, no DICOM: {len(left_out)} files, such as {left_out[0]}")
+    _list(objects, address, is_all=dry_run)
+    if dry_run:
+        say("nothing was sent")
+        return
+    with Client(address, token_file, ca) as client:
+        _check_studies(client, address, objects, is_new_allowed=new_study)
+        _ask(address, is_sure=yes)
+        if not _push(client, address, objects):
+            ctx.exit(INCOMPLETE)
+
+
+def _list(objects: list[Outgoing], address: Address, *, is_all: bool) -> None:
+    size = sum(one.size for one in objects) / 1e6
+    say(f"{len(objects)} objects, {size:.1f} MB, to {address.base}")
+    for one in objects:
+        line = f"  {one.kind}: {one.source} ({one.description}), study {one.study}"
+        if is_all:
+            say(line)
+        else:
+            detail(line)
+
+
+def _check_studies(
+    client: Client, address: Address, objects: list[Outgoing], *, is_new_allowed: bool
+) -> None:
+    """Refuse what belongs to no study of the PACS: mostly the wrong PACS, or a study that was made up."""
+    from lumencut.dicomweb.queries import has_study
+
+    if is_new_allowed:
+        return
+    unknown = [uid for uid in dict.fromkeys(one.study for one in objects) if not has_study(client, uid)]
+    if unknown:
+        found = f"{len(unknown)} studies that it does not have, such as {unknown[0]}"
+        mend = "check the address, or give --new-study to let the PACS make them"
+        raise PacsError(address.base, found, "studies that it has", mend)
+
+
+def _ask(address: Address, *, is_sure: bool) -> None:
+    from lumencut.dicomweb.known_addresses import is_known, remember
+
+    if not is_sure and not is_known(address.base):
+        if not sys.stdin.isatty():
+            mend = "give --yes to send without a question"
+            raise PacsError(address.base, "nobody to ask before the first push to it", "an answer", mend)
+        click.confirm(f"Send them to {address.base}, for the first time? {_NOT_BACK}.", abort=True)
+    remember(address.base)
+
+
+def _push(client: Client, address: Address, objects: list[Outgoing]) -> bool:
+    from lumencut.dicomweb.pushing import push_objects
+
+    with bar(f"sending {len(objects)} objects", "object") as told:
+        done = push_objects(client, address, objects, told)
+    if done.before:
+        tell(f"{done.before} of them were there before; a PACS keeps what it had under their UIDs")
+    say(f"{done.confirmed} of {len(objects)} objects are in {address.base}; {_NOT_BACK}")
+    sources = {one.uid: one.source for one in objects}
+    for uid, refusal in done.failed.items():
+        complain(f"{sources[uid]}: {refusal.words}")
+    if done.failed:
+        warn(f"{len(done.failed)} objects are not there; run it again with their files")
+    return not done.failed

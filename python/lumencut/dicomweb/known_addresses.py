@@ -1,0 +1,40 @@
+"""The addresses that something was pushed to before: the user is asked before the first time."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+from lumencut._files import write_text
+
+
+def is_known(base: str) -> bool:
+    """Tell whether this user has pushed to an address before."""
+    return base in _known()
+
+
+def remember(base: str) -> None:
+    """Keep an address.
+
+    Raises
+    ------
+    FileError
+        Where it cannot be written.
+    """
+    known = _known()
+    if base not in known:
+        place = _place()
+        place.parent.mkdir(parents=True, exist_ok=True)
+        write_text(place, "".join(f"{one}\n" for one in (*known, base)))
+
+
+def _place() -> Path:
+    state = os.environ.get("XDG_STATE_HOME") or Path.home() / ".local" / "state"
+    return Path(state) / "lumencut" / "pushed-to.txt"
+
+
+def _known() -> list[str]:
+    try:
+        return _place().read_text("utf-8").splitlines()
+    except (OSError, UnicodeDecodeError):
+        return []

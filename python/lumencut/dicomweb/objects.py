@@ -1,0 +1,118 @@
+"""DICOM objects on disk that are to be sent: what each is, and which of them cannot be sent."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from lumencut.dicomweb.address import is_uid
+from lumencut.errors import FormatError
+from lumencut.volume_files.dicom.headers import is_dicom
+from lumencut.volume_files.dicom.sources import Source, sources
+from lumencut.volume_files.opened import printable, refusing
+
+_TAGS = (
+    *("SOPClassUID", "SOPInstanceUID", "StudyInstanceUID", "SeriesInstanceUID"),
+    *("Modality", "SeriesDescription"),
+)
+_PREAMBLE = 132
+
+
+@dataclass(frozen=True)
+class Outgoing:
+    """An object that is to be sent.
+
+    Attributes
+    ----------
+    source : Source
+        Its file, or the member of an archive.
+    uid, study, series : str
+        Its UIDs.
+    kind : str
+        What it is, in the words of the standard.
+    description : str
+        That of its series.
+    """
+
+    source: Source
+    uid: str
+    study: str
+    series: str
+    kind: str
+    description: str
+
+    @property
+    def size(self) -> int:
+        """How many bytes it has."""
+        return self.source.size
+
+    def content(self) -> bytes:
+        """Read it."""
+        with self.source.open() as file:
+            return file.read()
+
+
+def outgoing_objects(paths: Iterable[Path]) -> tuple[list[Outgoing], list[str]]:
+    """Read the headers of all objects in files, folders and zip archives.
+
+    Returns
+    -------
+    objects : list of Outgoing
+        In the order of the paths.
+    left_out : list of str
+        The files that are no DICOM.
+
+    Raises
+    ------
+    FormatError
+        For objects without UIDs, for two different files of one UID, and where there is no object at all.
+    FileError
+        For files that cannot be read.
+    """
+    objects: list[Outgoing] = []
+    left_out: list[str] = []
+    for path in paths:
+        with refusing(path, "DICOM", []):
+            found = sources(path)
+        for source in found:
+            with refusing(source, "DICOM", []):
+                one = _object(source)
+            if one is None:
+                left_out.append(str(source))
+            else:
+                objects.append(one)
+    if not objects:
+        raise FormatError(", ".join(map(str, paths)), "no DICOM", "files to be sent")
+    return _once(objects), left_out
+
+
+def _object(source: Source) -> Outgoing | None:
+    if source.size < _PREAMBLE or not is_dicom(source.head(_PREAMBLE)):
+        return None
+    import pydicom
+    from pydicom.uid import UID
+
+    with source.open() as file:
+        data = pydicom.dcmread(file, stop_before_pixels=True, specific_tags=list(_TAGS))
+    own, study, series = (str(data.get(f"{name}InstanceUID") or "") for name in ("SOP", "Study", "Series"))
+    kind = UID(str(data.get("SOPClassUID") or data.file_meta.get("MediaStorageSOPClassUID") or ""))
+    if kind.name.startswith("Media Storage Directory"):
+        return None
+    if not all(is_uid(uid) for uid in (own, study, series, kind)):
+        found = "an object without the UIDs of its class, study, series or itself"
+        mend = "a PACS takes no such objects; let the program that made it write them"
+        raise FormatError(str(source), found, "a whole DICOM object", mend)
+    description = printable(str(data.get("SeriesDescription") or ""))
+    return Outgoing(source, own, study, series, printable(kind.name), description)
+
+
+def _once(objects: Sequence[Outgoing]) -> list[Outgoing]:
+    """Each object once: copies are left out, and other content under the same UID is refused."""
+    known: dict[str, Outgoing] = {}
+    for one in objects:
+        first = known.setdefault(one.uid, one)
+        if first is not one and first.content() != one.content():
+            found = f"the same UID in {first.source}, with other content"
+            raise FormatError(str(one.source), found, "a UID of its own", "leave one of them out")
+    return list(known.values())
