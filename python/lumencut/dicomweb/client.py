@@ -8,7 +8,7 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
-from urllib.parse import urljoin, urlsplit
+from urllib.parse import quote, urlencode, urljoin, urlsplit
 
 import httpx
 
@@ -115,12 +115,15 @@ class Client:
             Where the PACS cannot be reached, the connection breaks, or it leads to another host.
         """
         url = f"{self._base}{path}"
+        if params:
+            # Some servers know wildcards and lists only where they are not written as %2A and %2C.
+            url += "?" + urlencode(params, safe="*,", quote_via=quote)
         is_renewed = False
         with self._in_words():
             for _ in range(_MOST_REDIRECTS):
                 sent = self._credentials.header
                 known = {**(headers or {}), **({"Authorization": sent} if sent else {})}
-                request = self._http.build_request(method, url, params=params, headers=known, content=content)
+                request = self._http.build_request(method, url, headers=known, content=content)
                 answer = self._http.send(request, stream=True)
                 try:
                     if answer.status_code == 401 and not is_renewed:
@@ -129,7 +132,7 @@ class Client:
                         if self._credentials.header != sent or self._credentials.renewed():
                             continue
                     elif answer.is_redirect:
-                        url, params = self._followed(url, answer, method), None
+                        url = self._followed(url, answer, method)
                         continue
                     yield answer
                     return

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 from pathlib import Path
 
@@ -14,16 +15,12 @@ def is_known(base: str) -> bool:
 
 
 def remember(base: str) -> None:
-    """Keep an address.
-
-    Raises
-    ------
-    FileError
-        Where it cannot be written.
-    """
+    """Keep an address; where that cannot be, the user is asked again."""
     known = _known()
-    if base not in known:
-        place = _place()
+    if base in known:
+        return
+    place = _place()
+    with contextlib.suppress(OSError):
         place.parent.mkdir(parents=True, exist_ok=True)
         write_text(place, "".join(f"{one}\n" for one in (*known, base)))
 
