@@ -6,18 +6,22 @@ import subprocess
 import sys
 
 import numpy as np
+import pydicom
 import pytest
 from click.testing import CliRunner
 
 from dicom_phantom import save, single
 from dicom_series import PLAIN_STACK
-from lumencut import read_volume
+from lumencut import list_series, read_volume
 from lumencut.cli import main
 from lumencut.dicomweb.address import parsed_address
 from lumencut.dicomweb.source import fetched
 from lumencut.errors import FormatError, LumencutError, PacsError
+from lumencut.viewer import page as page_room
+from lumencut.viewer.server import ViewerServer
 from pacs_stub import Pacs, running
 from segmentation_files import segmentation
+from view_serving import Client, split, write_page
 
 
 @pytest.fixture(scope="module")
@@ -340,6 +344,41 @@ def volume_mask(volume):
     from lumencut import Volume
 
     return Volume((volume.array > 200).astype(np.uint8), world_from_index=volume.world_from_index)
+
+
+def test_the_viewer_serves_what_it_fetched_from_this_machine_alone(pacs, scan, tmp_path, monkeypatch):
+    monkeypatch.setattr(page_room, "FOLDER", write_page(tmp_path / "page"))
+    bodies = []
+
+    def ask(server):
+        bodies.append(Client(server).ask("data/volume").body)
+
+    monkeypatch.setattr(ViewerServer, "wait", ask)
+    shown = run("view", f"dicomweb:{pacs.address}", "--no-browser")
+    assert shown.exit_code == 0, shown.output
+    header, voxels = split(bodies[0])
+    assert header["size"] == [64, 48, 24]
+    assert voxels == read_volume(scan).array.astype(np.int16).tobytes()
+
+
+def test_a_study_of_several_series_is_listed_and_chosen_from(pacs, scan, tmp_path):
+    for path in sorted(scan.iterdir()):
+        data = pydicom.dcmread(path)
+        data.SeriesInstanceUID += ".9"
+        data.SOPInstanceUID += ".9"
+        data.file_meta.MediaStorageSOPInstanceUID = data.SOPInstanceUID
+        data.SeriesNumber = 9
+        save(data, tmp_path / path.name)
+    pacs.add(tmp_path)
+    study = f"dicomweb:{pacs.base}/studies/{pacs.study}"
+    several = run("info", study)
+    assert several.exit_code == 0, several.output
+    assert "--series" in several.output
+    pacs.asked.clear()
+    assert read_volume(study, series=9).size == (64, 48, 24)
+    assert all(uid.endswith(".9") for uid in pacs.asked)
+    assert len(pacs.asked) == 24
+    assert len(list_series(study)) == 2
 
 
 def test_a_server_that_is_not_there_is_named(tmp_path):

@@ -247,7 +247,7 @@ def _report(file: VolumeFile, volume: Volume | None) -> VolumeReport:
 
 
 def list_series(path: str | os.PathLike[str]) -> list[SeriesReport]:
-    """Describe all DICOM series below a folder, in a zip archive, or of a single file.
+    """Describe all DICOM series below a folder, in a zip archive, of a single file, or of a study in a PACS.
 
     Raises
     ------
@@ -255,7 +255,15 @@ def list_series(path: str | os.PathLike[str]) -> list[SeriesReport]:
         Where no image is found, or a file is damaged.
     FileError
         For a path that is missing or cannot be read.
+    PacsError
+        For a PACS that cannot be reached, refuses, or does not give all of a study.
     """
+    if is_address(path):
+        from lumencut.dicomweb.source import fetched
+
+        # Held as long as it is read: with its last holder the folder goes.
+        folder = fetched(path)
+        return list_dicom_series(folder.path)
     return list_dicom_series(_existing(path))
 
 
