@@ -39,6 +39,7 @@ ALLOWED = {
 HEAVY = {
     "PIL",
     "SimpleITK",
+    "anywidget",
     "av",
     "click",
     "gdcm",

@@ -49,6 +49,7 @@ if TYPE_CHECKING:
     from lumencut.measurements import Measurements
     from lumencut.measuring import CrossSection, cross_section, measure
     from lumencut.mends import Mend
+    from lumencut.notebook import show
     from lumencut.picking import brightest
     from lumencut.planar_reformation import PlanarReformation, cpr
     from lumencut.profile import Profile
@@ -119,6 +120,7 @@ _HOME = {
     "measurements": ("Measurements",),
     "measuring": ("CrossSection", "cross_section", "measure"),
     "mends": ("Mend",),
+    "notebook": ("show",),
     "picking": ("brightest",),
     "planar_reformation": ("PlanarReformation", "cpr"),
     "profile": ("Profile",),
@@ -224,6 +226,7 @@ __all__ = [
     "render",
     "save_animation",
     "set_threads",
+    "show",
     "spiral",
     "straightened_volume",
     "trace",

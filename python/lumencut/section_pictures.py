@@ -67,7 +67,7 @@ class SectionView:
         steps = (np.arange(self.side) - (self.side - 1) / 2) * spacing
         places = origin + steps[:, None, None] * across[1] + steps[None, :, None] * across[0]
         value = self.volume.sample(places.reshape(-1, 3)).reshape(self.side, self.side)
-        picture = _grey(value, self.window)
+        picture = grey_picture(value, self.window)
         if not has_contour:
             return _with_scale(Sheet(picture), spacing)
         contour = (profile.contour[number] - origin) @ across.T / spacing + (self.side - 1) / 2
@@ -114,8 +114,8 @@ def _marked(one: MeasuredVessel) -> dict[int, str]:
     return {number: ", ".join(titles) for number, titles in found.items()}
 
 
-def _grey(value: npt.NDArray[np.float32], window: Window) -> Picture:
-    """Values in a window; outside of the volume it is black."""
+def grey_picture(value: npt.NDArray[np.float32], window: Window) -> Picture:
+    """Return values (H, W) in a window as an RGBA picture (H, W, 4); what is not finite is black."""
     share = (np.nan_to_num(value, nan=-np.inf) - window.level) / window.width + 0.5
     grey = (np.clip(share, 0, 1) * 255).round().astype(np.uint8)
     return np.stack([grey, grey, grey, np.full_like(grey, 255)], axis=-1)

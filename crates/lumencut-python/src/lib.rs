@@ -85,6 +85,8 @@ fn _lumencut(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(line_edits::part_name, module)?)?;
     module.add_function(wrap_pyfunction!(measuring::cross_section, module)?)?;
     module.add_function(wrap_pyfunction!(picking::brightest, module)?)?;
+    module.add_function(wrap_pyfunction!(picking::meant_place, module)?)?;
+    module.add_function(wrap_pyfunction!(picking::shows_cut, module)?)?;
     module.add_function(wrap_pyfunction!(measuring::measure, module)?)?;
     module.add_function(wrap_pyfunction!(measuring::measured_radii, module)?)?;
     module.add_function(wrap_pyfunction!(profile_files::c_arm_words, module)?)?;

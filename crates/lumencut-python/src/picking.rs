@@ -1,10 +1,18 @@
 //! What a pixel of a picture means.
 
+use glam::DVec3;
+use lumencut::cut_at::cut_at;
+use lumencut::meant_vessel;
+use lumencut::method::Method;
+use lumencut::pipeline::CpuRenderer;
 use lumencut::study::brightest::brightest_on_ray;
 use pyo3::prelude::*;
 
 use crate::camera::CameraArgument;
 use crate::errors::to_python;
+use crate::renderer::Renderer;
+use crate::settings::Checked;
+use crate::tree::{self, VesselArrays};
 use crate::volume::VolumeArgument;
 
 /// The brightest place (mm, LPS) on the ray of a pixel (column, row), between two depths (mm).
@@ -22,4 +30,31 @@ pub fn brightest(
     let camera = camera.camera()?;
     let place = py.detach(|| brightest_on_ray(&volume, &camera, pixel, depths)).map_err(to_python)?;
     Ok(place.to_array())
+}
+
+/// The arc length (mm) on a vessel that is nearest to a point, and whether a click there means the vessel, in a view with pixels
+/// of this side (mm).
+#[pyfunction]
+#[allow(clippy::needless_pass_by_value)]
+pub fn meant_place(vessel: VesselArrays<'_>, point: [f64; 3], pixel_spacing: f64) -> PyResult<(f64, bool)> {
+    let (vessel, point) = (tree::vessel(&vessel)?, DVec3::from_array(point));
+    let at = meant_vessel::nearest_arc_length(&vessel, point);
+    Ok((at, meant_vessel::is_meant(&vessel, point, pixel_spacing)))
+}
+
+/// Whether the pixel (column, row) of a view of a renderer shows the cut surface rather than what a focus leaves around it.
+#[pyfunction]
+#[allow(clippy::needless_pass_by_value)]
+pub fn shows_cut(
+    renderer: &Bound<'_, Renderer>,
+    volume: VolumeArgument<'_>,
+    camera: CameraArgument,
+    settings: &Bound<'_, Checked>,
+    pixel: [f64; 2],
+) -> PyResult<bool> {
+    let (camera, Checked(settings)) = (camera.camera()?, settings.get());
+    let borrowed = volume.borrow()?;
+    let scene = renderer.get().scene(volume.volume(&borrowed)?);
+    let how = (&mut CpuRenderer::default(), Method::CutSurface);
+    cut_at(how, &scene, (&camera, settings), pixel).map(|cut| cut.is_shown).map_err(to_python)
 }

@@ -21,6 +21,7 @@ use lumencut::reformations::cr::CrParameters;
 use lumencut::scene::{LeveledTree, Scene, SharedVolume, VolumeKey};
 use lumencut::stages::{Image, ImageSet};
 use lumencut::stop::Stop;
+use lumencut::volume::Volume;
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -269,6 +270,13 @@ impl MethodArgument {
                 Err(exception("SettingsError", "method", &name, expected, ""))
             }
         }
+    }
+}
+
+impl Renderer {
+    /// What it renders, with its volume.
+    pub fn scene<'a>(&self, volume: Volume<'a>) -> Scene<'a> {
+        Scene { volume: Some(SharedVolume::new(volume, self.volume.clone())), tree: self.tree.clone() }
     }
 }
 

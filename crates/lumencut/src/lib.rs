@@ -6,6 +6,7 @@
 
 pub mod backend;
 mod choice;
+pub mod cut_at;
 pub mod cut_diameter;
 pub mod devices;
 pub mod extent;
@@ -20,6 +21,7 @@ pub mod lumen_map;
 pub mod lumen_points;
 pub mod lumen_wall;
 pub mod mask_notes;
+pub mod meant_vessel;
 pub mod measure_words;
 pub mod mends;
 pub mod method;

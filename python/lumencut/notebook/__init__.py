@@ -1,0 +1,78 @@
+"""A view of vessels in a notebook, which turns there: `lumencut.show`."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from lumencut.errors import MissingPackageError
+from lumencut.notebook.scene import DeviceName
+
+if TYPE_CHECKING:
+    from lumencut.camera import Camera
+    from lumencut.notebook.widget import VesselWidget
+    from lumencut.settings import Settings
+    from lumencut.vessel_tree import VesselTree
+
+
+def show(
+    volume: Any,
+    tree: VesselTree | None = None,
+    camera: Camera | None = None,
+    settings: Settings | None = None,
+    *,
+    size: tuple[int, int] = (512, 512),
+    trace: bool = False,
+    linked: bool = True,
+    names: bool = True,
+    device: DeviceName = "auto",
+    **changes: Any,
+) -> VesselWidget:
+    """Return a view of an angiography for a notebook, which is turned with the mouse as in the viewer.
+
+    The pictures come from the kernel: nothing else is asked, and the volume stays where it is. Drags turn
+    (left), pan (middle, or Shift) and change the window (right, or Ctrl); the wheel zooms. A click, or a
+    double click, puts the cross-hair there and picks the vessel. docs/notebook.md lists all of it.
+
+    The widget that is returned has the traits ``camera``, ``settings``, ``picked``, ``vessel``, ``tree`` and
+    ``picture``; see :class:`lumencut.notebook.widget.VesselWidget`.
+
+    Parameters
+    ----------
+    volume : Volume, or whatever else :func:`lumencut.render` takes as one
+        The angiography.
+    tree : VesselTree, optional
+        Its centerlines; the context alone is shown where not given.
+    camera : Camera, optional
+        The first view; from the front, fitted to the tree or else the volume, where not given.
+    settings : Settings, optional
+        The knobs; their defaults where not given, and a MIP where vessels are traced.
+    size : (int, int), default (512, 512)
+        Width and height of the picture (pixels, at most 4096), where no camera is given.
+    trace : bool, default False
+        Whether clicks set points of vessels, which are traced through them: a click sets a point, a double
+        click ends the vessel, Backspace takes the last point away. ``widget.tree`` has the vessels.
+    linked : bool, default True
+        Whether the picked vessel is shown straightened beside the view, with the section across it.
+    names : bool, default True
+        Whether the names of the vessels stand in the picture.
+    device : {"auto", "cpu", "gpu"}, default "auto"
+        What computes, as for :class:`lumencut.Renderer`.
+    **changes
+        Settings by name that shall have other values, such as ``context="dvr"``.
+
+    Raises
+    ------
+    MissingPackageError
+        Without the package anywidget, which the extra ``lumencut[notebook]`` installs.
+    VolumeError, VesselTreeError, CameraError, SettingsError, DeviceError
+        As :class:`lumencut.Renderer` and :meth:`Renderer.render`, whose first picture is made at once.
+    """
+    try:
+        from lumencut.notebook.widget import VesselWidget
+    except ModuleNotFoundError as error:
+        mend = "pip install 'lumencut[notebook]', then restart the kernel"
+        raise MissingPackageError("show", f"no package {error.name}", "the extra [notebook]", mend) from error
+    from lumencut.notebook.first_view import FirstView
+
+    view = FirstView.of(volume, tree, camera, settings, size, device, changes, is_traced=trace)
+    return VesselWidget(view, trace=trace, linked=linked, names=names)

@@ -1,0 +1,117 @@
+"""The two pictures beside the turning one: the picked vessel straightened, and the section across it."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import numpy.typing as npt
+
+from lumencut import _lumencut
+from lumencut.measuring import CrossSection, cross_section
+from lumencut.notebook.scene import Place, Scene
+from lumencut.planar_reformation import PlanarReformation, cpr
+from lumencut.section_pictures import grey_picture
+from lumencut.settings import Settings
+
+Point = npt.NDArray[np.float64]
+Picture = npt.NDArray[np.uint8]
+Pixel = tuple[float, float]
+
+#: A notch of the wheel turns the straightened vessel by this (radians), or moves the section by this (mm).
+TURN_STEP = math.pi / 36
+STEP = 0.5
+#: A section shows so many radii to each side of the vessel, and is between these sides (mm).
+_RADII, _SIDES = 4.0, (12.0, 120.0)
+#: Pixels of a section, and the most rows of a straightened vessel.
+_SECTION_PIXELS, _MOST_ROWS = 160, 512
+#: A straightened vessel has at most so many pixels for each side of a voxel: a short one must be seen.
+_FINER = 3
+
+
+class Linked:
+    """The straightened vessel and the section of one place.
+
+    Both are made when the place becomes known; a new place on the same vessel makes only the section again.
+    """
+
+    def __init__(self, scene: Scene, place: Place) -> None:
+        assert scene.tree is not None
+        self.scene, self.place = scene, place
+        self.vessel = scene.tree[place.vessel]
+        self.straightened = self._straightened()
+        self.section = self._section()
+
+    def moved(self, place: Place) -> Linked:
+        """Return the pictures of another place of the same scene."""
+        if place.vessel != self.place.vessel:
+            return Linked(self.scene, place)
+        return self._changed(place, self.straightened)
+
+    def turned(self, notches: int) -> Linked:
+        """Return the vessel seen from farther to the right, by so many notches of the wheel."""
+        return self._changed(self.place, self.straightened.rotated(notches * TURN_STEP))
+
+    def scrolled(self, notches: int) -> Linked:
+        """Return the pictures of the place that is so many notches farther along the vessel."""
+        at = min(max(self.place.at + notches * STEP, 0.0), self.vessel.length)
+        return self.moved(replace(self.place, at=at))
+
+    def _changed(self, place: Place, straightened: PlanarReformation) -> Linked:
+        other = object.__new__(Linked)
+        other.scene, other.place, other.vessel = self.scene, place, self.vessel
+        other.straightened = straightened
+        other.section = self.section if place == self.place else other._section()
+        return other
+
+    def _straightened(self) -> PlanarReformation:
+        finest = float(self.scene.volume.spacing.min()) / _FINER
+        spacing = max(finest, self.vessel.length / _MOST_ROWS)
+        laid_out = cpr(self.scene.volume, self.vessel, "straightened", pixel_spacing=spacing, device="cpu")
+        assert isinstance(laid_out, PlanarReformation)
+        return laid_out
+
+    def _section(self) -> CrossSection:
+        radius = _lumencut.radius_at((self.vessel.points, self.vessel.radius), self.place.at)
+        side = min(max(2 * _RADII * radius, _SIDES[0]), _SIDES[1])
+        return cross_section(self.scene.volume, self.vessel, self.place.at, side, side / _SECTION_PIXELS)
+
+    def pictures(self, settings: Settings) -> dict[str, Picture]:
+        """Return the pictures (H, W, 4) by name, in the window of the settings."""
+        window = self.scene.window(settings)
+        return {
+            "straightened": grey_picture(self.straightened.value, window),
+            "section": grey_picture(self.section.value, window),
+        }
+
+    def marks(self, point: Point) -> dict[str, Pixel]:
+        """Return where the pictures show a point (mm, LPS): column and row, by the name of the picture."""
+        _, row = self.straightened.pixel_from_world(self.vessel_point())[0]
+        column, _ = self.straightened.pixel_from_world(point)[0]
+        across, down = self.section.pixel_from_world(point)[0]
+        return {"straightened": (float(column), float(row)), "section": (float(across), float(down))}
+
+    def vessel_point(self) -> Point:
+        """Return the point (mm, LPS) of the centerline at the place."""
+        points = self.vessel.points
+        along = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
+        return np.array([np.interp(self.place.at, along, points[:, axis]) for axis in range(3)])
+
+    def world_from_pixel(self, name: str, pixel: Pixel) -> Point:
+        """Return the point (mm, LPS) that a pixel (column, row) of one of the pictures shows."""
+        if name == "straightened":
+            laid_out: Point = self.straightened.world_from_pixel(pixel)[0]
+            return laid_out
+        height, width = self.section.value.shape
+        column = min(max(round(pixel[0]), 0), width - 1)
+        row = min(max(round(pixel[1]), 0), height - 1)
+        point: Point = self.section.position[row, column]
+        return point
+
+    def place_at(self, name: str, pixel: Pixel) -> Place:
+        """Return the place on the vessel that a pixel of one of the pictures lies at."""
+        if name == "section":
+            return self.place
+        row = min(max(round(pixel[1]), 0), self.straightened.size[1] - 1)
+        return replace(self.place, at=float(self.straightened.arc_length[row]))

@@ -1,0 +1,68 @@
+"""Pictures as a notebook is sent them: PNG, or while they move JPEG of as many pixels as the rate allows."""
+
+from __future__ import annotations
+
+import io
+
+import numpy as np
+import numpy.typing as npt
+
+#: What cannot be seen in a picture that moves is left out.
+_QUALITY = 80
+#: Below and above these a picture that moves gets more or fewer pixels (ms).
+_QUICK, _SLOW = 25.0, 60.0
+#: The shares of the pixels along a side: few, so that pictures do not pump.
+_SHARES = (1.0, 0.75, 0.5, 0.35, 0.25)
+#: So many slow pictures in a row are a slow machine, and not something else that computes for a moment.
+_IN_A_ROW = 3
+
+
+def as_jpeg(image: npt.NDArray[np.uint8]) -> bytes:
+    """Return an RGBA picture (H, W, 4) as the content of a JPEG file, on black where it is transparent."""
+    return _written(image, "JPEG", quality=_QUALITY)
+
+
+def as_png(image: npt.NDArray[np.uint8]) -> bytes:
+    """Return an RGBA picture (H, W, 4) as the content of a PNG file, written quickly rather than small."""
+    return _written(image, "PNG", compress_level=1)
+
+
+def _written(image: npt.NDArray[np.uint8], kind: str, **options: int) -> bytes:
+    from PIL import Image
+
+    picture = Image.fromarray(image)
+    if kind == "JPEG" and image[..., 3].min() < 255:
+        black = Image.new("RGBA", picture.size, (0, 0, 0, 255))
+        picture = Image.alpha_composite(black, picture)
+    if kind == "JPEG" or image[..., 3].min() == 255:
+        picture = picture.convert("RGB")
+    content = io.BytesIO()
+    picture.save(content, format=kind, **options)
+    return content.getvalue()
+
+
+class Pace:
+    """How many pixels a moving picture has: as many as are made in time.
+
+    Attributes
+    ----------
+    share : float
+        The share of the pixels along each side.
+    """
+
+    def __init__(self) -> None:
+        self.share = _SHARES[0]
+        self._slow = self._quick = 0
+
+    def took(self, milliseconds: float) -> None:
+        """Learn how long a picture of this share took."""
+        self._slow = self._slow + 1 if milliseconds > _SLOW else 0
+        self._quick = self._quick + 1 if milliseconds < _QUICK else 0
+        number = _SHARES.index(self.share)
+        if self._slow == _IN_A_ROW:
+            number = min(number + 1, len(_SHARES) - 1)
+        elif self._quick == _IN_A_ROW:
+            number = max(number - 1, 0)
+        else:
+            return
+        self.share, self._slow, self._quick = _SHARES[number], 0, 0

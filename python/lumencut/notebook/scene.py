@@ -1,0 +1,146 @@
+"""What a notebook shows: a volume with its vessels, and what a click into a picture of them means."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Any, Literal
+
+import numpy as np
+import numpy.typing as npt
+
+from lumencut import _lumencut
+from lumencut._checked_settings import checked
+from lumencut.camera import Camera
+from lumencut.errors import VolumeError
+from lumencut.frame import Frame
+from lumencut.picking import brightest
+from lumencut.renderer import Renderer
+from lumencut.settings import Settings
+from lumencut.vessel_tree import VesselTree
+from lumencut.window import Window
+
+Point = npt.NDArray[np.float64]
+DeviceName = Literal["auto", "cpu", "gpu"]
+
+
+@dataclass(frozen=True)
+class Place:
+    """A place on a vessel: its id in the tree, and the arc length (mm)."""
+
+    vessel: int
+    at: float
+
+
+@dataclass(frozen=True)
+class Pick:
+    """What a pixel shows: the world point (mm, LPS), and the place on the vessel in or beside which it is."""
+
+    point: Point
+    place: Place | None
+
+
+class Scene:
+    """A volume with its vessels, or alone.
+
+    Parameters
+    ----------
+    volume : Volume, or whatever else :func:`lumencut.render` takes as one
+        The angiography.
+    tree : VesselTree or None
+        Its centerlines.
+    device : {"auto", "cpu", "gpu"}
+        What computes.
+
+    Raises
+    ------
+    VolumeError, VesselTreeError, SettingsError, DeviceError
+        As :class:`lumencut.Renderer`, and for no volume.
+    """
+
+    def __init__(self, volume: Any, tree: VesselTree | None, device: DeviceName) -> None:
+        if volume is None:
+            raise VolumeError("volume of the notebook", "None", "a Volume, such as read_volume returns")
+        self.device: DeviceName = device
+        self._use(Renderer(volume, tree, device))
+
+    def _use(self, renderer: Renderer) -> None:
+        assert renderer.volume is not None
+        self.renderer, self.volume, self.tree = renderer, renderer.volume, renderer.tree
+
+    def with_tree(self, tree: VesselTree | None) -> Scene:
+        """Return the same volume with another tree; errors as :meth:`Renderer.with_tree`."""
+        other = object.__new__(Scene)
+        other.device = self.device
+        other._use(self.renderer.with_tree(tree))
+        return other
+
+    def window(self, settings: Settings) -> Window:
+        """Return the window that a picture with these settings has: of the context where there is no tree."""
+        used = self.renderer.windowed(settings)
+        window = used.context_window if self.tree is None else used.window
+        assert isinstance(window, Window)
+        return window
+
+    def with_window(self, settings: Settings, window: Window | str | None) -> Settings:
+        """Return the settings with another window of what is shown."""
+        if self.tree is None:
+            return replace(settings, context_window=window)
+        return replace(settings, window=window)
+
+    def moving(
+        self, camera: Camera, settings: Settings, progress: Callable[[int, int], object] | None = None
+    ) -> Frame:
+        """Return a view whose picture alone is asked for, with one sample in each pixel."""
+        quick = replace(settings, samples=1)
+        return self.renderer.render(camera, quick, images=["image"], progress=progress)
+
+    def picked(self, camera: Camera, settings: Settings, pixel: tuple[float, float]) -> Pick:
+        """Return what a pixel (column, row) of a view shows.
+
+        It is the cut surface as ``Frame.position`` has it, or the brightest place on the ray where no cut
+        surface is shown, as with the viewer.
+
+        Raises
+        ------
+        TracingError
+            For a ray beside the volume, where no cut surface is shown.
+        """
+        width, height = camera.size
+        column = min(max(round(pixel[0]), 0), width - 1)
+        row = min(max(round(pixel[1]), 0), height - 1)
+        if self.tree is None or not self._shows_cut(camera, settings, (column, row)):
+            return self.at(brightest(self.volume, camera, pixel), camera.pixel_spacing)
+        plain = replace(settings, samples=1)
+        frame = self.renderer.render(camera, plain, images=["depth", "vessel"])
+        point = frame.position[row, column]
+        return Pick(point, self._place(int(frame.vessel[row, column]), point, camera.pixel_spacing))
+
+    def _shows_cut(self, camera: Camera, settings: Settings, pixel: tuple[float, float]) -> bool:
+        """Whether the pixel shows the cut surface, not what lies around it."""
+        if settings.focus is None:
+            return True
+        used = checked(self.renderer._choosing(settings))
+        return _lumencut.shows_cut(self.renderer._core, self.volume, camera, used, pixel)
+
+    def at(self, point: Point, pixel_spacing: float) -> Pick:
+        """Return a point with the nearest place of the first vessel that a click there means."""
+        places = (self._place(vessel, point, pixel_spacing) for vessel in range(len(self.tree or ())))
+        return Pick(point, next((place for place in places if place is not None), None))
+
+    def _place(self, vessel: int, point: Point, pixel_spacing: float) -> Place | None:
+        """The place on a vessel, where a click at the point means the vessel."""
+        if self.tree is None or vessel < 0:
+            return None
+        at, is_meant = self._nearest(vessel, point, pixel_spacing)
+        return Place(vessel, at) if is_meant else None
+
+    def nearest(self, vessel: int, point: Point) -> Place:
+        """Return the place on a vessel that is nearest to a point, however far it is."""
+        return Place(vessel, self._nearest(vessel, point, 1.0)[0])
+
+    def _nearest(self, vessel: int, point: Point, pixel_spacing: float) -> tuple[float, bool]:
+        assert self.tree is not None
+        line = self.tree[vessel]
+        coordinates = tuple(float(value) for value in point)
+        return _lumencut.meant_place((line.points, line.radius), coordinates, pixel_spacing)
