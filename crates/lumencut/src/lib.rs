@@ -4,6 +4,7 @@
 //!
 //! Points are in world space (LPS, mm) unless their documentation says otherwise.
 
+pub mod axes_words;
 pub mod backend;
 mod choice;
 pub mod cut_at;
@@ -40,12 +41,15 @@ pub mod report;
 mod samples;
 pub mod scale_bar;
 pub mod scan_details;
+pub mod spiral_lengths;
 pub mod study;
 mod text;
 #[cfg(test)]
 #[path = "tests/tube.rs"]
 mod tube;
 pub mod turn;
+pub mod uncurling;
+pub mod value_colours;
 pub mod vessel_views;
 pub mod views;
 pub mod window_presets;

@@ -1,4 +1,5 @@
 /** What can be chosen of a straightened vessel. */
+import type { ComponentChildren } from 'preact';
 import type { Feature } from '../core/messages';
 import * as store from '../state/store';
 
@@ -6,7 +7,7 @@ import * as store from '../state/store';
 export const TURN_STEP = Math.PI / 36;
 
 /** The rotation about the vessel, and which value a pixel shows. */
-export function CprControls() {
+export function CprControls({ children }: { readonly children?: ComponentChildren }) {
   const degrees = Math.round((store.cprAngle.value * 180) / Math.PI);
   return (
     <div class="pane-controls">
@@ -34,6 +35,7 @@ export function CprControls() {
         <option value="mean">CFA, mean</option>
         <option value="min">CFA, smallest</option>
       </select>
+      {children}
     </div>
   );
 }

@@ -3,11 +3,12 @@ import { type Signal, signal } from '@preact/signals';
 import type { ComponentChildren } from 'preact';
 import { useMeasuring } from '../measure/asking';
 import { ProfilePane } from '../measure/ProfilePane';
+import { reformationTitle } from '../state/reformation';
 import { layout, maximised, type Layout as Name, type ViewName } from '../state/store';
-import { CprView } from '../views/CprView';
 import { SectionView } from '../views/SectionView';
 import { SliceView } from '../views/SliceView';
 import { TurningView } from '../views/TurningView';
+import { VesselPane } from '../views/VesselPane';
 import { Divider } from './Divider';
 import { FindingsPanel } from './FindingsPanel';
 import { LooksBar } from './LooksBar';
@@ -76,7 +77,7 @@ function viewOf(name: ViewName) {
     case 'turning':
       return <TurningView />;
     case 'straightened':
-      return <CprView />;
+      return <VesselPane />;
     case 'section':
       return <SectionView />;
     case 'profile':
@@ -105,7 +106,7 @@ function Pane({ name, isHidden, children }: PaneProps) {
     <section class={`pane ${name}${isHidden ? ' hidden' : ''}`} aria-label={TITLES[name]}>
       {name === 'turning' && <LooksBar />}
       {children}
-      <h2 class="pane-title">{TITLES[name]}</h2>
+      <h2 class="pane-title">{name === 'straightened' ? reformationTitle() : TITLES[name]}</h2>
       <button
         type="button"
         class="pane-button"

@@ -161,8 +161,9 @@ impl SpiralParameters {
         let around = place.to_angle() - self.angle;
         let turns = (place.length() / self.rate() - around) / PI;
         // The spirals of both sides pass each half plane in turn.
-        let nearest = (turns - 0.5).ceil().max((-around / PI).ceil());
-        let along = around + nearest * PI;
+        let nearest = (turns - 0.5).ceil();
+        // Nearer to the middle than half of a pitch, and to no winding, it is shown in the middle.
+        let along = (around + nearest * PI).max(0.0);
         let side = if nearest.rem_euclid(2.0) == 0.0 { 1.0 } else { -1.0 };
         side * self.pixels(along)
     }

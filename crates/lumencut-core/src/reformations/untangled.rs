@@ -7,6 +7,7 @@
 mod growth;
 mod hull;
 mod pieces;
+mod room;
 mod sectors;
 mod sheet;
 mod strip;
@@ -17,14 +18,14 @@ use std::sync::{Arc, OnceLock};
 use glam::{DVec2, DVec3, Vec3};
 use rayon::prelude::*;
 
-use self::growth::{Growth, Part};
-use self::hull::Disc;
+use self::growth::Growth;
 use self::pieces::{Piece, pieces_of};
+use self::room::{extent, roots, size_of};
 use self::sheet::{Place, Sheet, placed};
 use self::strip::Strip;
 use self::turning::{BEYOND_NEAR, Tree, Turning, untangle};
 use super::found::NO_VESSEL;
-use super::layout::{Layout, checked_size};
+use super::layout::Layout;
 use crate::camera::{Camera, MAX_PIXEL_SPACING};
 use crate::error::{Error, ErrorKind, Result};
 use crate::geometry::Curved;
@@ -37,9 +38,6 @@ const HULL_MARGIN: Limits = Limits::new(0.0, 1e3, "mm");
 const SMOOTHING: Limits = Limits::new(0.0, 1e3, "mm");
 const PIXEL_SPACING: Limits = Limits::new(1e-6, MAX_PIXEL_SPACING, "mm");
 const UNKNOWN_RADIUS: Limits = Limits::new(0.0, 1e6, "mm");
-
-/// How far the hulls of parts that do not hang together are set apart (mm), where the image is wide enough.
-const BETWEEN_PARTS: f64 = 10.0;
 
 /// The side of the squares of pixels that look for the nearest vessel together.
 const TILE: usize = 8;
@@ -118,6 +116,8 @@ pub struct Untangled {
     closures: Vec<[DVec2; 2]>,
     /// The centre of the first pixel (mm).
     origin: DVec2,
+    /// How wide and high all that is shown is (mm).
+    extent: DVec2,
     size: [usize; 2],
     /// The segment that each pixel shows.
     segments: Arc<OnceLock<Vec<u32>>>,
@@ -150,7 +150,8 @@ impl Untangled {
         let roots = roots(&growth.parts, &turning.hulls, camera, parameters.width);
         let places = placed(&pieces, &growth, &turning.places, &turning.turns, &roots);
         let sheet = Sheet::new(&pieces, &strips, &places, parameters.width);
-        let (origin, size) = extent(&places, &parameters)?;
+        let (origin, extent) = extent(&places, parameters.width);
+        let size = size_of(extent, parameters.pixel_spacing)?;
         let mut made = Self {
             parameters,
             sheet: Arc::new(sheet),
@@ -160,6 +161,7 @@ impl Untangled {
             overlaps: vessels_of(&pieces, &turning.overlaps),
             closures: Vec::new(),
             origin,
+            extent,
             size,
             segments: Arc::default(),
         };
@@ -167,6 +169,40 @@ impl Untangled {
             Arc::new((0..pieces.len()).map(|n| made.laid(n, &pieces, &growth, &turning)).collect());
         made.closures = growth.closures.iter().map(|closure| made.closure(&growth, closure)).collect();
         Ok(made)
+    }
+
+    /// The same layout in pixels of another side (mm): nothing is looked for again.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Camera`] for a side outside its range or too many pixels.
+    pub fn with_pixels(&self, pixel_spacing: f64) -> Result<Self> {
+        let parameters = UntangledParameters { pixel_spacing, ..self.parameters };
+        parameters.check()?;
+        let finer = self.parameters.pixel_spacing / pixel_spacing;
+        let scaled = |part: &LaidOut| LaidOut {
+            pixels: part.pixels.iter().map(|place| *place * finer).collect(),
+            ..part.clone()
+        };
+        Ok(Self {
+            parameters,
+            laid_out: Arc::new(self.laid_out.iter().map(scaled).collect()),
+            closures: self.closures.iter().map(|ends| ends.map(|place| place * finer)).collect(),
+            size: size_of(self.extent, pixel_spacing)?,
+            segments: Arc::default(),
+            ..self.clone()
+        })
+    }
+
+    /// How wide and high all that is shown is (mm).
+    pub fn extent(&self) -> DVec2 {
+        self.extent
+    }
+
+    /// The id of the vessel that a place in the image shows, column and row, and the place along it (mm); None where nothing is
+    /// shown.
+    pub fn vessel_at(&self, pixel: DVec2) -> Option<(usize, f64)> {
+        let place = self.sheet.place(self.seen(pixel))?;
+        Some((self.laid_out[self.sheet.piece(&place)].vessel, self.sheet.arc_length(&place)))
     }
 
     /// How it is laid out.
@@ -331,37 +367,6 @@ fn vessels_of(pieces: &[Piece], numbers: &[usize]) -> Vec<usize> {
     vessels.sort_unstable();
     vessels.dedup();
     vessels
-}
-
-/// Where the roots of parts lie in the image (mm): as they are seen, but from left to right none nearer to the one before it
-/// than to be clear of its hull.
-fn roots(parts: &[Part], hulls: &[Vec<Disc>], camera: &Camera, width: f64) -> Vec<DVec2> {
-    let mut roots: Vec<DVec2> =
-        parts.iter().map(|part| camera.view_from_world(part.root).truncate()).collect();
-    let mut order: Vec<usize> = (0..parts.len()).collect();
-    order.sort_by(|a, b| roots[*a].x.total_cmp(&roots[*b].x));
-    let mut right = f64::NEG_INFINITY;
-    for n in order {
-        let [low, high] = hulls[n].iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], disc| {
-            [low.min(disc.center.x - disc.radius), high.max(disc.center.x + disc.radius)]
-        });
-        roots[n].x = roots[n].x.max(right - low);
-        right = roots[n].x + high + BETWEEN_PARTS.min(width);
-    }
-    roots
-}
-
-/// The centre of the first pixel (mm), and the size that holds all vessels and what lies beside them.
-fn extent(places: &[Vec<DVec2>], parameters: &UntangledParameters) -> Result<(DVec2, [usize; 2])> {
-    let all = places.iter().flatten();
-    let (low, high) = all.fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(low, high), place| {
-        (low.min(*place), high.max(*place))
-    });
-    let pixels = (high - low + 2.0 * parameters.width) / parameters.pixel_spacing;
-    let size =
-        checked_size("size of the untangled CPR", pixels.to_array().map(|length| length.ceil() + 1.0))?;
-    let origin = DVec2::new(low.x - parameters.width, high.y + parameters.width);
-    Ok((origin, size))
 }
 
 #[cfg(test)]

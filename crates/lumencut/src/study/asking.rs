@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::study::failure::{Failure, Result};
 use crate::study::open_study::Picture;
+use crate::study::reformed::ReformedPicture;
 use crate::study::tracing::Watch;
 
 /// When a question is answered, where a viewer has one thread for its study.
@@ -70,6 +71,14 @@ impl Answering for Picture {
     fn sent(self) -> Result<Answer> {
         let json = format!("{{\"size\":{}}}", as_json(&self.size)?);
         Ok(Answer { json, bytes: Some(self.bytes) })
+    }
+}
+
+impl Answering for ReformedPicture {
+    fn sent(self) -> Result<Answer> {
+        let Self { size, bytes, words, pixel_spacing } = self;
+        let told = serde_json::json!({ "size": size, "words": words, "pixel_spacing": pixel_spacing });
+        Ok(Answer { json: as_json(&told)?, bytes: Some(bytes) })
     }
 }
 

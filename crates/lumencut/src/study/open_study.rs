@@ -22,6 +22,7 @@ use crate::study::histogram::Histogram;
 use crate::study::lines::Lines;
 use crate::study::planes::Plane;
 use crate::study::profiles::Profiles;
+use crate::study::reformed::Reformed;
 use crate::study::straightened::Laid;
 use crate::study::view::{CameraMessage, View, ViewMessage};
 
@@ -43,6 +44,7 @@ pub struct Study {
     pub content: Content,
     pub(crate) cpu: CpuRenderer,
     pub(crate) laid: Option<Laid>,
+    pub(crate) reformed: Option<Reformed>,
     /// What was measured.
     pub(crate) profiles: Profiles,
     /// All lines of the study.

@@ -45,7 +45,7 @@ impl Study {
     }
 
     /// What lies at a world point; the vessel where one is given.
-    fn told(&self, point: DVec3, vessel: Option<usize>) -> Pick {
+    pub(super) fn told(&self, point: DVec3, vessel: Option<usize>) -> Pick {
         let arc_length = vessel
             .and_then(|vessel| self.vessel(vessel).ok())
             .map(|vessel| nearest_arc_length(vessel, point));

@@ -22,6 +22,8 @@ use crate::study::open_study::{Picture, Study};
 use crate::study::picking::Pick;
 use crate::study::place_turn::PlaceTurn;
 use crate::study::planes::Plane;
+use crate::study::reformations::ReformationMessage;
+use crate::study::reformed::ReformedPicture;
 use crate::study::report_messages::{Findings, ReportMessage};
 use crate::study::session_files::SessionContent;
 use crate::study::settings::{LookRow, SettingRow, looks, rows};
@@ -91,6 +93,16 @@ of_the_study {
 
     /// Column and row of a point in the straightened CPR that was asked for last; null where none was.
     [Turn::Later] on_straightened(point: Vector) -> Option<[f64; 2]> = study.on_straightened(point);
+
+    /// Another reformation than the straightened CPR, in a pane of this size.
+    [Turn::First] reformed { reformation: ReformationMessage, size: [usize; 2], window: Window } -> ReformedPicture =
+        study.reformed(reformation, size, (window, asking.watch.stop))?;
+
+    /// What a pixel of the reformation shows that was asked for last; null where it shows nothing.
+    [Turn::First] pick_reformed { pixel: [f64; 2] } -> Option<Pick> = study.pick_reformed(pixel)?;
+
+    /// Column and row of a point in the reformation that was asked for last; null where it is not shown.
+    [Turn::Later] on_reformed(point: Vector) -> Option<[f64; 2]> = study.on_reformed(point);
 
     /// The document that the study begins with: the vessels that were opened, counted from 1.
     [Turn::First] begin_document(_nothing: ()) -> Document = study.begin_document();

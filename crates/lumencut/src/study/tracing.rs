@@ -213,6 +213,7 @@ impl Study {
             Some(NamedTree::new(tree, names, lines).among(all))
         };
         self.laid = None;
+        self.reformed = None;
         self.content.named = named;
         Ok(())
     }
@@ -239,6 +240,7 @@ impl Study {
         let lines = tree.vessels().iter().map(|vessel| self.lines.add(vessel.into()));
         let lines = lines.collect::<Result<_>>()?;
         self.laid = None;
+        self.reformed = None;
         self.content.named = Some(NamedTree::new(tree, names, lines));
         Ok(())
     }

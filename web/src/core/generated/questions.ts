@@ -320,6 +320,9 @@ export type LookRow = {
   readonly settings: Settings;
 };
 
+/** What a lumen map shows. */
+export type MapOf = "wall" | "radius" | "thickness";
+
 /** What a reader marked on one vessel (arc lengths, mm). */
 export type Marks = {
   /** The place of a stenosis. */
@@ -482,6 +485,45 @@ export type Profile = {
   readonly not_suggested: ReadonlyArray<string>;
 };
 
+/** A reformation as the page asks for it. */
+export type Reformation = {
+  readonly "kind": "untangled";
+  /** From where they are seen. */
+  readonly side: Side;
+} | {
+  readonly "kind": "uncurl";
+  /** Its number. */
+  readonly vessel: number;
+  /** From where it is seen. */
+  readonly side: Side;
+  /** From 0, as it is seen, to 1, straightened. */
+  readonly amount: number;
+} | {
+  readonly "kind": "spiral";
+  /** Its number. */
+  readonly vessel: number;
+  /** The angle by which sections are turned (radians). */
+  readonly angle: number;
+} | {
+  readonly "kind": "map";
+  /** Its number. */
+  readonly vessel: number;
+  /** What of the wall. */
+  readonly of: MapOf;
+};
+
+/** The picture of a reformation. */
+export type ReformedPicture = {
+  /** Columns and rows. */
+  readonly size: Pair;
+  /** A byte for each channel. */
+  readonly bytes: Bytes;
+  /** What rows, columns and colours are. */
+  readonly words: string;
+  /** The side of a pixel (mm). */
+  readonly pixel_spacing: number;
+};
+
 /** What is open. */
 export type Report = {
   /** The volume; none where vessels alone are open. */
@@ -619,6 +661,14 @@ export type SettingRow = {
   readonly open: string | null;
   /** What it does. */
   readonly sentence: string;
+};
+
+/** From where a view is taken that a reformation begins with. */
+export type Side = {
+  /** From the viewer into the scene. */
+  readonly direction: Vector;
+  /** Upwards. */
+  readonly up: Vector;
 };
 
 /** A place on a vessel and the diameter there (mm). */
@@ -881,6 +931,27 @@ export type Questions = {
     readonly message: Vector;
     readonly answer: Pair | null;
   };
+  /** Another reformation than the straightened CPR, in a pane of this size. */
+  readonly reformed: {
+    readonly message: {
+      readonly reformation: Reformation;
+      readonly size: Pair;
+      readonly window: Pair;
+    };
+    readonly answer: ReformedPicture;
+  };
+  /** What a pixel of the reformation shows that was asked for last; null where it shows nothing. */
+  readonly pick_reformed: {
+    readonly message: {
+      readonly pixel: Pair;
+    };
+    readonly answer: Pick | null;
+  };
+  /** Column and row of a point in the reformation that was asked for last; null where it is not shown. */
+  readonly on_reformed: {
+    readonly message: Vector;
+    readonly answer: Pair | null;
+  };
   /** The document that the study begins with: the vessels that were opened, counted from 1. */
   readonly begin_document: {
     readonly message: null;
@@ -1090,6 +1161,9 @@ export const TURNS = {
   straightened: { when: 'first', words: null },
   pick_straightened: { when: 'first', words: null },
   on_straightened: { when: 'later', words: null },
+  reformed: { when: 'first', words: null },
+  pick_reformed: { when: 'first', words: null },
+  on_reformed: { when: 'later', words: null },
   begin_document: { when: 'first', words: null },
   edit: { when: 'first', words: 'Tracing' },
   check_click: { when: 'first', words: null },

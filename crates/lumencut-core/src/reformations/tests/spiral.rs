@@ -129,3 +129,16 @@ fn what_cannot_be_wound_up_is_refused() {
     let pitch: f64 = words.split("pitch of ").nth(1).unwrap().split(' ').next().unwrap().parse().unwrap();
     assert!(refused(SpiralParameters { pitch, ..FINE }).is_none(), "a pitch of {pitch} mm was told to fit");
 }
+
+#[test]
+fn a_place_beside_the_middle_is_shown_by_what_is_nearest_to_it_in_all_directions() {
+    let spiral = straight(FINE);
+    for turn in 0..64 {
+        let around = DVec2::from_angle(f64::from(turn) * PI / 32.0 - PI);
+        for away in [1e-9, 0.2, 0.45, 0.8, 2.3] {
+            let point = spiral.straightened.world_from_straightened((around * away).extend(5.0));
+            let shown = spiral.world_from_pixel(spiral.pixel_from_world(point));
+            assert!(shown.distance(point) <= FINE.pitch / 2.0 + 1e-9, "{away} mm away at turn {turn}");
+        }
+    }
+}

@@ -337,3 +337,24 @@ fn bad_input_is_named() {
     let stopped = Untangled::new(&fork, &front(), right, &|| true).err().unwrap();
     assert_eq!(stopped.kind, ErrorKind::Interrupted);
 }
+
+#[test]
+fn other_pixels_show_the_same_layout_and_places_tell_their_vessel() {
+    let tree = random_tree(&mut Random(5), 5);
+    let fine = untangled(&tree, UntangledParameters::new(0.5));
+    let coarse = fine.with_pixels(1.0).unwrap();
+    let made = untangled(&tree, UntangledParameters::new(1.0));
+    assert_eq!((coarse.size(), coarse.parameters()), (made.size(), made.parameters()));
+    assert_eq!(coarse.vessel(), made.vessel());
+    for (part, same) in coarse.laid_out().iter().zip(made.laid_out()) {
+        assert!(part.pixels.iter().zip(&same.pixels).all(|(one, other)| one.distance(*other) < 1e-9));
+    }
+    for part in fine.laid_out() {
+        let n = part.pixels.len() / 2;
+        let (vessel, at) = fine.vessel_at(part.pixels[n]).unwrap();
+        assert_eq!(vessel, part.vessel);
+        assert!((at - part.arc_length[n]).abs() < 1e-6);
+    }
+    assert!(fine.vessel_at(DVec2::splat(-1e4)).is_none());
+    assert!(fine.with_pixels(0.0).is_err());
+}

@@ -1,0 +1,188 @@
+//! The reformation of the study that is shown beside the straightened CPR, and what its pixels show.
+
+use glam::{DVec2, DVec3};
+use lumencut_core::frame::Frame;
+use lumencut_core::geometry::Geometry;
+use lumencut_core::math::centerline_path::CenterlinePath;
+use lumencut_core::pipeline::{self, Request};
+use lumencut_core::reformations::cpr::Straightened;
+use lumencut_core::settings::{Settings, Slab, SlabMode};
+use lumencut_core::stages::{Image, ImageSet};
+use lumencut_core::stop::Stop;
+use lumencut_core::vessel_tree::Vessel;
+use std::sync::Arc;
+
+use crate::lumen_map::thickness;
+use crate::lumen_wall::{FoundWall, lumen_wall};
+use crate::study::failure::{Failure, Result};
+use crate::study::held_volume::no_volume;
+use crate::study::open_study::{Study, shown_flat};
+use crate::study::picking::Pick;
+use crate::study::reformations::{
+    BAND, Laid, MapOf, ReformationMessage, head_up, map, spiral, uncurl, untangled,
+};
+use crate::study::reformed::{Reformed, ReformedPicture};
+use crate::value_colours::{Colours, coloured, scale_end};
+
+impl Study {
+    /// A reformation in a pane of this size, in a window.
+    ///
+    /// # Errors
+    /// `vessel tree` where no vessels are shown, for a vessel that there is not, and for one without radii where they are needed;
+    /// `volume` where none is open; and those of the layout.
+    pub fn reformed(
+        &mut self,
+        message: ReformationMessage,
+        size: [usize; 2],
+        (window, stop): ([f64; 2], Stop),
+    ) -> Result<ReformedPicture> {
+        let kept = self.reformed.take().filter(|kept| kept.message == message);
+        let reformed = match kept {
+            Some(kept) if kept.size == size => kept,
+            kept => {
+                let laid = self.laid_out(&message, size, (kept.as_ref(), stop))?;
+                let value = self.values_of(&message, &laid)?;
+                Reformed { message, size, laid, value }
+            }
+        };
+        let picture = picture_of(&reformed, window)?;
+        self.reformed = Some(reformed);
+        Ok(picture)
+    }
+
+    /// What a place in the reformation that was shown last shows; none where it shows nothing.
+    ///
+    /// # Errors
+    /// `settings` where none was shown.
+    pub fn pick_reformed(&self, pixel: [f64; 2]) -> Result<Option<Pick>> {
+        let none = || Failure::of_message("reformation", &"none", "one that is shown");
+        let reformed = self.reformed.as_ref().ok_or_else(none)?;
+        let point = reformed.laid.layout().world_from_pixel(DVec2::from_array(pixel));
+        if !point.is_finite() {
+            return Ok(None);
+        }
+        let (vessel, along) = match &reformed.laid {
+            Laid::Untangled(layout) => {
+                layout.vessel_at(DVec2::from_array(pixel)).map_or((None, None), |(n, at)| (Some(n), Some(at)))
+            }
+            laid => (reformed.message.vessel(), laid.arc_length(pixel)),
+        };
+        let told = self.told(point, vessel);
+        Ok(Some(Pick { arc_length: along.or(told.arc_length), ..told }))
+    }
+
+    /// Column and row of a world point in the reformation that was shown last; none where it is not shown.
+    pub fn on_reformed(&self, point: [f64; 3]) -> Option<[f64; 2]> {
+        let pixel = self.reformed.as_ref()?.laid.layout().pixel_from_world(DVec3::from_array(point));
+        pixel.is_finite().then(|| pixel.to_array())
+    }
+
+    fn laid_out(
+        &mut self,
+        message: &ReformationMessage,
+        size: [usize; 2],
+        (before, stop): (Option<&Reformed>, Stop),
+    ) -> Result<Laid> {
+        Ok(match message {
+            ReformationMessage::Untangled { side } => {
+                let before = before.and_then(|kept| match &kept.laid {
+                    Laid::Untangled(layout) => Some(layout),
+                    _ => None,
+                });
+                let none = || Failure::of_message("vessels of the untangled CPR", &"none", "one or more");
+                let tree = self.content.tree().ok_or_else(none)?;
+                Laid::Untangled(untangled(tree.tree(), side, size, (before, stop))?)
+            }
+            ReformationMessage::Uncurl { vessel, side, amount } => {
+                Laid::Uncurl(uncurl(self.vessel(*vessel)?, side, *amount, size)?, *amount)
+            }
+            ReformationMessage::Spiral { vessel, angle } => {
+                let volume = self.content.held.as_ref().ok_or_else(no_volume)?.volume()?;
+                Laid::Spiral(spiral(self.vessel(*vessel)?, *angle, volume.smallest_side(), size)?)
+            }
+            ReformationMessage::Map { vessel, of } => {
+                let (path, found) = self.wall_of(*vessel, stop)?;
+                let volume = self.content.held.as_ref().ok_or_else(no_volume)?.volume()?;
+                let level = found.levels.map(crate::lumen_map::calcium_level);
+                Laid::Map(map(&volume, &path, &found, (*of, size))?, level)
+            }
+        })
+    }
+
+    /// The path of a vessel and the wall around it: that of its profile, or of its radii where no lumen can be measured.
+    pub(super) fn wall_of(&mut self, number: usize, stop: Stop) -> Result<(Arc<CenterlinePath>, FoundWall)> {
+        let vessel = self.vessel(number)?.clone();
+        let line = self.content.named.as_ref().and_then(|named| named.lines.get(number)).copied();
+        if let Some(line) = line
+            && let Err(error) = self.measured(line, stop)
+            && (vessel.radius().is_none() || error.kind == "interrupted")
+        {
+            return Err(error);
+        }
+        let profile = line.and_then(|line| self.profiles.any_of(line));
+        let volume = self.content.held.as_ref().ok_or_else(no_volume)?.volume()?;
+        let path = Arc::new(CenterlinePath::new(&Vessel::new(vessel.points().to_vec(), None)?, 0.0)?);
+        let straightened = Straightened::new(Arc::clone(&path), &head_up())?;
+        let found = lumen_wall(&volume, &vessel, &straightened, profile)?;
+        Ok((path, found))
+    }
+
+    /// What each pixel shows: a value of the volume, or a length (mm); NaN where it shows nothing.
+    fn values_of(&self, message: &ReformationMessage, laid: &Laid) -> Result<Vec<f32>> {
+        let volume = self.scene()?.volume.ok_or_else(no_volume)?;
+        let of = match message {
+            ReformationMessage::Map { of, .. } => Some(*of),
+            _ => None,
+        };
+        let in_walls = |map: &dyn Fn(usize) -> f32, open: Vec<bool>| {
+            open.iter().enumerate().map(|(n, open)| if *open { f32::NAN } else { map(n) }).collect()
+        };
+        match (of, laid) {
+            (Some(MapOf::Radius), Laid::Map(layout, _)) => {
+                let wall = layout.wall();
+                Ok(in_walls(&|n| wall[n] as f32, layout.open()))
+            }
+            (Some(MapOf::Thickness), Laid::Map(layout, level)) => {
+                let level = level.ok_or_else(no_level)?;
+                let held = self.content.held.as_ref().ok_or_else(no_volume)?.volume()?;
+                let thick = thickness(&held, layout, BAND, level)?;
+                Ok(in_walls(&|n| thick[n], layout.open()))
+            }
+            _ => {
+                let (camera, flat) = shown_flat([0.0, 1.0])?;
+                let band = Slab { thickness: BAND[1] - BAND[0], mode: SlabMode::Max };
+                let settings = Settings { slab: of.map(|_| band), ..flat };
+                let request =
+                    Request { images: ImageSet::of(&[Image::Value]), ..Request::new(&camera, &settings) };
+                let frame = Frame::of(Geometry::Curved(laid.layout().curved()?));
+                Ok(self.cpu.look(&volume, frame, &request)?.value)
+            }
+        }
+    }
+}
+
+/// The picture of a reformation in a window, and what there is to say of it.
+fn picture_of(reformed: &Reformed, window: [f64; 2]) -> Result<ReformedPicture> {
+    let layout = reformed.laid.layout();
+    let size = layout.size();
+    let mut words = reformed.laid.axes().words();
+    let is_length =
+        matches!(reformed.message, ReformationMessage::Map { of: MapOf::Radius | MapOf::Thickness, .. });
+    let pixels = if is_length {
+        let end = scale_end(&reformed.value);
+        words += &format!(" Colours: from 0 (dark blue) to {end} mm (yellow).");
+        coloured(&reformed.value, [0.0, end], Colours::Viridis)
+    } else {
+        pipeline::picture(&reformed.value, size, &shown_flat(window)?.1)?
+    };
+    Ok(ReformedPicture { size, bytes: pixels.into_flattened(), words, pixel_spacing: layout.pixel_spacing() })
+}
+
+fn no_level() -> Failure {
+    let found = "no level, for a vessel whose lumen could not be measured";
+    Failure::of_message("level of calcium of the lumen map", &found, "a vessel whose lumen can be measured")
+}
+
+#[cfg(test)]
+#[path = "tests/reforming.rs"]
+mod tests;

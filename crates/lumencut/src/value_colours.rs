@@ -1,0 +1,84 @@
+//! Colours for measured values, as maps of radius and thickness have them.
+
+/// Viridis at even steps: from dark blue over green to yellow, of evenly rising lightness, so that it also reads in grey and by
+/// those who see few colours. By Nathaniel Smith and Stéfan van der Walt, dedicated to the public domain (CC0).
+const VIRIDIS: [[u8; 3]; 10] = [
+    [68, 1, 84],
+    [72, 40, 120],
+    [62, 74, 137],
+    [49, 104, 142],
+    [38, 130, 142],
+    [31, 158, 137],
+    [53, 183, 121],
+    [109, 205, 89],
+    [180, 222, 44],
+    [253, 231, 37],
+];
+
+const GREYS: [[u8; 3]; 2] = [[0; 3], [255; 3]];
+
+/// Of which colours values are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Colours {
+    /// From dark blue over green to yellow.
+    Viridis,
+    /// From black to white.
+    Grey,
+}
+
+impl Colours {
+    fn table(self) -> &'static [[u8; 3]] {
+        match self {
+            Self::Viridis => &VIRIDIS,
+            Self::Grey => &GREYS,
+        }
+    }
+}
+
+/// The colours (RGBA) of values between the first colour at one end and the last at the other, and of values beyond the ends those of
+/// the ends. What is not finite is transparent.
+pub fn coloured(values: &[f32], [low, high]: [f64; 2], colours: Colours) -> Vec<[u8; 4]> {
+    let table = colours.table();
+    let last = (table.len() - 1) as f64;
+    let colour = |value: &f32| {
+        if !value.is_finite() {
+            return [0; 4];
+        }
+        let share = ((f64::from(*value) - low) / (high - low)).clamp(0.0, 1.0) * last;
+        let before = (share as usize).min(table.len() - 2);
+        let [from, to] = [table[before], table[before + 1]];
+        let part = share - before as f64;
+        let channel =
+            |n: usize| (f64::from(from[n]) + part * (f64::from(to[n]) - f64::from(from[n]))).round() as u8;
+        [channel(0), channel(1), channel(2), 255]
+    };
+    values.iter().map(colour).collect()
+}
+
+/// The value at which colours of lengths end (mm): the largest of them, rounded up to half a millimetre, and half of one at least.
+pub fn scale_end(values: &[f32]) -> f64 {
+    let largest = values.iter().copied().filter(|value| value.is_finite()).fold(0.0, f32::max);
+    ((f64::from(largest) * 2.0).ceil() / 2.0).max(0.5)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_run_from_the_first_colour_to_the_last_and_what_is_none_is_transparent() {
+        let shown = coloured(&[1.0, 3.0, 9.0, 2.0, f32::NAN], [1.0, 3.0], Colours::Viridis);
+        assert_eq!(shown[0], [68, 1, 84, 255]);
+        assert_eq!((shown[1], shown[2]), ([253, 231, 37, 255], [253, 231, 37, 255]));
+        // The middle of ten colours is half way between the fifth and the sixth.
+        assert_eq!(shown[3], [35, 144, 140, 255]);
+        assert_eq!(shown[4], [0; 4]);
+        assert_eq!(coloured(&[0.5], [0.0, 1.0], Colours::Grey), [[128, 128, 128, 255]]);
+    }
+
+    #[test]
+    fn a_scale_ends_at_half_a_millimetre() {
+        assert_eq!(scale_end(&[3.2, f32::NAN, 1.0]), 3.5);
+        assert_eq!(scale_end(&[]), 0.5);
+    }
+}

@@ -1,0 +1,41 @@
+/** The picture of a flat view as a file, with what its axes are below it. */
+import { Failure } from '../core/failure';
+import { isInverted, type ViewName } from '../state/store';
+import { saveAs } from './pictures';
+import { studyFileName } from './study-file-names';
+import { wrapped } from './wrapping';
+
+const FONT = '13px system-ui, sans-serif';
+/** The height of a line of words, and what stays free around them (pixels). */
+const [LINE, MARGIN] = [17, 8];
+/** A narrower picture gets this much room, so that its words need not be broken after each of them. */
+const LEAST_WIDTH = 320;
+
+/** Saves the picture that a view shows as a PNG. */
+export async function savePane(name: ViewName, content: string, words: string): Promise<void> {
+  const shown = document.querySelector<HTMLCanvasElement>(`[data-testid=${name}] canvas.flat`);
+  const canvas = document.createElement('canvas');
+  const context = canvas.getContext('2d');
+  if (!shown || !context || shown.width < 2) {
+    throw new Failure('picture', 'picture', 'none', 'a view that shows one');
+  }
+  canvas.width = Math.max(shown.width, LEAST_WIDTH);
+  context.font = FONT;
+  const lines = wrapped(words, canvas.width - 2 * MARGIN, (text) => context.measureText(text).width);
+  canvas.height = shown.height + lines.length * LINE + 2 * MARGIN;
+  context.fillStyle = '#000';
+  context.fillRect(0, 0, canvas.width, canvas.height);
+  context.filter = isInverted.value ? 'invert(1)' : 'none';
+  context.drawImage(shown, Math.floor((canvas.width - shown.width) / 2), 0);
+  context.filter = 'none';
+  context.font = FONT;
+  context.fillStyle = '#fff';
+  context.textBaseline = 'top';
+  lines.forEach((line, n) => {
+    context.fillText(line, MARGIN, shown.height + MARGIN + n * LINE);
+  });
+  const blob = await new Promise<Blob | null>((resolve) => canvas.toBlob(resolve, 'image/png'));
+  if (blob) {
+    saveAs(blob, studyFileName({ content, ending: 'png' }));
+  }
+}

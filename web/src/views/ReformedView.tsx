@@ -1,0 +1,152 @@
+/** A reformation of the picked vessel, or of all vessels, in the place of the straightened CPR. */
+import { useCallback, useEffect, useRef, useState } from 'preact/hooks';
+import { engine } from '../client/shared';
+import { Failure } from '../core/failure';
+import type { Pair, Picture, Reformation, ReformedPicture, Side } from '../core/messages';
+import { placeCrossHair } from '../link/cross-hair';
+import { attempt } from '../output/attempt';
+import { savePane } from '../output/pane-picture';
+import { TURN_STEP } from '../pane/CprControls';
+import { FlatPicture } from '../pane/FlatPicture';
+import { ReformationChoice } from '../pane/ReformationChoice';
+import { ReformationControls } from '../pane/ReformationControls';
+import { dragWindow, windowBack } from '../state/actions';
+import { mapOf, reformationOf, reformationTitle, uncurled } from '../state/reformation';
+import * as store from '../state/store';
+import { HairLines } from './TurningOverlay';
+
+/** What stands in the place of a picture that could not be made. */
+const NO_PICTURE = (): Picture => ({ size: [1, 1], bytes: new Uint8ClampedArray(4) });
+
+export function ReformedView({ kind }: { readonly kind: Reformation['kind'] }) {
+  const [size, setSize] = useState<Pair | null>(null);
+  const [shown, setShown] = useState<ReformedPicture | null>(null);
+  const [refused, setRefused] = useState('');
+  const side = useSide();
+  const message = reformationOf(kind, {
+    vessel: store.pickedVessel.value,
+    side,
+    angle: store.cprAngle.value,
+    amount: uncurled.value,
+    of: mapOf.value,
+  });
+  const window = store.window_.value;
+  const text = message && JSON.stringify(message);
+  const ask = useCallback(
+    async (pane: Pair) => {
+      try {
+        const reformation = JSON.parse(text ?? '{}') as Reformation;
+        const picture = await engine.ask('reformed', { reformation, size: pane, window });
+        setRefused('');
+        setShown(picture);
+        return picture;
+      } catch (error) {
+        const failure = Failure.of(error);
+        if (failure.kind === 'device' || failure.kind === 'interrupted') {
+          throw failure;
+        }
+        setShown(null);
+        setRefused(failure.message);
+        return NO_PICTURE();
+      }
+    },
+    [text, window, store.report.value?.vessels],
+  );
+  const [left, top] = size && shown ? begin(size, shown.size) : [0, 0];
+  const hair = useHair(shown);
+  return (
+    <>
+      <FlatPicture
+        name="straightened"
+        words={reformationTitle()}
+        ask={text ? ask : null}
+        handlers={handlersOf(kind, [left, top])}
+        empty="The vessel is shown here once there is one."
+        onSize={setSize}
+        style={{ margin: `${top}px auto 0` }}
+      >
+        {refused && <p class="nothing-yet">{refused}</p>}
+        {text && shown && <p class="axes">{shown.words}</p>}
+        {text && hair && <HairLines at={[hair[0] + left + 0.5, hair[1] + top + 0.5]} />}
+      </FlatPicture>
+      <div class="pane-controls">
+        <ReformationControls kind={kind} />
+        <ReformationChoice />
+        {shown && (
+          <button
+            type="button"
+            onClick={() => attempt(() => savePane('straightened', `${kind}-cpr`, shown.words))}
+          >
+            Save picture
+          </button>
+        )}
+      </div>
+    </>
+  );
+}
+
+/** Where a picture begins in its pane: it stands in the middle. */
+const begin = (pane: Pair, picture: Pair): Pair => [
+  Math.floor((pane[0] - picture[0]) / 2),
+  Math.floor((pane[1] - picture[1]) / 2),
+];
+
+/** From where the turning view is seen once it rests: as it turns the reformation stays as it was. */
+function useSide(): Side | null {
+  const kept = useRef<Side | null>(null);
+  const camera = store.settled.value ?? (kept.current ? null : store.camera.value);
+  if (camera) {
+    kept.current = { direction: camera.direction, up: camera.up };
+  }
+  return kept.current;
+}
+
+/** Where the cross-hair is in the picture that is shown; null where it is not in it. */
+function useHair(shown: ReformedPicture | null): Pair | null {
+  const point = store.crossHair.value?.point ?? null;
+  const [hair, setHair] = useState<Pair | null>(null);
+  useEffect(() => {
+    let isWanted = true;
+    if (!point || !shown) {
+      setHair(null);
+      return;
+    }
+    // A study that was closed meanwhile has no place to tell.
+    const told = (place: Pair | null) => isWanted && setHair(place);
+    void engine.ask('on_reformed', point).then(told, () => told(null));
+    return () => {
+      isWanted = false;
+    };
+  }, [point, shown]);
+  return hair;
+}
+
+function handlersOf(kind: Reformation['kind'], [left, top]: Pair) {
+  const point = ([x, y]: Pair) =>
+    attempt(async () => {
+      const pick = await engine.ask('pick_reformed', { pixel: [x - left - 0.5, y - top - 0.5] });
+      if (pick) {
+        placeCrossHair(pick, 'straightened');
+      }
+    });
+  return {
+    drag: (action: string, by: Pair) => (action === 'window' ? dragWindow(by) : undefined),
+    zoom: () => undefined,
+    scroll: (steps: number) => {
+      if (kind === 'uncurl') {
+        uncurled.value = Math.min(Math.max(uncurled.value + steps * 0.02, 0), 1);
+      } else {
+        store.cprAngle.value += steps * TURN_STEP;
+      }
+    },
+    click: (action: string, at: Pair) => {
+      if (action === 'maximise') {
+        store.maximised.value = store.maximised.value === 'straightened' ? null : 'straightened';
+      } else {
+        point(at);
+      }
+    },
+    hover: (at: Pair, shift: boolean) => (shift ? point(at) : undefined),
+    ...windowBack(),
+  };
+}

@@ -1,0 +1,37 @@
+/** What a reformation is asked with, and the words below its picture. */
+import { expect, test } from 'vitest';
+import { wrapped } from '../src/output/wrapping';
+import { type Chosen, REFORMATIONS, reformationOf } from '../src/state/reformation';
+
+const CHOSEN: Chosen = {
+  vessel: 2,
+  side: { direction: [0, 1, 0], up: [0, 0, 1] },
+  angle: 0.3,
+  amount: 0.25,
+  of: 'radius',
+};
+
+test('each reformation is asked with what it is made from, and nothing else', () => {
+  const { side } = CHOSEN;
+  expect(reformationOf('untangled', CHOSEN)).toEqual({ kind: 'untangled', side });
+  expect(reformationOf('uncurl', CHOSEN)).toEqual({ kind: 'uncurl', vessel: 2, side, amount: 0.25 });
+  expect(reformationOf('spiral', CHOSEN)).toEqual({ kind: 'spiral', vessel: 2, angle: 0.3 });
+  expect(reformationOf('map', CHOSEN)).toEqual({ kind: 'map', vessel: 2, of: 'radius' });
+});
+
+test('none is asked for before there is a vessel, or a view where it needs one', () => {
+  for (const [kind] of REFORMATIONS) {
+    if (kind !== 'cpr') {
+      expect(reformationOf(kind, { ...CHOSEN, vessel: null })).toBeNull();
+      const needsView = kind === 'untangled' || kind === 'uncurl';
+      expect(reformationOf(kind, { ...CHOSEN, side: null }) === null).toBe(needsView);
+    }
+  }
+});
+
+test('words are broken where a line is full, and no word is lost', () => {
+  const lines = wrapped('Down: along the vessel, in mm.', 12, (text) => text.length);
+  expect(lines).toEqual(['Down: along', 'the vessel,', 'in mm.']);
+  expect(wrapped('incomprehensible word', 5, (text) => text.length)).toEqual(['incomprehensible', 'word']);
+  expect(wrapped('', 5, (text) => text.length)).toEqual([]);
+});
