@@ -33,7 +33,7 @@ GROUPS: dict[str, tuple[str, tuple[str, ...]]] = {
                 "Slab",
             ),
             *("TransferFunction", "turntable", "fitted_turn", "flight", "save_animation"),
-            *("Device", "devices", "get_threads", "set_threads"),
+            *("show", "Device", "devices", "get_threads", "set_threads"),
         ),
     ),
     "reformations": (
@@ -61,7 +61,7 @@ GROUPS: dict[str, tuple[str, tuple[str, ...]]] = {
         (
             *("LumencutError", "Mend", "VolumeError", "VesselTreeError", "CameraError", "SettingsError"),
             *("DeviceError", "TracingError", "MeasuringError", "FormatError", "SeriesError", "FileError"),
-            *("MissingPackageError", "DeviceWarning", "SpaceWarning"),
+            *("PacsError", "MissingPackageError", "DeviceWarning", "SpaceWarning"),
         ),
     ),
 }

@@ -2,8 +2,8 @@
 #![allow(clippy::unwrap_used)]
 
 use glam::DVec3;
-use lumencut_vessels::trace::find::found::{FoundVessel, Trees};
-use lumencut_vessels::trace::find::one_vessel::{NoVessel, one_vessel};
+use lumencut_vessels::trace::find::found::{FoundVessel, NoVessel, Trees};
+use lumencut_vessels::trace::find::one_vessel::one_vessel;
 use lumencut_vessels::trace::find::track::TrackDoubt;
 use lumencut_vessels::trace::lines::centerline::Centerline;
 

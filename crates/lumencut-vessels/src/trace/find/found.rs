@@ -1,5 +1,7 @@
 //! What has been found: vessels in parts that hang together, with what makes them doubtful.
 
+use glam::DVec3;
+
 use crate::trace::find::track::TrackDoubt;
 use crate::trace::lines::centerline::Centerline;
 
@@ -29,6 +31,15 @@ pub struct FoundVessel {
     pub confidence: f64,
     /// Why it is doubtful; none where it is sure.
     pub doubt: Option<TrackDoubt>,
+}
+
+/// Why a click gives no vessel.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum NoVessel {
+    /// None was found there: the nearest point of one, and how far it is (mm); infinitely far where none was found at all.
+    NotHere(DVec3, f64),
+    /// The click lies within a vessel that there is already: its number.
+    Already(usize),
 }
 
 /// From this confidence on a vessel is sure.

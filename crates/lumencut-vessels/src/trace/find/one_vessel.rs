@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use crate::trace::find::choose::near;
-use crate::trace::find::found::Trees;
+use crate::trace::find::found::{NoVessel, Trees};
 use crate::trace::lines::centerline::Centerline;
 use crate::trace::lines::nearest_point::nearest_point;
 use crate::trace::lumen::within::holds;
@@ -13,15 +13,6 @@ pub use crate::trace::find::choose::REACH;
 
 /// Nearer than this the end of a branch is a point of the vessel that it hangs on (mm); they are equal but for rounding.
 const SAME: f64 = 1e-6;
-
-/// Why a click gives no vessel.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum NoVessel {
-    /// None was found there: the nearest point of one, and how far it is (mm); infinitely far where none was found at all.
-    NotHere(DVec3, f64),
-    /// The click lies within a vessel that there is already: its number.
-    Already(usize),
-}
 
 /// The vessel in whose lumen a click (mm, LPS) lies, the nearest in units of the radius, a sure one before a doubtful one. Where one of
 /// the vessels it hangs on leads to one that is there already (`beside`), its line begins at a point of that one; else it begins

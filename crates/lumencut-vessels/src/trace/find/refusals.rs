@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::trace::find::one_vessel::NoVessel;
+use crate::trace::find::found::NoVessel;
 use crate::trace::lumen::lumen_model::in_words;
 use lumencut_core::error::{Error, ErrorKind};
 

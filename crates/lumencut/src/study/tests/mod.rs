@@ -7,6 +7,7 @@ mod planes;
 mod pretty;
 mod tracing;
 pub(crate) mod typescript;
+mod whole_vessel;
 
 use crate::backend::Backend;
 use crate::devices::Wanted;
