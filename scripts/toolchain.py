@@ -34,7 +34,12 @@ TARGETS = (
 #: What lets the tests of the GPU run without one: the loader of Vulkan, and a driver that is software.
 VULKAN_PACKAGES = ("libvulkan1", "mesa-vulkan-drivers")
 #: What judges the DICOM files that Lumencut writes: command, and the package of Debian that brings it.
-DICOM_TOOLS = {"dciodvfy": "dicom3tools", "dcm2pnm": "dcmtk", "Orthanc": "orthanc"}
+DICOM_TOOLS = {
+    "dciodvfy": "dicom3tools",
+    "dcm2pnm": "dcmtk",
+    "Orthanc": "orthanc",
+    "pdftotext": "poppler-utils",
+}
 #: Orthanc's plugin for DICOMweb, which is a library, and its package.
 DICOMWEB_PLUGIN, DICOMWEB_PACKAGE = "libOrthancDicomWeb.so", "orthanc-dicomweb"
 #: Where Debian installs the plugins of Orthanc.

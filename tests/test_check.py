@@ -211,13 +211,15 @@ def test_missing_judges_of_dicom_are_installed_by_root_and_else_refused(toolchai
 
     monkeypatch.setattr(toolchain.subprocess, "run", installs)
     monkeypatch.setattr(toolchain.os, "geteuid", lambda: 1000)
-    with pytest.raises(SystemExit, match="no dicom3tools, orthanc, orthanc-dicomweb; expected"):
+    with pytest.raises(
+        SystemExit, match="no dicom3tools, orthanc, poppler-utils, orthanc-dicomweb; expected"
+    ):
         toolchain.add_dicom()
     monkeypatch.setattr(toolchain.os, "geteuid", lambda: 0)
     toolchain.add_dicom()
     toolchain.add_dicom()
     # At run level 1 no server is started, which would listen beyond this machine.
-    assert asked == [(["dicom3tools", "orthanc", "orthanc-dicomweb"], "1")]
+    assert asked == [(["dicom3tools", "orthanc", "poppler-utils", "orthanc-dicomweb"], "1")]
 
 
 def test_a_missing_vulkan_is_installed_by_root_and_else_refused(toolchain, monkeypatch, tmp_path):

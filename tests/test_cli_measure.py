@@ -186,7 +186,7 @@ def test_the_point_spread_is_the_given_one(files, tmp_path):
         (["--plot", "{}/nowhere/p.png"], 1, "no folder"),
         (["--plot", "{}/p.png", "--sections", "{}/p.png"], 2, "would be written twice"),
         (["-o", "{}/p.xlsx"], 2, "expected .csv or .json"),
-        (["--device", "cpu"], 2, "--device does nothing without --report"),
+        (["--device", "cpu"], 2, "--device does nothing without --report or --dicom"),
         (["--series", "3"], 2, "--series does nothing"),
     ],
 )

@@ -130,7 +130,7 @@ def test_json_of_a_stenosis_has_method_references_and_mm(marked):
 
 
 def test_only_two_endings_are_profiles(profile, tmp_path):
-    with pytest.raises(FormatError, match=r"'\.xlsx'; expected \.csv or \.json"):
+    with pytest.raises(FormatError, match=r"'\.xlsx'; expected \.csv, \.json, \.dcm"):
         profile.save(tmp_path / "profile.xlsx")
     assert list(tmp_path.iterdir()) == []
 

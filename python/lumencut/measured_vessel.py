@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Literal
 
 from lumencut import _lumencut
@@ -95,6 +95,10 @@ class MeasuredVessel:
     def not_graded(self) -> str | None:
         """Why a marked place has no percentage: what is still missing, or what is wrong with a place."""
         return None if self._grade is None else self._grade.not_graded
+
+    def unnamed(self) -> MeasuredVessel:
+        """Return the same without the name of the vessel."""
+        return replace(self, vessel=Vessel(self.vessel.points, self.vessel.radius))
 
     @property
     def name(self) -> str:

@@ -114,7 +114,8 @@ class Measurements:
         arrays = [(one.points, one.radius) for one in self._tree]
         measured = (asked.points, asked.radius)
         how = (self._step, self._fwhm, self._wall)
-        return Profile(self._kept.profile(self._volume, arrays, measured, *how, progress))
+        core = self._kept.profile(self._volume, arrays, measured, *how, progress)
+        return Profile(core, asked, self._volume._origin)
 
     def __repr__(self) -> str:
         return f"Measurements({self._volume!r}, {self._tree!r})"

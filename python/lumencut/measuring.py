@@ -97,7 +97,8 @@ def measure(
     level = wall_level(wall)
     told = None if others is None else _told_by_tree(grid, tree, others, along, given, level)
     measured = (vessel.points, vessel.radius)
-    return Profile(_lumencut.measure(grid, measured, along, given, others, level, told, progress))
+    core = _lumencut.measure(grid, measured, along, given, others, level, told, progress)
+    return Profile(core, vessel, grid._origin)
 
 
 def _told_by_tree(

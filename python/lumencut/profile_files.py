@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 from lumencut import _lumencut
 from lumencut._files import WRITABLE, checked_path, write_text
 from lumencut.errors import FormatError
+from lumencut.frame import check_dicom_alone
 from lumencut.profile_sections import Sections
+from lumencut.stenosis import Stenosis
 
 #: What every file says of itself.
 NOTICE = _lumencut.MEASURING_NOTICE
@@ -37,10 +41,32 @@ def json_text(sections: Sections) -> str:
     return _lumencut.profile_json(sections._core)
 
 
-def save(sections: Sections, path: str | os.PathLike[str]) -> None:
-    """Write one profile as its ending says: ``.csv`` or ``.json``."""
+def save_object(
+    sections: Sections,
+    path: str | os.PathLike[str],
+    study: Any,
+    stenoses: Sequence[Stenosis],
+    *,
+    anonymous: bool,
+) -> None:
+    """Write one profile as a structured report of DICOM."""
+    from lumencut.dicom_objects.chosen_study import chosen_study
+    from lumencut.dicom_objects.measured import measured
+    from lumencut.dicom_objects.structured_report import check_highdicom, write_report
+
+    checked = checked_path(path, WRITABLE)
+    check_highdicom()
+    if sections._origin is None:
+        raise FormatError(str(checked), "a profile made by hand", "one of measure")
+    found = chosen_study(sections._origin, study, anonymous=anonymous)
+    write_report(checked, [measured(sections, stenoses)], found, names=not anonymous)
+
+
+def save(sections: Sections, path: str | os.PathLike[str], **of_objects: Any) -> None:
+    """Write one profile as its ending says: ``.csv`` or ``.json``; refuse what only DICOM holds."""
     checked = checked_path(path, WRITABLE)
     if not is_profile_file(checked):
-        raise FormatError(str(checked), f"the ending {checked.suffix!r}", " or ".join(_ENDINGS))
+        raise FormatError(str(checked), f"the ending {checked.suffix!r}", ", ".join((*_ENDINGS, ".dcm")))
+    check_dicom_alone(checked, **of_objects)
     is_table = checked.suffix.lower() == ".csv"
     write_text(checked, csv_text(sections) if is_table else json_text(sections))

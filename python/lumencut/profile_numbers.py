@@ -6,6 +6,8 @@ import numpy as np
 import numpy.typing as npt
 
 from lumencut import _lumencut
+from lumencut.dicom_objects.study import Origin
+from lumencut.vessel import Vessel
 
 _Floats = npt.NDArray[np.float64]
 
@@ -13,8 +15,10 @@ _Floats = npt.NDArray[np.float64]
 class ProfileNumbers:
     """The numbers of a profile, a base of :class:`lumencut.Profile`."""
 
-    def __init__(self, core: _lumencut.Profile) -> None:
-        self._core = core
+    def __init__(
+        self, core: _lumencut.Profile, vessel: Vessel | None = None, origin: Origin | None = None
+    ) -> None:
+        self._core, self._vessel, self._origin = core, vessel, origin
         self._numbers = {name: _locked(values) for name, values in core.numbers()}
         self._parts = {name: _locked(values) for name, values in core.uncertainty_parts()}
         self._flags = core.flags

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
 
 from lumencut.profile_sections import Sections
+from lumencut.stenosis import Stenosis
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -14,23 +16,55 @@ if TYPE_CHECKING:
 class ProfileOutputs:
     """The files and the plot of a profile, a base of :class:`lumencut.Profile`."""
 
-    def save(self: Sections, path: str | os.PathLike[str]) -> None:
-        """Write the sections as a table (``.csv``) or for programs (``.json``); it appears once it is whole.
+    def save(
+        self: Sections,
+        path: str | os.PathLike[str],
+        *,
+        study: Any = None,
+        anonymous: bool = False,
+        stenoses: Sequence[Stenosis] = (),
+    ) -> None:
+        """Write the sections as a table (``.csv``), for programs (``.json``) or as DICOM (``.dcm``).
+
+        The file appears once it is whole.
 
         The table has a line for each section. Names of columns state the unit, flags are words separated by
         ``"; "``, ``counts`` says whether a section counts for what is narrowest, widest or suggested, numbers
         have seven digits, and what could not be measured is empty. JSON is that of :meth:`to_json`.
 
+        DICOM is a structured report (TID 1500), PRELIMINARY and UNVERIFIED: the centerline with its length,
+        and of each stenosis the percentage with its method and its doubts, and diameters, area and contour at
+        its place and its references. What Lumencut suggests is not written. It needs highdicom:
+        ``pip install lumencut[dicom]``.
+
+        Parameters
+        ----------
+        path : path-like
+            The ending names the format.
+        study, anonymous
+            For ``.dcm``, as in :meth:`Frame.save`; with ``anonymous`` the name of the vessel is left out.
+        stenoses : sequence of Stenosis, default ()
+            For ``.dcm``: what :meth:`Profile.stenosis` graded.
+
         Raises
         ------
         FormatError
-            For another ending.
+            For another ending; for ``.dcm`` where there is no one study with a frame of reference.
+        MeasuringError
+            For stenoses that are none of this vessel.
+        SettingsError
+            For what only ``.dcm`` can hold.
+        MissingPackageError
+            For ``.dcm`` without highdicom.
         FileError
             Where the file cannot be written.
         """
-        from lumencut.profile_files import save
+        from lumencut.profile_files import save, save_object
 
-        save(self, path)
+        if os.fspath(path).lower().endswith(".dcm"):
+            save_object(self, path, study, stenoses, anonymous=anonymous)
+            return
+        save(self, path, study=study, anonymous=anonymous, stenoses=tuple(stenoses) or None)
 
     def to_json(self: Sections) -> str:
         """Return the profile as JSON: a list for each column of the sections, suggestions, the point spread.

@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from lumencut import _lumencut
+from lumencut.dicom_objects.study import Origin
 from lumencut.flags import Flag
 
 Floats = npt.NDArray[np.float64]
@@ -19,6 +20,7 @@ class Sections(Protocol):
     """The measured sections of a vessel: what :class:`lumencut.Profile` has of them for plots and files."""
 
     _core: _lumencut.Profile
+    _origin: Origin | None
 
     def __len__(self) -> int: ...
 

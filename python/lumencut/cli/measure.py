@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from lumencut.cli import options
+from lumencut.cli.dicom import study_options
+from lumencut.cli.measure_dicom import check_dicom, study_for, write_objects
 from lumencut.cli.measure_outputs import check_outputs, write_outputs
 from lumencut.cli.mistakes import check_files, check_reading
 from lumencut.cli.parameters import PLACES, WALL, joined_places
@@ -107,6 +109,14 @@ _OF_A_PLACE = ("reference", "method", "original", "comparison", "group")
     "--sections", type=options.FILE, help="Sections with their contours side by side, as a picture."
 )
 @click.option("--report", type=options.FILE, help="A page for each vessel with all of it (.html).")
+@click.option(
+    "--dicom",
+    type=options.FILE,
+    metavar="FOLDER",
+    help="Write DICOM objects of the scan's study: a structured report (needs lumencut[dicom]), the report "
+    "as a PDF (needs lumencut[plot]) and pictures.",
+)
+@study_options
 @options.reading_options
 @verbose_option
 def measure(output: tuple[Path, ...], **chosen: Any) -> None:
@@ -124,6 +134,7 @@ def measure(output: tuple[Path, ...], **chosen: Any) -> None:
     """  # noqa: D301 - click needs the control character itself
     _check_places(chosen)
     check_outputs(output, chosen)
+    check_dicom(chosen)
     files = scene_from(chosen)
     check_files(files.volume, files.centerlines)
     check_reading(chosen, [chosen["volume"]], has_centerlines=True)
@@ -133,6 +144,8 @@ def measure(output: tuple[Path, ...], **chosen: Any) -> None:
     from lumencut.placement import check_meeting
 
     check_meeting(voxels, tree)
+    if chosen["dicom"] is not None:
+        study_for(voxels, chosen)
     vessels = named_vessels(tree, chosen)
     if chosen["at"] is not None and len(vessels) > 1:
         mend = "choose one by --vessel or --path"
@@ -143,6 +156,8 @@ def measure(output: tuple[Path, ...], **chosen: Any) -> None:
         for line in one.told:
             say(f"  {line}")
     write_outputs(voxels, tree, measured, output, chosen)
+    if chosen["dicom"] is not None:
+        write_objects(voxels, tree, measured, chosen)
 
 
 def _described(profile: Profile) -> str:

@@ -41,8 +41,10 @@ def check_outputs(output: Sequence[Path], chosen: dict[str, Any]) -> None:
         options.check_folder(path)
     if chosen["sections"] is not None:
         _check_sheet(chosen["sections"])
-    if chosen["device"] != "auto" and chosen["report"] is None:
-        raise click.UsageError("--device does nothing without --report: the CPU measures; leave it out")
+    if chosen["device"] != "auto" and chosen["report"] is chosen["dicom"] is None:
+        raise click.UsageError(
+            "--device does nothing without --report or --dicom: the CPU measures; leave it out"
+        )
     _check_twice([path for _, path in named] + [chosen["sections"]])
     if chosen["plot"] is not None:
         from lumencut.profile_plot import check_matplotlib

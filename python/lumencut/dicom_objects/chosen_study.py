@@ -79,5 +79,7 @@ def _anonymous(origin: Origin) -> Study:
         if keyword in header:
             delattr(header, keyword)
     header.StudyInstanceUID = uid_of("anonymous study", origin.fingerprint)
+    # Coordinates are in a frame that nothing else is in.
+    header.FrameOfReferenceUID = uid_of("anonymous frame", origin.fingerprint)
     header.PatientIdentityRemoved, header.DeidentificationMethod = "YES", _METHOD
     return Study(header)

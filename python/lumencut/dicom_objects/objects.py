@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import unicodedata
 from collections.abc import Callable
 from dataclasses import dataclass
 from datetime import datetime
@@ -18,6 +19,8 @@ RESEARCH = "(research, not for diagnosis)"
 #: Codes of the standard (DCM): why an image is named as a source, and how an object was derived.
 SOURCE_IMAGE = ("121322", "Source image for image processing operation")
 CURVED_REFORMATION = ("113073", "Curved multiplanar reformatting")
+#: What stands for letters that not every character set has.
+_PLAIN = {"°": " deg", "×": "x", "–": "-", "±": "+/-", "²": "2", "ß": "ss", "…": "..."}
 #: The longest texts of the value representations LO, ST and LT.
 LO, ST, LT = 64, 1024, 10240
 
@@ -61,7 +64,8 @@ def new_object(study: Study, kind: Kind, settings: str, number: int = 1) -> Any:
     from pydicom.dataset import Dataset
 
     data = Dataset()
-    for keyword in (*PATIENT, *VISIT, *SCAN):
+    # What the pixels of a scan are is no matter of reports, which have a modality of their own.
+    for keyword in (*PATIENT, *VISIT, *(() if kind.modality else SCAN)):
         if keyword in study.header and keyword not in ("Laterality", "PatientPosition"):
             data[keyword] = study.header[keyword]
     for keyword in NEVER_ABSENT:
@@ -123,7 +127,11 @@ def _reference(instance: tuple[str, str]) -> Any:
 
 def cut(text: str, longest: int) -> str:
     """Return a text in plain letters, as every character set has them, no longer than its element may be."""
-    plain = text.replace("°", " deg").replace("×", "x").replace("–", "-").encode("ascii", "replace").decode()
+    for letters, others in _PLAIN.items():
+        text = text.replace(letters, others)
+    # Accents are left out, and what has no likeness at all becomes a question mark.
+    bare = "".join(one for one in unicodedata.normalize("NFKD", text) if not unicodedata.combining(one))
+    plain = bare.encode("ascii", "replace").decode()
     return plain if len(plain) <= longest else f"{plain[: longest - 4]} ..."
 
 

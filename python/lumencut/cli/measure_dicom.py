@@ -1,0 +1,105 @@
+"""What ``lumencut measure --dicom`` writes: numbers, report and pictures beside the scan in its study."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from lumencut.cli.report import busy, say
+
+if TYPE_CHECKING:
+    from lumencut.dicom_objects.study import Study
+    from lumencut.measured_vessel import MeasuredVessel
+    from lumencut.renderer import Renderer
+    from lumencut.vessel_tree import VesselTree
+    from lumencut.volume import Volume
+
+#: Columns of a straightened vessel (mm), and the coarsest of its pixels.
+_WIDTH, _COARSEST = 50.0, 0.25
+
+
+def check_dicom(chosen: dict[str, Any]) -> None:
+    """Refuse what cannot be written as DICOM, before any file is read."""
+    if chosen["dicom"] is None:
+        for name in ("like_study", "anonymous"):
+            if chosen[name]:
+                option = f"--{name.replace('_', '-')}"
+                raise click.UsageError(
+                    f"{option} does nothing without --dicom; name a folder, or leave it out"
+                )
+        return
+    if chosen["like_study"] is not None and chosen["anonymous"]:
+        raise click.UsageError("--like-study and --anonymous exclude each other; leave one of them out")
+    if chosen["dicom"].exists() and not chosen["dicom"].is_dir():
+        raise click.UsageError(f"--dicom {chosen['dicom']}: found a file; expected a folder")
+    from lumencut.dicom_objects.structured_report import check_highdicom
+    from lumencut.profile_plot import check_matplotlib
+
+    check_highdicom()
+    check_matplotlib()
+
+
+def study_for(voxels: Volume, chosen: dict[str, Any]) -> Study:
+    """Return the study that objects are put into, before anything is measured."""
+    from lumencut.dicom_objects.chosen_study import chosen_study
+
+    return chosen_study(voxels._origin, chosen["like_study"], anonymous=chosen["anonymous"])
+
+
+def write_objects(
+    voxels: Volume, tree: VesselTree, measured: Sequence[MeasuredVessel], chosen: dict[str, Any]
+) -> None:
+    """Write the structured report, the PDF, a view and a straightened CPR of each vessel into the folder."""
+    from lumencut.renderer import Renderer
+
+    folder, study = chosen["dicom"], study_for(voxels, chosen)
+    folder.mkdir(exist_ok=True)
+    shown = [one.unnamed() for one in measured] if chosen["anonymous"] else list(measured)
+    renderer = Renderer(voxels, tree, chosen["device"])
+    with busy(f"writing {folder}"):
+        _write_numbers(folder / "report.dcm", shown, study)
+        _write_pdf(folder / "report-pdf.dcm", shown, study, renderer, chosen)
+        count = _write_pictures(folder, shown, study, renderer)
+    say(f"{folder}: report.dcm, report-pdf.dcm and {count} pictures")
+
+
+def _write_numbers(path: Path, shown: list[MeasuredVessel], study: Study) -> None:
+    from lumencut.dicom_objects.measured import measured
+    from lumencut.dicom_objects.structured_report import write_report
+
+    graded = [(one, () if one.stenosis is None else (one.stenosis,)) for one in shown]
+    write_report(path, [measured(one.profile, stenoses, one.vessel) for one, stenoses in graded], study)
+
+
+def _write_pdf(
+    path: Path, shown: list[MeasuredVessel], study: Study, renderer: Renderer, chosen: dict[str, Any]
+) -> None:
+    from lumencut.dicom_objects.encapsulated_pdf import write_pdf
+    from lumencut.measure_report import report
+    from lumencut.report_pdf import report_pdf
+
+    volume = renderer.volume
+    assert volume is not None, "vessels are measured in a volume"
+    html = report(renderer, volume, shown, chosen)
+    write_pdf(path, report_pdf(html, shown), "Lumencut: measured vessels", study)
+
+
+def _write_pictures(folder: Path, shown: list[MeasuredVessel], study: Study, renderer: Renderer) -> int:
+    """Write the view from the front, and each vessel straightened; return how many pictures there are."""
+    from lumencut.camera import Camera
+    from lumencut.dicom_objects.picture import write_picture
+    from lumencut.planar_reformation import cpr_of
+
+    frame = renderer.render(Camera.anterior(renderer.scene, (768, 768)))
+    write_picture(folder / "anterior.dcm", frame._as_object(annotate=True, vessel_names=False), study)
+    volume = renderer.volume
+    assert volume is not None, "vessels are measured in a volume"
+    spacing = min(_COARSEST, float(volume.spacing.min()))
+    for number, one in enumerate(shown, 1):
+        made = cpr_of(renderer, one.vessel, "straightened", width=_WIDTH, pixel_spacing=spacing)
+        picture = made._as_object(annotate=True, vessel_names=False)
+        write_picture(folder / f"vessel-{number}.dcm", picture, study, number=number)
+    return 1 + len(shown)

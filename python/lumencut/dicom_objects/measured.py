@@ -1,0 +1,112 @@
+"""What of measured vessels a structured report holds: what a reader marked, and nothing that is suggested."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from lumencut.dicom_objects.codes import DISTAL_REFERENCE, LUMEN_MINIMUM, PROXIMAL_REFERENCE, Coded
+from lumencut.errors import MeasuringError
+from lumencut.stenosis import Stenosis
+from lumencut.vessel import Vessel
+
+
+@dataclass(frozen=True, eq=False)
+class Place:
+    """A section that a reader marked.
+
+    Attributes
+    ----------
+    kind : (str, str, str)
+        The code of what it is.
+    arc_length : float
+        Where it is on the vessel (mm).
+    contour : numpy.ndarray, shape (m, 3)
+        The wall of the lumen (mm, LPS).
+    equivalent, uncertainty : float
+        The diameter of a circle of the same area, and its standard deviation (mm).
+    mean, shortest, longest : float
+        Diameters (mm).
+    area : float
+        The area of the lumen (mm²).
+    """
+
+    kind: Coded
+    arc_length: float
+    contour: npt.NDArray[np.float64]
+    equivalent: float
+    uncertainty: float
+    mean: float
+    shortest: float
+    longest: float
+    area: float
+
+
+@dataclass(frozen=True, eq=False)
+class Measured:
+    """A vessel with what a reader marked on it.
+
+    Attributes
+    ----------
+    name : str or None
+        What it is called.
+    points : numpy.ndarray, shape (n, 3)
+        The centerline (mm, LPS).
+    length : float
+        Its length (mm).
+    places : tuple of Place
+        The marked sections.
+    stenoses : tuple of Stenosis
+        What was graded.
+    """
+
+    name: str | None
+    points: npt.NDArray[np.float64]
+    length: float
+    places: tuple[Place, ...]
+    stenoses: tuple[Stenosis, ...]
+
+
+def measured(profile: Any, stenoses: Sequence[Stenosis], vessel: Vessel | None = None) -> Measured:
+    """Return what a report holds of a profile of :func:`lumencut.measure`.
+
+    Parameters
+    ----------
+    profile : Profile
+        The profile.
+    stenoses : sequence of Stenosis
+        What was graded on it.
+    vessel : Vessel, optional
+        The vessel as it is to be called, in the place of the one that was measured.
+
+    Raises
+    ------
+    MeasuringError
+        For what is no stenosis, or one of a place beyond the vessel.
+    """
+    for one in stenoses:
+        if not isinstance(one, Stenosis):
+            expected, mend = "Stenosis objects", "give what profile.stenosis returned"
+            raise MeasuringError("stenoses of the report", type(one).__name__, expected, mend)
+        if not 0 <= one.at <= profile.arc_length[-1]:
+            found = f"a stenosis at {one.at:.1f} mm of a vessel of {profile.arc_length[-1]:.1f} mm"
+            raise MeasuringError("stenoses of the report", found, "stenoses of this vessel")
+    kinds: dict[float, Coded] = {}
+    for one in stenoses:
+        kinds[one.at] = LUMEN_MINIMUM
+        for place, _ in one.references:
+            kinds.setdefault(place, PROXIMAL_REFERENCE if place < one.at else DISTAL_REFERENCE)
+    places = tuple(_place(profile, at, kind) for at, kind in sorted(kinds.items()))
+    vessel = vessel or profile._vessel
+    return Measured(vessel.name, vessel.points, vessel.length, places, tuple(stenoses))
+
+
+def _place(profile: Any, at: float, kind: Coded) -> Place:
+    number = profile._core.nearest(at)
+    names = ("diameter_equivalent", "uncertainty", "diameter_mean", "diameter_min", "diameter_max", "area")
+    values = (float(getattr(profile, name)[number]) for name in names)
+    return Place(kind, float(profile.arc_length[number]), profile.contour[number], *values)

@@ -1,0 +1,279 @@
+"""Measured vessels as a structured report of TID 1500, which data bases and other programs read."""
+
+from __future__ import annotations
+
+import copy
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from lumencut import _lumencut
+from lumencut.dicom_objects import codes
+from lumencut.dicom_objects.codes import Coded
+from lumencut.dicom_objects.measured import Measured, Place
+from lumencut.dicom_objects.objects import LO, RESEARCH, ST, Kind, cut, new_object, sealed, write
+from lumencut.dicom_objects.study import Study
+from lumencut.dicom_objects.uids import uid_of
+from lumencut.errors import FormatError, MissingPackageError
+from lumencut.stenosis import Stenosis
+
+#: What highdicom says of the maker of the images, for whom it takes that of the report.
+_OF_HIGHDICOM = ("ContributingEquipmentSequence", "InstanceCreationDate", "InstanceCreationTime")
+#: Comprehensive 3D SR Storage.
+_REPORT = "1.2.840.10008.5.1.4.1.1.88.34"
+
+
+def check_highdicom() -> None:
+    """Refuse to make a structured report without highdicom.
+
+    Raises
+    ------
+    MissingPackageError
+    """
+    try:
+        import highdicom  # noqa: F401 - whether it is there
+    except ImportError as error:
+        mend = 'pip install "lumencut[dicom]"'
+        raise MissingPackageError(
+            "structured report", "no package highdicom", "the extra [dicom]", mend
+        ) from error
+
+
+def write_report(path: Path, vessels: Sequence[Measured], study: Study, *, names: bool = True) -> None:
+    """Write vessels with what a reader marked on them: PRELIMINARY and UNVERIFIED.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+    vessels : sequence of Measured
+        What is told.
+    study : Study
+        Where it belongs; its frame of reference is that of all coordinates.
+    names : bool, default True
+        Whether vessels are called by their names.
+
+    Raises
+    ------
+    FormatError
+        For a study whose images state no frame of reference.
+    MissingPackageError
+        Without highdicom.
+    """
+    check_highdicom()
+    frame = study.text("FrameOfReferenceUID")
+    if not frame:
+        found, mend = "images without a FrameOfReferenceUID", "give anonymous=True (--anonymous)"
+        raise FormatError("study of the scan", found, "one that coordinates are in", mend)
+    groups = [
+        group
+        for number, one in enumerate(vessels, 1)
+        for group in _Vessel(one, one.name if names else None, number, frame).groups()
+    ]
+    content = _content(groups, study)
+    kind = Kind(_REPORT, "measurements", 9007, "SR")
+    data = new_object(study, kind, "")
+    data.SeriesDescription = f"Lumencut measurements {RESEARCH}"
+    _take(data, _document(content, data, study))
+    told = [text for group in groups for text in _texts(group)]
+    sealed(data, *told)
+    write(data, path)
+
+
+class _Vessel:
+    """The groups of measurements of one vessel."""
+
+    def __init__(self, one: Measured, name: str | None, number: int, frame: str) -> None:
+        self._one, self._frame = one, frame
+        self._title = cut(name or f"vessel {number}", LO)
+        self._key = repr((number, one.length, one.points[0].tolist()))
+        code, side = codes.site_of(name)
+        self._sites = [_site(code, side)] if code is not None else None
+
+    def groups(self) -> list[Any]:
+        """The marked places, the stenoses, and the centerline with its length."""
+        places = [self._place(place) for place in self._one.places]
+        return [*places, *(self._stenosis(one) for one in self._one.stenoses), self._line()]
+
+    def _tracked(self, words: str) -> Any:
+        from highdicom.sr import TrackingIdentifier
+
+        return TrackingIdentifier(uid_of("tracking", self._key, words), f"{self._title}, {words}")
+
+    def _place(self, place: Place) -> Any:
+        """A section with its contour (TID 1410)."""
+        from highdicom.sr import ImageRegion3D, PlanarROIMeasurementsAndQualitativeEvaluations
+
+        outline = np.vstack([place.contour, place.contour[:1]])
+        return PlanarROIMeasurementsAndQualitativeEvaluations(
+            self._tracked(f"{place.kind[2]} at {place.arc_length:.1f} mm"),
+            referenced_region=ImageRegion3D("POLYGON", outline, self._frame),
+            finding_type=_code(place.kind),
+            finding_sites=self._sites,
+            measurements=_measurements(place),
+        )
+
+    def _stenosis(self, one: Stenosis) -> Any:
+        """A percentage with its method (TID 1501), and what makes it doubtful."""
+        from highdicom.sr import MeasurementsAndQualitativeEvaluations
+
+        name = codes.AREA_STENOSIS if one.method == "area" else codes.DIAMETER_STENOSIS
+        group = MeasurementsAndQualitativeEvaluations(
+            self._tracked(f"stenosis at {one.at:.1f} mm"),
+            finding_type=_code(codes.STENOSIS),
+            finding_sites=self._sites,
+            measurements=[
+                _number(name, one.percent, "%", codes.METHODS[one.method], one.percent_uncertainty)
+            ],
+        )
+        for words in (str(one), *one.doubts):
+            _comment(group, words)
+        return group
+
+    def _line(self) -> Any:
+        """The centerline with its length (TID 1501)."""
+        from highdicom.sr import (
+            CoordinatesForMeasurement3D,
+            Measurement,
+            MeasurementsAndQualitativeEvaluations,
+        )
+
+        line = CoordinatesForMeasurement3D("POLYLINE", self._one.points, self._frame)
+        length = Measurement(
+            _code(codes.SEGMENT_LENGTH),
+            _rounded(self._one.length),
+            _unit("mm"),
+            referenced_coordinates=[line],
+        )
+        return MeasurementsAndQualitativeEvaluations(
+            self._tracked("centerline"),
+            finding_type=_code(codes.CENTERLINE),
+            finding_sites=self._sites,
+            measurements=[length],
+        )
+
+
+def _measurements(place: Place) -> list[Any]:
+    """The diameters and the area of a section."""
+    found = [_number(codes.DIAMETER, place.equivalent, "mm", codes.BY_AREA, place.uncertainty)]
+    derived = ((codes.MEAN, place.mean), (codes.SHORTEST, place.shortest), (codes.LONGEST, place.longest))
+    for derivation, value in derived:
+        found.append(_number(codes.DIAMETER, value, "mm", derivation=derivation))
+    return [*found, _number(codes.AREA, place.area, "mm2")]
+
+
+def _number(
+    name: Coded,
+    value: float,
+    unit: str,
+    method: Coded | None = None,
+    uncertainty: float = np.nan,
+    derivation: Coded | None = None,
+) -> Any:
+    """A number; its uncertainty, where it is known, is one standard deviation to both sides."""
+    from highdicom.sr import Measurement, MeasurementProperties
+
+    properties = None
+    if np.isfinite(uncertainty):
+        spread = _rounded(uncertainty)
+        properties = MeasurementProperties(
+            upper_measurement_uncertainty=spread, lower_measurement_uncertainty=spread
+        )
+        # It is in the unit of the number, for which highdicom has no argument.
+        for item in properties:
+            item.MeasuredValueSequence[0].MeasurementUnitsCodeSequence[0] = _unit(unit)
+    return Measurement(
+        _code(name),
+        _rounded(value),
+        _unit(unit),
+        method=None if method is None else _code(method),
+        derivation=None if derivation is None else _code(derivation),
+        properties=properties,
+    )
+
+
+def _comment(group: Any, words: str) -> None:
+    """Add a sentence to a group of measurements."""
+    from highdicom.sr import TextContentItem
+
+    item = TextContentItem(_code(codes.COMMENT), cut(words, ST), relationship_type="CONTAINS")
+    group[0].ContentSequence.append(item)
+
+
+def _content(groups: list[Any], study: Study) -> Any:
+    """The tree of the report."""
+    from highdicom import sr
+
+    device = sr.DeviceObserverIdentifyingAttributes(
+        uid_of("device", _lumencut.__version__),
+        manufacturer_name="Lumencut",
+        model_name=f"Lumencut {_lumencut.__version__} {RESEARCH}",
+    )
+    observer = sr.ObserverContext(_code(("121007", "DCM", "Device")), device)
+    procedure = codes.PROCEDURES.get(study.text("Modality"), codes.OTHER_PROCEDURE)
+    return sr.MeasurementReport(
+        sr.ObservationContext(observer_device_context=observer),
+        _code(procedure),
+        groups,
+        title=_code(codes.REPORT),
+    )
+
+
+def _document(content: Any, data: Any, study: Study) -> Any:
+    """The tree in a document of highdicom, which one image of the scan stands beside as evidence."""
+    from highdicom.sr import Comprehensive3DSR
+
+    image = copy.deepcopy(data)
+    image.SeriesInstanceUID = study.text("SeriesInstanceUID") or data.SeriesInstanceUID
+    # All of a long scan would make the report two hundred times as large.
+    kinds = study.instances or ((data.SOPClassUID, uid_of("nothing")),)
+    image.SOPClassUID, image.SOPInstanceUID = kinds[len(kinds) // 2]
+    return Comprehensive3DSR(
+        [image],
+        content[0],
+        data.SeriesInstanceUID,
+        data.SeriesNumber,
+        uid_of("replaced"),
+        data.InstanceNumber,
+        manufacturer="Lumencut",
+        is_complete=True,
+        is_final=False,
+        is_verified=False,
+        record_evidence=bool(study.instances),
+    )
+
+
+def _take(data: Any, document: Any) -> None:
+    """Take over what makes a document a report; whose it is and who wrote it is known already."""
+    for element in document:
+        if element.tag not in data and element.keyword not in _OF_HIGHDICOM:
+            data[element.tag] = element
+
+
+def _texts(group: Any) -> list[bytes]:
+    """What a group says, for the UID of the report."""
+    return [str(item).encode() for item in group]
+
+
+def _code(code: Coded) -> Any:
+    from highdicom.sr import CodedConcept
+
+    return CodedConcept(*code)
+
+
+def _unit(unit: str) -> Any:
+    meanings = {"mm": "mm", "mm2": "square millimeter", "%": "percent"}
+    return _code((unit, "UCUM", meanings[unit]))
+
+
+def _site(code: Coded, side: Coded | None) -> Any:
+    from highdicom.sr import FindingSite
+
+    return FindingSite(_code(code), laterality=None if side is None else _code(side))
+
+
+def _rounded(value: float) -> float:
+    """A number in seven digits, as in all tables."""
+    return float(f"{value:.7g}")
