@@ -200,6 +200,7 @@ class Frame(KeepsReadOnly):
         study: Any = None,
         anonymous: bool = False,
         compress: bool = False,
+        values: bool = False,
     ) -> None:
         """Write the picture, or with the ending ``.npz`` all arrays; a file appears only once it is whole.
 
@@ -225,6 +226,9 @@ class Frame(KeepsReadOnly):
             made for each scan. That is not the Basic Profile of PS3.15.
         compress : bool, default False
             For ``.dcm``: write the pixels as JPEG 2000, lossless.
+        values : bool, default False
+            For ``.dcm``: write the values at the cut surface, without labels and context, as a derived CT or
+            MR image that a PACS shows in any window. It has a frame of reference of its own.
 
         Raises
         ------
@@ -240,9 +244,10 @@ class Frame(KeepsReadOnly):
             raise SettingsError("vessel_names", "True without annotate", "annotate=True beside it")
         if path.suffix.lower() == ".dcm":
             labels = {"annotate": annotate, "vessel_names": vessel_names}
-            self._save_object(path, **labels, study=study, anonymous=anonymous, compress=compress)
+            how = {"anonymous": anonymous, "compress": compress, "values": values}
+            self._save_object(path, labels, study, **how)
             return
-        check_dicom_alone(path, study=study, anonymous=anonymous, compress=compress)
+        check_dicom_alone(path, study=study, anonymous=anonymous, compress=compress, values=values)
         if path.suffix.lower() == ".npz":
             replace_whole(path, self._write_arrays)
             return
@@ -250,13 +255,30 @@ class Frame(KeepsReadOnly):
         save_picture(image, path, self._png_options(annotate=annotate, vessel_names=vessel_names))
 
     def _save_object(
-        self, path: Path, *, study: Any, anonymous: bool, compress: bool, number: int = 1, **labels: bool
+        self,
+        path: Path,
+        labels: dict[str, bool],
+        study: Any,
+        *,
+        anonymous: bool,
+        compress: bool,
+        values: bool,
+        number: int = 1,
     ) -> None:
-        """Write the picture as DICOM, with its place in a series of several views."""
+        """Write the picture or its values as DICOM, with their place in a series of several views."""
         from lumencut.dicom_objects.picture import write_picture
+        from lumencut.dicom_objects.values import write_plane
+        from lumencut.dicom_objects.views import view_values
 
-        labels["vessel_names"] &= not anonymous
-        made, found = self._as_object(**labels), self._study(study, anonymous=anonymous)
+        found = self._study(study, anonymous=anonymous)
+        if values:
+            check_values(labels["annotate"], compress)
+            plane, about = view_values(self.value, self.camera, self._known_source())
+            write_plane(path, plane, about, found, number=number)
+            return
+        made = self._as_object(
+            annotate=labels["annotate"], vessel_names=labels["vessel_names"] and not anonymous
+        )
         write_picture(path, made, found, number=number, compress=compress)
 
     def _as_object(self, *, annotate: bool, vessel_names: bool) -> Picture:
@@ -305,6 +327,15 @@ def check_dicom_alone(path: Path, **given: Any) -> None:
         if value is not None and value is not False:
             found = f"{value!r}, with the ending {path.suffix!r}"
             raise SettingsError(name, found, "the ending .dcm", "leave it out for other files")
+
+
+def check_values(annotate: bool, compress: bool) -> None:
+    """Refuse what values cannot have."""
+    for name, value in (("annotate", annotate), ("compress", compress)):
+        if value:
+            raise SettingsError(
+                name, "True beside values", "False, for values", "write a picture beside them"
+            )
 
 
 def picture_as_png(image: npt.NDArray[np.uint8]) -> bytes:

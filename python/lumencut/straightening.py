@@ -10,8 +10,10 @@ import numpy as np
 import numpy.typing as npt
 
 from lumencut._checks import number, numbers
+from lumencut._files import WRITABLE, checked_path
 from lumencut._reformation_checks import check_vessel
 from lumencut.errors import CameraError
+from lumencut.frame import check_dicom_alone
 from lumencut.mends import told
 from lumencut.planar_reformation import PlanarReformation, cpr_of, one_angle
 from lumencut.renderer import Renderer
@@ -41,7 +43,7 @@ class StraightenedVolume:
 
     def __init__(self, volume: Volume, surface: PlanarReformation) -> None:
         self.volume: Volume = volume
-        self._core = surface._core
+        self._core, self._surface = surface._core, surface
 
     @property
     def arc_length(self) -> npt.NDArray[np.float64]:
@@ -64,17 +66,41 @@ class StraightenedVolume:
         scale, origin = self._grid
         return (self._core.straightened_from_world(checked) - origin) / scale
 
-    def save(self, path: str | os.PathLike[str]) -> None:
+    def save(self, path: str | os.PathLike[str], *, study: Any = None, anonymous: bool = False) -> None:
         """Write the volume as ``.nrrd``, ``.nii`` or ``.nii.gz``; the file appears only once it is whole.
+
+        A name without an ending is a folder, which must not be there yet: a series of derived CT or MR images
+        is written into it, one for each section, with a frame of reference of its own. The letters of sides
+        that viewers show on them are those of the straightened patient.
+
+        Parameters
+        ----------
+        path : path-like
+            The file or folder.
+        study, anonymous
+            For a folder, as in :meth:`Frame.save`.
 
         Raises
         ------
         FormatError
-            For another ending.
+            For another ending; for a folder where there is no one study of CT or MR to belong to.
+        SettingsError
+            For what only a folder can hold.
         FileError
             Where the file cannot be written.
         """
-        write_volume(self.volume, path)
+        place = checked_path(path, WRITABLE)
+        if place.suffix:
+            check_dicom_alone(place, study=study, anonymous=anonymous)
+            write_volume(self.volume, place)
+            return
+        from lumencut.dicom_objects.straightened_series import write_straightened
+
+        surface = self._surface
+        found = surface._study(study, anonymous=anonymous)
+        is_whole = surface._known_volume().dtype.kind in "iu"
+        about = (surface.recipe, surface.settings, surface.shown_window)
+        write_straightened(place, self.volume, about, found, is_whole=is_whole)
 
     def __repr__(self) -> str:
         """Return the size."""

@@ -188,7 +188,8 @@ class Volume(KeepsReadOnly):
         voxels = self._voxels
         some = voxels[:: max(1, len(voxels) // 4096)]
         grid = repr((self.size, self.dtype.str, self._affine_rows))
-        return Origin(self._study, hashlib.sha256(grid.encode() + some.tobytes()).hexdigest())
+        fingerprint = hashlib.sha256(grid.encode() + some.tobytes()).hexdigest()
+        return Origin(self._study, fingerprint, self.dtype.kind in "iu")
 
     @functools.cached_property
     def _windows(self) -> FoundOnce[tuple[float, float]]:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from lumencut.cli import options, reformations
+from lumencut.cli.dicom import study_of
 from lumencut.cli.parameters import SIZE
 from lumencut.cli.report import busy, detail, say
 from lumencut.cli.tangential import MODE as TANGENTIAL
@@ -85,7 +86,8 @@ _COARSEST = 0.25
 @click.option(
     "--volume-out",
     type=options.FILE,
-    help="Write the sections across one vessel as a volume too (.nrrd, .nii or .nii.gz).",
+    help="Write the sections across one vessel as a volume too (.nrrd, .nii or .nii.gz, or a name without an "
+    "ending: a new folder for a DICOM series).",
 )
 @reformations.picture_options
 def cpr(volume_out: Path | None, **given: Any) -> None:
@@ -103,7 +105,8 @@ def cpr(volume_out: Path | None, **given: Any) -> None:
     check_view(given)
     _check_outputs(given["output"], volume_out)
     chosen, settings = reformations.like({**given, "camera": None}, "cpr")
-    renderer, _, vessels = reformations.read_vessels(chosen, settings, "cpr")
+    has_series = volume_out is not None and not volume_out.suffix
+    renderer, _, vessels = reformations.read_vessels(chosen, settings, "cpr", has_series=has_series)
     if volume_out is not None:
         reformations.check_single(vessels, volume_out)
     lay_out = tangential if chosen["mode"] == TANGENTIAL else _plane
@@ -118,9 +121,9 @@ def _check_outputs(output: Path, volume_out: Path | None) -> None:
     options.check_picture(output)
     if volume_out is None:
         return
-    if not volume_out.name.lower().endswith((".nrrd", ".nii", ".nii.gz")):
+    if volume_out.suffix and not volume_out.name.lower().endswith((".nrrd", ".nii", ".nii.gz")):
         found = f"{volume_out}: found the ending {volume_out.suffix!r}"
-        raise click.UsageError(f"{found}; expected .nrrd, .nii or .nii.gz")
+        raise click.UsageError(f"{found}; expected .nrrd, .nii or .nii.gz, or none for a DICOM series")
     options.check_folder(volume_out)
 
 
@@ -154,5 +157,5 @@ def _write_volume(path: Path, voxels: Volume, vessel: Vessel, chosen: dict[str, 
             chosen["up"],
             chosen["smoothing"],
         )
-        made.save(path)
+        made.save(path, **({} if path.suffix else study_of(chosen)))
     say(f"{path}: {made.volume!r}")

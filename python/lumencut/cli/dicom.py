@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from lumencut.settings import Settings
     from lumencut.volume import Volume
 
-_OPTIONS = ("like_study", "anonymous", "compress", "grey")
+_OPTIONS = ("like_study", "anonymous", "compress", "grey", "values")
 
 
 def dicom_options(command: Command) -> Command:
@@ -55,10 +55,13 @@ def is_object(path: Path) -> bool:
     return path.suffix.lower() == ".dcm"
 
 
-def check_objects(chosen: dict[str, Any], outputs: Iterable[Path]) -> None:
-    """Refuse options of DICOM objects that exclude each other, or where none is written."""
+def check_objects(chosen: dict[str, Any], outputs: Iterable[Path], *, has_series: bool = False) -> None:
+    """Refuse options of DICOM objects that exclude each other, or where none is written.
+
+    With `has_series` a series is written beside the outputs.
+    """
     asked = [f"--{name.replace('_', '-')}" for name in _OPTIONS if chosen.get(name)]
-    if asked and not any(is_object(path) for path in outputs):
+    if asked and not has_series and not any(is_object(path) for path in outputs):
         raise click.UsageError(f"{asked[0]} does nothing without an output .dcm; name one, or leave it out")
     if chosen["like_study"] is not None and chosen["anonymous"]:
         raise click.UsageError("--like-study and --anonymous exclude each other; leave one of them out")

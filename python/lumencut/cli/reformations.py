@@ -108,11 +108,14 @@ def like(chosen: dict[str, Any], command: str) -> tuple[dict[str, Any], Settings
 
 
 def read_vessels(
-    chosen: dict[str, Any], settings: Settings, command: str
+    chosen: dict[str, Any], settings: Settings, command: str, *, has_series: bool = False
 ) -> tuple[Renderer, VesselTree, list[tuple[str, Vessel]]]:
-    """Return a renderer of the files, the tree, and the vessels that are chosen with their titles."""
+    """Return a renderer of the files, the tree, and the vessels that are chosen with their titles.
+
+    With `has_series` a DICOM series is written beside the output.
+    """
     files = scene_from(chosen)
-    check_objects(chosen, [chosen["output"]])
+    check_objects(chosen, [chosen["output"]], has_series=has_series)
     check_files(files.volume, files.centerlines)
     check_reading(chosen, [chosen["volume"]], has_centerlines=True)
     voxels, tree = read_files(files, chosen)

@@ -57,6 +57,11 @@ from lumencut.cli.settings import paper_option, setting_options, settings_from
 @like_option
 @label_options
 @dicom_options
+@click.option(
+    "--values",
+    is_flag=True,
+    help="For .dcm: the values at the cut surface as a derived CT or MR image, for any window, no labels.",
+)
 @paper_option
 @setting_options
 @verbose_option
@@ -95,6 +100,8 @@ def render(
     check_scene(files, chosen, settings)
     check_labels(chosen, output, views[0][1].size)
     check_objects(chosen, output)
+    if chosen["values"] and (chosen["annotate"] or chosen["compress"]):
+        raise click.UsageError("--values has no labels and is not compressed; leave the other option out")
     renderer, scene = read_scene(files, chosen)
     warn_of_window(settings, renderer)
     warn_of_vessels(chosen, recipe, renderer)
@@ -110,7 +117,9 @@ def render(
             with busy(f"writing {path.name}"):
                 labels = labels_of(path, chosen, recipe)
                 if is_object(path):
-                    frame._save_object(path, **labels, **object_options(path, chosen), number=number)
+                    how = {**object_options(path, chosen), "values": chosen["values"], "number": number}
+                    labels["annotate"] &= not chosen["values"]
+                    frame._save_object(path, labels, **how)
                 else:
                     frame.save(path, **labels)
             say(f"{path}: {shown(frame.camera, settings, renderer)}")

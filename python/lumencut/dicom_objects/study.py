@@ -82,7 +82,10 @@ class Origin:
         The study of the scan; None where the scan was not read from DICOM.
     fingerprint : str
         Tells scans apart by their grid and some of their voxels; it names nobody.
+    is_whole : bool, default False
+        Whether its voxels are whole numbers.
     """
 
     study: Study | None
     fingerprint: str
+    is_whole: bool = False

@@ -12,6 +12,8 @@ from lumencut import _lumencut
 from lumencut.camera import Camera
 from lumencut.dicom_objects.objects import CURVED_REFORMATION, RESEARCH
 from lumencut.dicom_objects.picture import Picture
+from lumencut.dicom_objects.values import About, Plane, scaling_of
+from lumencut.errors import FormatError
 from lumencut.frame_source import FrameSource
 from lumencut.orientation import edges, view_name
 from lumencut.picture_text import plain_settings
@@ -70,6 +72,39 @@ def view_picture(
         settings.context is not None,
         code,
     )
+
+
+def view_values(values: npt.NDArray[np.float32], camera: Camera, source: FrameSource) -> tuple[Plane, About]:
+    """Return the values of a view on a plane through the middle of the camera, and what is said of them.
+
+    Parameters
+    ----------
+    values : numpy.ndarray, float32, shape (H, W)
+        The volume at the cut surface, NaN outside.
+    camera : Camera
+        The view.
+    source : FrameSource
+        What it was made from.
+
+    Raises
+    ------
+    FormatError
+        For mpCPR, in whose pictures distances are not true, and for a scan that states no spacing or no
+        orientation.
+    """
+    if source.method == "mpcpr" or not (source.states_spacing and source.states_orientation):
+        found = "a picture of mpCPR" if source.method == "mpcpr" else "a scan without spacing or orientation"
+        expected = "a view whose distances and sides are true, for values"
+        raise FormatError("values of the view", found, expected, "write the picture, without values")
+    assert source.origin is not None, "whoever renders a frame knows its scan"
+    picture = view_picture(np.empty((0, 0, 4), np.uint8), camera, source, has_cut=True)
+    width, height = camera.size
+    right, down = np.asarray(camera.right_axis), -np.asarray(camera.up)
+    middle = (width - 1) / 2 * right + (height - 1) / 2 * down
+    plane = Plane(values, right, down, camera.center - middle * camera.pixel_spacing, camera.pixel_spacing)
+    scaling = scaling_of(values, is_whole=source.origin.is_whole)
+    said = (picture.method, picture.words, picture.settings, picture.comments)
+    return plane, About(*said, source.window, scaling)
 
 
 def reformed_picture(
