@@ -41,7 +41,11 @@ def test_views_are_one_series_in_their_order(line, tmp_path):
     run("render", series(), line, *views, "-o", tmp_path / "{view}.dcm", "--size", "200x200")
     made = [pydicom.dcmread(tmp_path / f"{name}.dcm") for name in ("anterior", "left", "posterior")]
     assert [data.InstanceNumber for data in made] == [1, 2, 3]
-    assert [data.ImageComments for data in made] == ["View anterior", "View left", "View posterior"]
+    assert [data.ImageComments for data in made] == [
+        "View anterior",
+        "View left, C-arm LAO 90 deg",
+        "View posterior, C-arm LAO 180 deg",
+    ]
     assert len({data.SeriesInstanceUID for data in made}) == 1
     assert len({data.SOPInstanceUID for data in made}) == 3
     # Letters and scale are burnt in where nobody says otherwise: viewers show none.

@@ -48,11 +48,12 @@ def view_name(camera: Camera) -> str:
     top = VIEWS["anterior" if name is None else name][1]
     # Where the head lies in the picture, counterclockwise from its top.
     turned = _whole_degrees(-np.dot(top, camera.right_axis), np.dot(top, camera.up))
-    return (name or _c_arm_angles(-camera.direction)) + (f" turned {turned}°" if turned else "")
+    return (name or c_arm_angles(camera)) + (f" turned {turned}°" if turned else "")
 
 
-def _c_arm_angles(viewer: npt.NDArray[np.float64]) -> str:
-    """The angles of a viewer in this direction (LPS, a unit vector) from the patient."""
+def c_arm_angles(camera: Camera) -> str:
+    """Return the angles at which a C-arm sees the patient as a view does, "anterior" where both are 0."""
+    viewer = -camera.direction
     to_the_left = _whole_degrees(viewer[0], -viewer[1])
     to_the_head = _whole_degrees(viewer[2], math.hypot(viewer[0], viewer[1]))
     parts = ((to_the_left, "LAO", "RAO"), (to_the_head, "CRA", "CAU"))

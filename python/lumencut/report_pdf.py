@@ -158,7 +158,7 @@ class _Sheet:
     def plot(self, block: Block, one: MeasuredVessel) -> None:
         """Draw the vessel, and below it its diameters by arc length."""
         picture = block.picture
-        wide, strip = (_WIDTH - 2 * _MARGIN) * 0.66, 0.9
+        wide, strip = (_WIDTH - 2 * _MARGIN) * 0.58, 0.9
         self._room(_PLOT + strip + 0.5)
         if picture is not None:
             self._top -= strip

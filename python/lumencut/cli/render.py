@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -33,6 +33,15 @@ from lumencut.cli.scene import (
 )
 from lumencut.cli.settings import paper_option, setting_options, settings_from
 
+if TYPE_CHECKING:
+    from lumencut.camera import Camera
+    from lumencut.recipe import Recipe
+    from lumencut.vessel_tree import VesselTree
+    from lumencut.volume import Volume
+
+#: The names of `lumencut.hanging.HANGINGS`, here so that ``--help`` need not import numpy.
+HANGINGS = ("evar", "carotid", "runoff", "coronary", "head")
+
 
 @click.command(short_help="Render pictures.")
 @options.scene_arguments
@@ -47,6 +56,12 @@ from lumencut.cli.settings import paper_option, setting_options, settings_from
     "in the place of {view}.",
 )
 @options.several_views_options
+@click.option(
+    "--hanging",
+    type=click.Choice(HANGINGS),
+    help="A fixed set of views in a fixed order with one field of view, as one series of .dcm, instead of "
+    "--view.",
+)
 @found_options
 @click.option(
     "--all-parts",
@@ -67,6 +82,7 @@ from lumencut.cli.settings import paper_option, setting_options, settings_from
 @verbose_option
 def render(
     output: tuple[Path, ...],
+    hanging: str | None,
     **chosen: Any,
 ) -> None:
     """Render VOLUME along CENTERLINES as one picture, or one for each --view.
@@ -91,7 +107,7 @@ def render(
     recipe = recipe_from(chosen["like"])
     given = chosen if recipe is None else typed(chosen)
     settings = settings_from(given, None if recipe is None else recipe.settings)
-    views = views_of(chosen, recipe)
+    views = views_of(chosen, recipe) if hanging is None else _hanging(hanging, chosen)
     planned = pictures([view for view, _ in views], output)
     files = scene_from(chosen)
     check_found(chosen)
@@ -105,8 +121,8 @@ def render(
     renderer, scene = read_scene(files, chosen)
     warn_of_window(settings, renderer)
     warn_of_vessels(chosen, recipe, renderer)
-    for number, (picture, (_, view)) in enumerate(zip(planned, views, strict=True), 1):
-        camera = camera_of(view, scene, chosen, recipe)
+    cameras = _placed(views, scene, chosen, recipe, is_hanging=hanging is not None)
+    for number, (picture, camera) in enumerate(zip(planned, cameras, strict=True), 1):
         name = "" if len(planned) == 1 else f" {name_of(picture.view)}"
         with bar(f"rendering{name}", "share") as told:
             frame = renderer.render(camera, settings, progress=told)
@@ -124,3 +140,31 @@ def render(
                     frame.save(path, **labels)
             say(f"{path}: {shown(frame.camera, settings, renderer)}")
     detail(f"device: {renderer.device}")
+
+
+def _hanging(name: str, chosen: dict[str, Any]) -> list[tuple[Any, Camera]]:
+    """The views of a hanging, beside which no option says from where one looks."""
+    for other in ("view", "like", "up", "rotate", "tilt", "center", "zoom_to"):
+        if other in typed(chosen):
+            found = f"--{other.replace('_', '-')} does nothing beside --hanging"
+            raise click.UsageError(f"{found}, which says from where one looks; leave it out")
+    from lumencut.hanging import hanging_views
+
+    return list(hanging_views(name, chosen["size"]))
+
+
+def _placed(
+    views: list[tuple[Any, Camera]],
+    scene: VesselTree | Volume,
+    chosen: dict[str, Any],
+    recipe: Recipe | None,
+    *,
+    is_hanging: bool,
+) -> list[Camera]:
+    """The cameras of the views at their places; those of a hanging have one field of view."""
+    if not is_hanging:
+        return [camera_of(view, scene, chosen, recipe) for _, view in views]
+    from lumencut.hanging import fitted_alike
+
+    alike = fitted_alike([view for _, view in views], scene)
+    return [options.placed_like(camera, chosen) for camera in alike]

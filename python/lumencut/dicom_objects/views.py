@@ -15,7 +15,7 @@ from lumencut.dicom_objects.picture import Picture
 from lumencut.dicom_objects.values import About, Plane, scaling_of
 from lumencut.errors import FormatError
 from lumencut.frame_source import FrameSource
-from lumencut.orientation import edges, view_name
+from lumencut.orientation import c_arm_angles, edges, view_name
 from lumencut.picture_text import plain_settings
 from lumencut.reformation_recipe import ReformationRecipe, camera_parameters
 from lumencut.settings import Settings
@@ -54,6 +54,7 @@ def view_picture(
     method = _METHODS[source.method] if has_cut else (settings.context or "context")
     code = CURVED_REFORMATION if has_cut else _CONTEXT_CODES.get(method, _VOLUME_RENDERING)
     view = view_name(camera) if source.states_orientation else "orientation not stated"
+    angles = c_arm_angles(camera) if source.states_orientation else view
     sides = edges(camera) if source.states_orientation else {}
     # A ruler across a picture of mpCPR, whose rows are moved, would be wrong.
     is_true = source.states_spacing and source.method != "mpcpr"
@@ -68,7 +69,7 @@ def view_picture(
         settings_text(settings),
         camera.pixel_spacing if is_true else None,
         (sides["right"], sides["bottom"]) if sides else None,
-        f"View {view}",
+        f"View {view}" if angles in view else f"View {view}, C-arm {angles}",
         settings.context is not None,
         code,
     )
