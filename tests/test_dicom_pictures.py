@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pydicom
 import pytest
@@ -202,6 +204,23 @@ def test_names_stay_as_they_are_in_their_characters(tmp_path, charset, name):
         source = pydicom.dcmread(next((tmp_path / "named").iterdir()))
         assert str(data.PatientName) == str(source.PatientName) == name
     assert data.SpecificCharacterSet == source.SpecificCharacterSet
+
+
+def test_of_a_very_long_scan_some_slices_are_named_and_that_is_told(tmp_path):
+    volume = Volume(scan().array, world_from_index=scan().world_from_index)
+    (kind, _), *_ = scan()._study.instances
+    many = tuple((kind, f"1.2.826.0.1.3680043.10.1000.3.{k}.{'7' * 28}") for k in range(5000))
+    volume._study = replace(scan()._study, instances=many)
+    path = tmp_path / "a.dcm"
+    data = save(lumencut.render(volume, LINE, Camera.anterior(LINE, (64, 64))), path)
+    assert faults(path) == []
+    named = [item.ReferencedSOPInstanceUID for item in data.SourceImageSequence]
+    assert named == [uid for _, uid in many[::3]]
+    assert data.DerivationDescription.startswith("Of 5000 source images 1 in 3 is named. ")
+    assert path.stat().st_size < 1_000_000
+    lumencut.straightened_volume(volume, LINE[0], 8.0, 2.0).save(tmp_path / "series")
+    sizes = [one.stat().st_size for one in (tmp_path / "series").iterdir()]
+    assert max(sizes) < 50_000
 
 
 @pytest.mark.parametrize("part", ["LEG", "", "HEAD", "CHEST"])

@@ -19,6 +19,8 @@ RESEARCH = "(research, not for diagnosis)"
 #: Codes of the standard (DCM): why an image is named as a source, and how an object was derived.
 SOURCE_IMAGE = ("121322", "Source image for image processing operation")
 CURVED_REFORMATION = ("113073", "Curved multiplanar reformatting")
+#: The most images of a scan that a picture names as its sources: each takes 330 bytes.
+_MOST_NAMED = 2000
 #: What stands for letters that not every character set has.
 _PLAIN = {"°": " deg", "×": "x", "–": "-", "±": "+/-", "²": "2", "ß": "ss", "…": "..."}
 #: The longest texts of the value representations LO, ST and LT.
@@ -90,21 +92,38 @@ def add_laterality(data: Any, study: Study) -> None:
         data.Laterality = study.text("Laterality")
 
 
-def add_sources(data: Any, study: Study, code: tuple[str, str], words: str) -> None:
-    """Say what an image was derived from, and how: `words` name no file."""
+def add_sources(data: Any, study: Study, code: tuple[str, str], words: str, most: int = _MOST_NAMED) -> None:
+    """Say what an image was derived from, and how.
+
+    Parameters
+    ----------
+    data : pydicom.Dataset
+        The image.
+    study : Study
+        Whose images are the sources.
+    code : (str, str)
+        How it was derived (DCM).
+    words : str
+        The same in words, which name no file.
+    most : int
+        How many sources are named; of more than that every second or third and so on is.
+    """
     from pydicom.dataset import Dataset
 
-    data.DerivationDescription = cut(words, ST)
+    step = -(-len(study.instances) // most)
+    named = study.instances[:: max(step, 1)]
+    told = f"Of {len(study.instances)} source images 1 in {step} is named. " if step > 1 else ""
+    data.DerivationDescription = cut(told + words, ST)
     data.DerivationCodeSequence = [coded(*code)]
-    if not study.instances:
+    if not named:
         return
-    data.SourceImageSequence = [_reference(one) for one in study.instances]
+    data.SourceImageSequence = [_reference(one) for one in named]
     for item in data.SourceImageSequence:
         item.PurposeOfReferenceCodeSequence = [coded(*SOURCE_IMAGE)]
     if series := study.text("SeriesInstanceUID"):
         item = Dataset()
         item.SeriesInstanceUID = series
-        item.ReferencedInstanceSequence = [_reference(one) for one in study.instances]
+        item.ReferencedInstanceSequence = [_reference(one) for one in named]
         data.ReferencedSeriesSequence = [item]
 
 

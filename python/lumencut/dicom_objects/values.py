@@ -43,6 +43,8 @@ _ASKED: dict[str, dict[str, Any]] = {
         "RepetitionTime": None,
     },
 }
+#: The most slices of the scan that a plane names as its sources.
+_NAMED_BY_PLANE = 64
 #: The number that is stored where there is no value, and the others.
 _NOTHING, _LOWEST, _HIGHEST = -32768, -32767, 32767
 
@@ -135,7 +137,8 @@ def write_plane(path: Path, plane: Plane, about: About, study: Study, *, number:
     data = new_object(study, kind, about.settings, number)
     data.ImageType = ["DERIVED", "SECONDARY", about.method.partition(" ")[0].upper()]
     add_laterality(data, study)
-    add_sources(data, study, CURVED_REFORMATION, about.words)
+    # A series of many planes would name the slices of the scan again and again.
+    add_sources(data, study, CURVED_REFORMATION, about.words, _NAMED_BY_PLANE)
     data.ImageComments = cut(about.comments, LT)
     _set_acquisition(data, study, modality)
     data.FrameOfReferenceUID = uid_of("frame of values", data.SeriesInstanceUID)
