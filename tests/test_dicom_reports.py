@@ -217,6 +217,8 @@ def test_an_anonymous_report_names_nobody(tmp_path):
         ("LAD", "Left Anterior Descending Coronary Artery", None),
         ("aorta", "Aorta", None),
         ("Abdominal aorta", "Abdominal aorta", None),
+        ("abdominal aorta 12", "Abdominal aorta", None),
+        ("coeliac trunk", "Celiac Axis", None),
         ("L CIA", "Common iliac artery", "Left"),
         ("Erica", None, None),
         ("aorta of Jane", None, None),

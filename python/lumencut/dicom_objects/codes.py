@@ -56,7 +56,7 @@ _VESSELS: tuple[tuple[str, Coded], ...] = (
     (r"subclavian( artery)?", ("36765005", "SCT", "Subclavian artery")),
     (r"popliteal( artery)?", ("43899006", "SCT", "Popliteal artery")),
     (r"femoral( artery)?|sfa|cfa", ("7657000", "SCT", "Femoral artery")),
-    (r"celiac( artery| trunk)?", ("57850000", "SCT", "Celiac Axis")),
+    (r"co?eliac( artery| trunk| axis)?", ("57850000", "SCT", "Celiac Axis")),
     (r"superior mesenteric( artery)?|sma", ("42258001", "SCT", "Superior mesenteric artery")),
     (r"inferior mesenteric( artery)?|ima", ("33795007", "SCT", "Inferior mesenteric artery")),
     (r"left main( coronary artery)?|lm", ("3227004", "SCT", "Left Main Coronary Artery")),
@@ -77,6 +77,8 @@ def site_of(name: str | None) -> tuple[Coded | None, Coded | None]:
     ``"LAD"``: a part of another name is none.
     """
     words = re.sub(r"[\s_\-.,()]+", " ", (name or "").lower()).strip()
+    # Pieces of one vessel are counted.
+    words = re.sub(r" \d+$", "", words)
     for pattern, code in _VESSELS:
         if re.fullmatch(pattern, words):
             return code, None
