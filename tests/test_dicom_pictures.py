@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import pickle
+import shutil
 from dataclasses import replace
 
 import numpy as np
 import pydicom
 import pytest
 
+import dicom_cases
 import lumencut
 from dicom_judges import faults, seen_by_dcmtk
 from dicom_scenes import LINE, SETTINGS, scan, series, stated, write_series
@@ -248,3 +251,23 @@ def test_a_scan_of_lossy_pixels_says_so_in_what_is_made_of_it(tmp_path):
     volume = lumencut.read_volume(write_series(tmp_path / "series", lossy))
     data = save(lumencut.render(volume, None, settings=SETTINGS), tmp_path / "a.dcm")
     assert (data.LossyImageCompression, data.LossyImageCompressionRatio) == ("01", 12)
+
+
+def test_scans_in_one_file_in_an_archive_and_in_memory_have_their_study(tmp_path):
+    (case,) = (one for one in dicom_cases.CASES if one.name == "enhanced")
+    (tmp_path / "enhanced").mkdir()
+    shutil.make_archive(str(tmp_path / "packed"), "zip", series())
+    datasets = [pydicom.dcmread(path) for path in series().iterdir()]
+    made = {
+        case.write(tmp_path / "enhanced").path: (1, "Phantom^Vessel"),
+        tmp_path / "packed.zip": (24, "Doe^Jane"),
+    }
+    for path, (count, name) in made.items():
+        frame = lumencut.render(lumencut.read_volume(path), None, settings=SETTINGS)
+        data = save(frame, tmp_path / "a.dcm")
+        assert faults(tmp_path / "a.dcm") == []
+        assert (len(data.SourceImageSequence), data.PatientName) == (count, name)
+        again = save(pickle.loads(pickle.dumps(frame)), tmp_path / "b.dcm")
+        assert again.SOPInstanceUID == data.SOPInstanceUID
+    data = save(lumencut.render(datasets, None, settings=SETTINGS), tmp_path / "a.dcm")
+    assert (len(data.SourceImageSequence), data.PatientName) == (24, "Doe^Jane")
