@@ -104,6 +104,16 @@ def jupyterlab(folder: Path) -> Iterator[str]:
 
 
 @contextmanager
+def marimo(file: Path) -> Iterator[str]:
+    """A notebook of marimo as an application, and its address."""
+    port = free_port()
+    options = ["--headless", "--no-token", "--host", "127.0.0.1", "--port", str(port)]
+    command = [sys.executable, "-m", "marimo", "run", *options, str(file)]
+    with serving(command, f"http://127.0.0.1:{port}/health", file.parent):
+        yield f"http://127.0.0.1:{port}"
+
+
+@contextmanager
 def browser() -> Iterator[Browser]:
     with sync_playwright() as playwright:
         started = playwright.chromium.launch(
@@ -151,6 +161,14 @@ class Visit:
         area = self.page.locator(".jp-Notebook .jp-Cell").nth(number).locator(".jp-OutputArea-output")
         area.first.wait_for()
         return area.first.inner_text()
+
+    def restart_kernel(self) -> None:
+        """Restart the kernel by the menu, and wait until it is there again."""
+        self.page.get_by_role("menuitem", name="Kernel", exact=True).click()
+        self.page.locator('[data-command="kernelmenu:restart"]').click()
+        self.page.locator(".jp-Dialog-button.jp-mod-accept").click()
+        self.page.locator("#jp-main-statusbar", has_text="| Restarting").wait_for()
+        self.wait_for_kernel()
 
     def views(self) -> Locator:
         """The views that show their first picture."""

@@ -16,6 +16,7 @@ function render({ model, el }) {
     words.textContent = text;
     words.className = isWrong ? 'words is-wrong' : 'words';
   };
+  let wrongWords = '';
   const asker = new Asker(model, tell);
   root.dataset.isResting = 'true';
   const panes = Object.fromEntries(PANES.map((name) => [name, new Pane(name, row)]));
@@ -45,7 +46,9 @@ function render({ model, el }) {
     const milliseconds = asker.answered(content.answers);
     const drawn = content.pictures ? showMoving(content.pictures, buffers) : showRest();
     const shown = mark();
-    tell(content.words || shown.words, content.words !== '');
+    // The picture at rest that follows a step which failed does not take the reason away.
+    wrongWords = content.words || (content.pictures ? '' : wrongWords);
+    tell(wrongWords || shown.words, wrongWords !== '');
     if (milliseconds !== null) {
       drawn.then(() => {
         root.dataset.milliseconds = milliseconds.toFixed(1);
