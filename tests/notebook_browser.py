@@ -23,7 +23,7 @@ _KERNEL = {"display_name": "Python 3", "language": "python", "name": "python3"}
 
 def notebook(*cells: str) -> str:
     """A notebook of cells of code, with its kernel, so that JupyterLab does not ask for one."""
-    listed = [
+    listed: list[dict[str, object]] = [
         {
             "cell_type": "code",
             "id": f"c{n}",

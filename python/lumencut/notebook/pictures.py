@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import math
 
 import numpy as np
 import numpy.typing as npt
@@ -10,7 +11,7 @@ import numpy.typing as npt
 #: What cannot be seen in a picture that moves is left out.
 _QUALITY = 80
 #: Below and above these a picture that moves gets more or fewer pixels (ms).
-_QUICK, _SLOW = 25.0, 60.0
+_QUICK, _SLOW, _VERY_SLOW = 25.0, 60.0, 200.0
 #: The shares of the pixels along a side: few, so that pictures do not pump.
 _SHARES = (1.0, 0.75, 0.5, 0.35, 0.25)
 #: So many slow pictures in a row are a slow machine, and not something else that computes for a moment.
@@ -55,7 +56,12 @@ class Pace:
         self._slow = self._quick = 0
 
     def took(self, milliseconds: float) -> None:
-        """Learn how long a picture of this share took."""
+        """Learn how long a picture of this share took; a very slow one need not be seen three times."""
+        if milliseconds > _VERY_SLOW:
+            fitting = self.share * math.sqrt(_SLOW / milliseconds)
+            self.share = next((share for share in _SHARES if share <= fitting), _SHARES[-1])
+            self._slow = self._quick = 0
+            return
         self._slow = self._slow + 1 if milliseconds > _SLOW else 0
         self._quick = self._quick + 1 if milliseconds < _QUICK else 0
         number = _SHARES.index(self.share)

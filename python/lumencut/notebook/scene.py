@@ -91,8 +91,8 @@ class Scene:
     def moving(
         self, camera: Camera, settings: Settings, progress: Callable[[int, int], object] | None = None
     ) -> Frame:
-        """Return a view whose picture alone is asked for, with one sample in each pixel."""
-        quick = replace(settings, samples=1)
+        """Return a view whose picture alone is asked for, as the viewer shows it while it moves."""
+        quick = replace(settings, samples=1, context_preview=True)
         return self.renderer.render(camera, quick, images=["image"], progress=progress)
 
     def picked(self, camera: Camera, settings: Settings, pixel: tuple[float, float]) -> Pick:
