@@ -1,0 +1,141 @@
+/** What the page of a notebook asks the kernel for: `asking.js` of the Python package, which is no module of this page. */
+import { readFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
+
+type Step = readonly (string | number)[];
+interface Asked {
+  readonly id: string;
+  readonly steps: Step[];
+  readonly moving: boolean;
+}
+interface Asker {
+  readonly isResting: boolean;
+  ask(step: Step): void;
+  answered(id: string): number | null;
+}
+
+const source = readFileSync(
+  join(import.meta.dirname, '../../python/lumencut/notebook/front/asking.js'),
+  'utf-8',
+);
+const Made = new Function(`${source}\nreturn Asker;`)() as new (
+  model: { send(content: Asked): void },
+  tell: (words: string, isWrong: boolean) => void,
+) => Asker;
+
+let sent: Asked[] = [];
+let told: string[] = [];
+let asker: Asker;
+
+/** What was sent last. */
+function last(): Asked {
+  const asked = sent.at(-1);
+  if (!asked) {
+    throw new Error('nothing was asked');
+  }
+  return asked;
+}
+
+beforeEach(() => {
+  vi.useFakeTimers();
+  [sent, told] = [[], []];
+  asker = new Made({ send: (content) => sent.push(content) }, (words) => told.push(words));
+});
+afterEach(() => vi.useRealTimers());
+
+describe('what a notebook asks its kernel for', () => {
+  it('has one request under way, and adds up what comes meanwhile', () => {
+    asker.ask(['rotate', 1, 2]);
+    asker.ask(['rotate', 10, 20]);
+    asker.ask(['rotate', 5, 5]);
+    asker.ask(['scroll', 'section', 1]);
+    asker.ask(['scroll', 'section', 2]);
+    asker.ask(['scroll', 'straightened', 1]);
+    expect(sent.map(({ steps }) => steps)).toEqual([[['rotate', 1, 2]]]);
+    expect(asker.answered('of another view')).toBeNull();
+    expect(sent).toHaveLength(1);
+    vi.advanceTimersByTime(30);
+    expect(asker.answered(last().id)).toBe(30);
+    expect(last().steps).toEqual([
+      ['rotate', 15, 25],
+      ['scroll', 'section', 3],
+      ['scroll', 'straightened', 1],
+    ]);
+  });
+
+  it('keeps the order of steps of several kinds, and each click', () => {
+    asker.ask(['begin']);
+    for (const step of [
+      ['pan', 1, 1],
+      ['zoom', 1.1, 5, 5],
+      ['pan', 1, 1],
+      ['click', 'vessels', 1, 1],
+      ['click', 'vessels', 1, 1],
+    ]) {
+      asker.ask(step);
+    }
+    asker.answered(last().id);
+    expect(last().steps.map(([name]) => name)).toEqual(['pan', 'zoom', 'pan', 'click', 'click']);
+  });
+
+  it('asks for the picture at rest once nothing moves any more', () => {
+    asker.ask(['rotate', 1, 2]);
+    expect(last().moving).toBe(true);
+    asker.answered(last().id);
+    expect(asker.isResting).toBe(false);
+    vi.advanceTimersByTime(119);
+    expect(sent).toHaveLength(1);
+    vi.advanceTimersByTime(1);
+    expect(last()).toMatchObject({ steps: [], moving: false });
+    asker.answered(last().id);
+    expect(asker.isResting).toBe(true);
+    vi.advanceTimersByTime(60_000);
+    expect(sent).toHaveLength(2);
+    expect(told).toEqual([]);
+  });
+
+  it('says that the kernel is busy, and what to do where it does not answer at all', () => {
+    asker.ask(['rotate', 1, 2]);
+    vi.advanceTimersByTime(1499);
+    expect(told).toEqual([]);
+    vi.advanceTimersByTime(1);
+    expect(told.at(-1)).toContain('The kernel is busy');
+    vi.advanceTimersByTime(8500);
+    expect(told.at(-1)).toContain('run the cell again');
+    expect(told).toHaveLength(2);
+    asker.answered(last().id);
+    asker.ask(['rotate', 1, 2]);
+    expect(sent).toHaveLength(2);
+  });
+});
+
+describe('gestures of a notebook', () => {
+  /** The number that a file gives a name. */
+  function constant(file: string, name: string): number {
+    const text = readFileSync(join(import.meta.dirname, file), 'utf-8');
+    const found = new RegExp(`^(?:export const |const |_)?${name} = ([\\d.e-]+)`, 'm').exec(text);
+    if (!found) {
+      throw new Error(`${file} has no ${name}`);
+    }
+    return Number(found[1]);
+  }
+  const front = '../../python/lumencut/notebook/front/pointers.js';
+  const python = '../../python/lumencut/notebook/gestures.py';
+
+  it.each([
+    [
+      '../src/input/pointer.ts',
+      front,
+      ['DRAG_FROM', 'DOUBLE_WITHIN', 'DOUBLE_NEAR', 'ZOOM_PER_WHEEL', 'MOST_WHEEL'],
+    ],
+    ['../src/input/pointer.ts', front, ['LINE']],
+    ['../src/input/wheel.ts', front, ['NOTCH_FROM', 'NOTCH']],
+    ['../src/views/TurningView.tsx', front, ['KEY_STEP']],
+    ['../src/state/actions.ts', python, ['WINDOW_PER_PIXEL', 'NARROWEST']],
+  ])('are as large as in the viewer (%s)', (viewer, notebook, names) => {
+    expect(names.map((name) => constant(notebook, name))).toEqual(
+      names.map((name) => constant(viewer, name)),
+    );
+  });
+});
