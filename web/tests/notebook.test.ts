@@ -104,9 +104,13 @@ describe('what a notebook asks its kernel for', () => {
     vi.advanceTimersByTime(8500);
     expect(told.at(-1)).toContain('run the cell again');
     expect(told).toHaveLength(2);
-    asker.answered(last().id);
+    // An answer that comes late shows its picture, and a lost one keeps nothing from being asked.
+    expect(asker.answered(last().id)).toBeNull();
     asker.ask(['rotate', 1, 2]);
     expect(sent).toHaveLength(2);
+    asker.ask(['rotate', 3, 4]);
+    asker.answered(last().id);
+    expect(last().steps).toEqual([['rotate', 3, 4]]);
   });
 });
 

@@ -43,13 +43,15 @@ class Asker {
     this.wait(WAITING_AFTER, () =>
       this.tell('The kernel is busy. The view goes on as soon as it answers.', false),
     );
-    this.wait(LOST_AFTER, () =>
+    this.wait(LOST_AFTER, () => {
+      // The answer may be lost with the connection: the next step asks anew.
+      this.underWay = null;
       this.tell(
         `No answer from the kernel for ${LOST_AFTER / 1000} s. It computes something else, or it was restarted or stopped: ` +
           'then run the cell again to have a view that turns.',
         true,
-      ),
-    );
+      );
+    });
     this.model.send(content);
   }
 
