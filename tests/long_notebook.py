@@ -139,6 +139,38 @@ def test_a_restarted_kernel_is_told_and_the_cell_shows_the_view_again(lab):
         assert picture(visit, view) != seen
 
 
+def test_a_page_that_is_loaded_again_goes_on(lab):
+    with lab(f"{SCENE}{VIEW}\nview", "print(view.vessel)") as visit:
+        view = visit.views().first
+        answered(view, lambda: visit.page.mouse.click(*place(view, 150, 200)))
+        visit.page.keyboard.press("Control+s")
+        # The key goes past the view: the notebook is kept, with its outputs.
+        visit.page.locator(".lm-TabBar-tab.jp-mod-current:not(.jp-mod-dirty)").first.wait_for()
+        visit.page.reload()
+        view = visit.views().first
+        view.wait_for()
+        # What was picked is shown as before, and the view turns.
+        assert view.locator(".words").inner_text().startswith("trunk at ")
+        assert visit.colours(view, "section") > 5
+        seen = picture(visit, view)
+        answered(view, lambda: drag(view, (150, 100), (200, 120)))
+        assert picture(visit, view) != seen
+
+
+def test_a_picture_of_the_largest_size_is_shown(lab):
+    shown = "view = lumencut.show(scene.volume, scene.tree, size=(4096, 4096))"
+    with lab(f"{SCENE}{shown}\nview") as visit:
+        view = visit.views().first
+        box = view.locator("[data-pane=vessels]").bounding_box()
+        assert box["width"] < 1300
+        assert box["height"] == pytest.approx(box["width"], abs=1)
+        assert visit.colours(view) > 30
+        seen = picture(visit, view)
+        start, end = (box["width"] * 0.4, 200), (box["width"] * 0.6, 220)
+        answered(view, lambda: drag(view, start, end))
+        assert picture(visit, view) != seen
+
+
 def test_the_pictures_beside_the_view_follow_it(lab):
     with lab(f"{SCENE}{VIEW}\nview", "print(list(view.picked), view.vessel)") as visit:
         view, mouse = visit.views().first, visit.page.mouse

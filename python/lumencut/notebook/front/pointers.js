@@ -159,6 +159,10 @@ class Pointers {
     if (steps) {
       event.preventDefault();
       event.stopPropagation();
+      if (event.key === 'Escape') {
+        this.held.clear();
+        this.isDragging = false;
+      }
       for (const step of steps) {
         this.asker.ask(step);
       }
@@ -170,8 +174,6 @@ class Pointers {
     if (ctrlKey || metaKey || altKey) {
       return null;
     } else if (key === 'Escape' && this.isDragging) {
-      this.held.clear();
-      this.isDragging = false;
       return [['back']];
     } else if (arrow && this.pane.name === 'vessels') {
       return [[shiftKey ? 'pan' : 'rotate', arrow[0] * KEY_STEP, arrow[1] * KEY_STEP]];

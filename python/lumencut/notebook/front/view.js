@@ -6,8 +6,6 @@ const PANES = Object.keys(TRAIT_OF_PANE);
 function render({ model, el }) {
   const root = el.appendChild(document.createElement('div'));
   root.className = 'lumencut';
-  // JupyterLab leaves the keys to what has this.
-  root.dataset.lmSuppressShortcuts = 'true';
   const row = root.appendChild(document.createElement('div'));
   row.className = 'panes';
   const words = root.appendChild(document.createElement('div'));
@@ -69,9 +67,16 @@ function render({ model, el }) {
     model.on(name, act);
   }
   const stop = new AbortController();
-  for (const pane of Object.values(panes)) {
-    new Pointers(pane, asker).listen(stop.signal);
+  const pointers = Object.values(panes).map((pane) => new Pointers(pane, asker));
+  for (const one of pointers) {
+    one.listen(stop.signal);
   }
+  // JupyterLab, which hears keys before the view does, leaves those to it that have this: no other ones.
+  const claim = (event) => {
+    const heard = pointers.find(({ pane }) => pane.element === event.target);
+    root.toggleAttribute('data-lm-suppress-shortcuts', Boolean(heard?.stepsOf(event)));
+  };
+  window.addEventListener('keydown', claim, { capture: true, signal: stop.signal });
   tell(model.get('_shown').words, false);
   showRest().then(() => {
     root.dataset.isReady = 'true';
