@@ -204,6 +204,26 @@ def test_keys_turn_and_choose_views(lab):
         assert visit.page.locator(".jp-Notebook .jp-Cell").count() == 2
 
 
+def test_escape_during_a_drag_puts_the_view_back(lab):
+    cells = (
+        f"{SCENE}{VIEW}\nview",
+        "front = lumencut.Camera.anterior(scene.tree, (300, 260))\nprint(view.camera == front)",
+    )
+    with lab(*cells) as visit:
+        view, mouse = visit.views().first, visit.page.mouse
+        seen = picture(visit, view)
+        mouse.move(*place(view, 150, 100))
+        mouse.down()
+        answered(view, lambda: mouse.move(*place(view, 190, 130), steps=4))
+        assert picture(visit, view) != seen
+        answered(view, lambda: visit.page.keyboard.press("Escape"))
+        mouse.move(*place(view, 100, 130), steps=4)
+        mouse.up()
+        assert picture(visit, view) == seen
+        visit.run_cell(1)
+        assert visit.output(1).strip() == "True"
+
+
 def test_vessels_are_traced_by_clicks(lab):
     tracing = "view = lumencut.show(scene.volume, size=(300, 260), trace=True)"
     cells = (f"{SCENE}{tracing}\nview", "print(len(view.tree), view.tree[0].length > 20)")
