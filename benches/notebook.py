@@ -1,7 +1,9 @@
 """How fast a view turns in a notebook: drags of 5 s in JupyterLab and in marimo, with Chromium.
 
 ``python benches/notebook.py`` needs the installed package with its tools, and Chromium. A round trip is from
-the request of the page to the picture that is decoded there; the share is that of the pixels along a side.
+the request of the page to the picture that is decoded there; the share is that of the pixels along a side. Before
+it comes what a moving picture of all pixels costs in the kernel: the time of the processor on all threads,
+which other programs hardly change.
 """
 
 from __future__ import annotations
@@ -12,6 +14,7 @@ import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from playwright.sync_api import Browser, Locator
@@ -19,6 +22,7 @@ from playwright.sync_api import Browser, Locator
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "tests"))
 
 from notebook_browser import Visit, browser, jupyterlab, marimo, notebook, place
+from notebook_page import Page
 
 SECONDS = 5.0
 SCENES = {
@@ -95,10 +99,33 @@ def dragged(view: Locator) -> tuple[list[float], list[int]]:
     return trips, sizes
 
 
+def cost(code: str, look: str) -> float:
+    """The median time of the processor (ms) of a picture of all pixels while it moves, in the kernel."""
+    found: dict[str, Any] = {}
+    exec(SHOW.format(scene=code, look=look), found)
+    page = Page(found["view"])
+    taken = []
+    for _ in range(21):
+        # As many pixels as at rest, however long it takes.
+        page.widget._pace.share = 1.0
+        start = time.process_time()
+        page.ask(["rotate", 5, 1])
+        taken.append((time.process_time() - start) * 1000)
+    page.widget.close()
+    return float(np.median(taken))
+
+
 def main() -> None:
-    """Print a row for each host, scene and look."""
+    """Print a row for each scene and look, and one for each host with them."""
     from lumencut import demo
 
+    print("| scene | look | processor (ms) |")
+    print("|---|---|---|")
+    for scene, code in SCENES.items():
+        for look, settings in LOOKS.items():
+            taken = cost(code.format(cache=str(demo.default_cache())), settings)
+            print(f"| {scene} | {look} | {taken:.0f} |", flush=True)
+    print()
     print("| host | scene | look | first picture | pictures in 5 s | median | 95 % | median share |")
     print("|---|---|---|---|---|---|---|---|")
     hosts = {"JupyterLab": in_jupyterlab, "marimo": in_marimo}
