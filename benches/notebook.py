@@ -1,9 +1,9 @@
 """How fast a view turns in a notebook: drags of 5 s in JupyterLab and in marimo, with Chromium.
 
 ``python benches/notebook.py`` needs the installed package with its tools, and Chromium. A round trip is from
-the request of the page to the picture that is decoded there; the share is that of the pixels along a side. Before
-it comes what a moving picture of all pixels costs in the kernel: the time of the processor on all threads,
-which other programs hardly change.
+the request of the page to the picture that is decoded there; the share is that of the pixels along a side.
+Before it comes what a moving picture of all pixels costs in the kernel: the time of the processor on all
+threads, which other programs hardly change.
 """
 
 from __future__ import annotations
