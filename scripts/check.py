@@ -35,7 +35,17 @@ CHECKS = ("--locked", "--profile", "checks")
 SCRIPTS = tuple(
     f"scripts/{name}.py"
     for name in (
-        *("build_backend", "check", "docs", "docs_api", "docs_pages", "docs_site", "frames", "fuzz"),
+        *(
+            "build_backend",
+            "check",
+            "docs",
+            "docs_api",
+            "docs_pages",
+            "docs_roles",
+            "docs_site",
+            "frames",
+            "fuzz",
+        ),
         *("licences", "notices", "page", "render_phantom"),
         *("settings", "source_files", "toolchain", "types_for_users", "wheel", "window_table"),
     )

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import ast
+import re
+from functools import cache
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -68,7 +70,13 @@ GROUPS: dict[str, tuple[str, tuple[str, ...]]] = {
 #: No part of the method: the version, which needs no page.
 UNTOLD = {"__version__"}
 
+#: What Sphinx calls a role: a name in a docstring that editors follow.
+_ROLE = re.compile(r":(?:attr|class|data|func|meth):`~?(?:lumencut\.)?([\w.]+)`")
+#: A line of a table of parameters, whose type is shown as code.
+_TYPED = re.compile(r"^[\w, *]+ : .*$", re.MULTILINE)
 
+
+@cache
 def public_names() -> dict[str, str]:
     """Every public name of the package, and the module that it lives in; read, not imported."""
     block = next(node for node in ast.parse(_CONTENTS.read_text("utf-8")).body if isinstance(node, ast.If))
@@ -84,3 +92,14 @@ def api_pages() -> dict[str, str]:
         told = "\n\n".join(f"::: {homes[name]}.{name}" for name in names)
         pages[f"api/{page}.md"] = f"# {title}\n\nAll of these are names of `lumencut`.\n\n{told}\n"
     return pages
+
+
+def linked(text: str) -> str:
+    """A docstring with links to the pages of public names in the place of its roles."""
+    return _ROLE.sub(_link, _TYPED.sub(lambda line: _ROLE.sub(r"\1", line[0]), text))
+
+
+def _link(role: re.Match[str]) -> str:
+    name = role[1].partition(".")[0]
+    home = {} if name in UNTOLD else public_names()
+    return f"[`{role[1]}`][{home[name]}.{name}]" if name in home else f"`{role[1]}`"

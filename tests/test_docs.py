@@ -41,6 +41,13 @@ def test_every_public_name_is_told_on_one_page():
     assert set(docs_api.public_names()) == set(lumencut.__all__)
 
 
+def test_roles_of_docstrings_become_links_but_where_types_are_code():
+    text = "volume : Volume, or what :func:`lumencut.render` takes\n    :meth:`Camera.rotated`, :attr:`gone`."
+    assert docs_api.linked(text) == (
+        "volume : Volume, or what render takes\n    [`Camera.rotated`][lumencut.camera.Camera], `gone`."
+    )
+
+
 def headings(text: str) -> set[str]:
     """The anchors of a page, as GitHub and the site make them."""
     plain = re.sub(r"^```.*?^```$", "", text, flags=re.DOTALL | re.MULTILINE)

@@ -12,6 +12,7 @@ from click.testing import CliRunner
 
 from lumencut import doctor
 from lumencut.cli import main
+from lumencut.cli.first_words import program
 from lumencut.errors import DeviceError
 from lumencut.viewer import page
 
@@ -57,6 +58,20 @@ def test_without_arguments_three_things_are_named_that_exist(built, has_page):
     # The viewer is no use where its page was not built.
     assert ("view" in {command for _, command, *_ in commands}) == has_page
     assert "lumencut doctor" in said.stdout
+
+
+def test_the_program_is_named_as_it_can_be_called_again(tmp_path, monkeypatch):
+    installed = tmp_path / "bin" / "lumencut"
+    installed.parent.mkdir()
+    installed.write_text("#!/bin/sh\n", "utf-8")
+    installed.chmod(0o755)
+    monkeypatch.setattr(sys, "argv", [str(installed)])
+    monkeypatch.setenv("PATH", "")
+    assert program() == str(installed)
+    monkeypatch.setenv("PATH", str(installed.parent))
+    assert program() == "lumencut"
+    monkeypatch.setattr(sys, "argv", ["/usr/lib/python/__main__.py"])
+    assert program() == "lumencut"
 
 
 def test_a_command_that_is_not_there_is_still_refused():

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shutil
 import sys
 from pathlib import Path
 
@@ -9,7 +10,10 @@ from pathlib import Path
 def program() -> str:
     """How to call this program again: it need not be on the path."""
     called = Path(sys.argv[0])
-    return str(called) if called.name == "lumencut" else "lumencut"
+    on_path = shutil.which("lumencut")
+    if called.name != "lumencut" or (on_path and Path(on_path).resolve() == called.resolve()):
+        return "lumencut"
+    return str(called)
 
 
 def first_words() -> str:
