@@ -146,6 +146,7 @@ def python_lints() -> list[Check]:
         "lint of the workflow": ("zizmor", "--offline", "--quiet", ".github"),
         "types": ("mypy",),
         "types of the scripts": ("mypy", *SCRIPTS),
+        "types for users": ("python", "scripts/types_for_users.py"),
     }
     return [
         tools,
@@ -160,9 +161,6 @@ def page_lints() -> list[Check]:
             "page of the viewer", ("make", "--no-print-directory", "page"), lane=PAGE, needs=("toolchain",)
         ),
         Check("lint of the page", ("npm", "run", "lint", "--silent", "--prefix", "web"), lane=PAGE),
-        Check(
-            "types for users", (f"{BIN}/python", "scripts/types_for_users.py"), lane=PAGE, needs=("tools",)
-        ),
         Check("size of the page", ("npm", "run", "size", "--silent", "--prefix", "web"), lane=PAGE),
     ]
 
