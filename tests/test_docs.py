@@ -66,6 +66,13 @@ def test_every_link_of_a_page_leads_somewhere(name):
             assert anchor in headings(path.read_text("utf-8")), link
 
 
+@pytest.mark.parametrize("name", docs_pages.page_sources())
+def test_a_part_of_a_list_is_indented_by_four(name):
+    """GitHub takes less for a part of the item above it, the site does not."""
+    text = re.sub(r"^```.*?^```$", "", docs_pages.page_sources()[name].read_text("utf-8"), flags=re.S | re.M)
+    assert re.findall(r"^\n {1,3}(?! ).*", text, re.MULTILINE) == []
+
+
 def test_links_are_those_of_the_site(tmp_path):
     text, files = docs_pages.site_page(ROOT / "docs/pictures.md")
     assert "](METHOD.md)" in text
