@@ -1,7 +1,7 @@
 """A tree without overlap: untangled CPR.
 
-Every vessel is cut open in one map, none before another, with true lengths. Branches are turned by as little as
-that takes, so angles between vessels are not those of the body.
+Every vessel is cut open in one map, none before another, with true lengths. Branches are turned by as little
+as that takes, so angles between vessels are not those of the body.
 """
 
 import lumencut
