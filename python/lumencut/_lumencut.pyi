@@ -73,6 +73,7 @@ __all__ = [
     "Untangled",
     "__version__",
     "about",
+    "axes_words",
     "better_place",
     "brightest",
     "c_arm_words",
@@ -84,6 +85,7 @@ __all__ = [
     "check_transfer_function",
     "check_vessel",
     "check_window",
+    "coloured",
     "contains",
     "context_window",
     "correspondence",
@@ -99,6 +101,7 @@ __all__ = [
     "fits_nowhere",
     "fitted",
     "fitted_turn",
+    "fitted_uncurling",
     "flag_words",
     "flight",
     "frame_angles",
@@ -130,11 +133,14 @@ __all__ = [
     "rotated",
     "sample",
     "scale_bar",
+    "scale_end",
     "scan_of",
     "scan_words",
     "set_threads",
     "sides",
     "smoothed",
+    "spiral_pitch",
+    "spiral_reach",
     "tangential_layout",
     "threads",
     "told_by_tree",
@@ -308,6 +314,8 @@ class Untangled(Layout):
     @property
     def rotations(self) -> list[float]: ...
     @property
+    def ends(self) -> list[list[float]]: ...
+    @property
     def overlaps(self) -> list[int]: ...
     @property
     def closures(self) -> list[tuple[tuple[float, float], tuple[float, float]]]: ...
@@ -326,9 +334,17 @@ class Uncurl(Layout):
         amount: float,
         width: float | None = None,
     ) -> Uncurl: ...
-    @property
-    def extent(self) -> list[float]: ...
 
+def axes_words(reformation: str, number: float = 0.0) -> str: ...
+def coloured(
+    value: npt.NDArray[np.float32], ends: tuple[float, float], grey: bool
+) -> npt.NDArray[np.uint8]: ...
+def fitted_uncurling(camera: Any, points: npt.NDArray[np.float64], smoothing: float) -> dict[str, Any]: ...
+def scale_end(value: npt.NDArray[np.float32]) -> float: ...
+def spiral_pitch(
+    usual: float, smallest_side: float, radius: float, pixel_spacing: float, columns: float
+) -> float: ...
+def spiral_reach(largest: float) -> float: ...
 def tangential_layout(points: npt.NDArray[np.float64], smoothing: float, camera: Any) -> Layout: ...
 def feature_window(feature: str, level: float | None, window: list[float]) -> list[float]: ...
 

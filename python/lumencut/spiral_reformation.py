@@ -22,11 +22,6 @@ from lumencut.vessel_tree import VesselTree
 #: How samples lie on the spirals.
 SAMPLINGS = ("arc", "angle")
 
-_AXES = {
-    "arc": "Down: along the vessel, in mm. Across: sections wound up; width = area / {pitch:.3g} mm.",
-    "angle": "Down: along the vessel, in mm. Across: sections wound up by angle; widths are no areas.",
-}
-
 #: The areas that a ruler can have (mm²), and the widest ruler as a share of the picture.
 _AREAS, _WIDEST = (1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000), 0.4
 
@@ -62,7 +57,7 @@ class SpiralReformation(Reformation):
         self.pitch: float = parameters["pitch"]
         self.radius: float = parameters["radius"]
         self.sampling: str = parameters["sampling"]
-        axes = _AXES[self.sampling].format(pitch=self.pitch)
+        axes = _lumencut.axes_words(f"spiral by {self.sampling}", self.pitch)
         recipe = ReformationRecipe("spiral CPR", axes, parameters, "spiral")
         super().__init__(renderer, core, given, recipe, measurable=False)
 
@@ -234,12 +229,11 @@ def _radii(vessel: Vessel, missing: str) -> npt.NDArray[np.float64]:
 
 
 def _reach(vessel: Vessel) -> float:
-    return 1.25 * float(_radii(vessel, "radius").max()) + 2
+    return _lumencut.spiral_reach(float(_radii(vessel, "radius").max()))
 
 
 def _fine_pitch(vessel: Vessel, finest: float, parameters: dict[str, Any]) -> float:
     """A quarter of the usual radius, as far as voxels and the widest picture allow it."""
+    usual = float(np.median(_radii(vessel, "pitch")))
     radius, spacing = parameters["radius"], parameters["pixel_spacing"]
-    is_length = 0 < spacing < np.inf and 0 < radius < np.inf
-    fits = np.pi * radius**2 / (_MOST_COLUMNS * spacing) if is_length else 0.0
-    return max(finest, float(np.median(_radii(vessel, "pitch"))) / 4, fits)
+    return _lumencut.spiral_pitch(usual, finest, radius, spacing, _MOST_COLUMNS)

@@ -21,14 +21,6 @@ from lumencut.settings import Settings
 from lumencut.vessel import Vessel
 from lumencut.vessel_tree import VesselTree
 
-_AXES = "As the camera sees the vessel bent {percent:.0f} % of the way to straight, its length kept."
-
-#: How much of the image the vessel takes, where the image is fitted to it.
-_FILLED = 0.9
-
-#: How many steps of a film a fitted image is fitted to.
-_STEPS = 17
-
 #: The most frames of a film.
 _MOST_FRAMES = 10_000
 
@@ -74,7 +66,7 @@ class Uncurled(Reformation):
             "width": self.width,
             "smoothing": smoothing,
         }
-        axes = _AXES.format(percent=100 * amount)
+        axes = _lumencut.axes_words("uncurled", amount)
         recipe = ReformationRecipe(f"uncurled {100 * amount:.0f} %", axes, parameters, "uncurl")
         super().__init__(renderer, core, given, recipe, measurable=False)
 
@@ -200,11 +192,7 @@ def fitted_uncurling(camera: Camera, vessel: Vessel, smoothing: float = 0.0) -> 
         As for :func:`uncurl` (mm).
     """
     check_vessel(vessel)
-    middle = Camera.fitted(VesselTree([vessel]), camera.direction, camera.up, camera.size)
-    amounts = np.linspace(0, 1, _STEPS)
-    cores = (_lumencut.Uncurl(vessel.points, smoothing, middle, float(amount)) for amount in amounts)
-    largest = np.max([core.extent for core in cores], axis=0)
-    return replace(middle, pixel_spacing=float((2 * largest / camera.size).max()) / _FILLED)
+    return camera._moved(_lumencut.fitted_uncurling(camera, vessel.points, smoothing))
 
 
 def film_amounts(frames: int) -> npt.NDArray[np.float64]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import functools
-import math
 from dataclasses import dataclass
 from typing import Any, Literal, TypeAlias
 
@@ -26,9 +25,6 @@ from lumencut.window import Window
 Mode: TypeAlias = Literal["wall", "radius", "thickness", "shaded"]
 
 MODES = ("wall", "radius", "thickness", "shaded")
-
-#: What the columns of a map are; its rows are along the vessel.
-_AXES = "Down: along the vessel, in mm. Across: once around its wall, true {radius:.1f} mm from its middle."
 
 #: What a map shows, and the unit of what it shows in colour.
 _SHOWN = {
@@ -117,7 +113,7 @@ class LumenMap(Reformation):
         core = mapped.wall.map(
             mapped.renderer.volume, wanted["pixel_spacing"], directions, self._band, self.calcium_level
         )
-        axes = _AXES.format(radius=self.mean_radius)
+        axes = _lumencut.axes_words("map", self.mean_radius)
         recipe = ReformationRecipe(
             _SHOWN[mode][0], axes, {"mode": mode, **wanted, "angle": core.angle}, "map"
         )
@@ -223,9 +219,7 @@ class LumenMap(Reformation):
         """The values at both ends of the colours."""
         if self.mode == "shaded":
             return 0.0, 1.0
-        known = self.value[np.isfinite(self.value)]
-        largest = float(known.max()) if known.size else 0.0
-        return 0.0, max(math.ceil(largest * 2) / 2, 0.5)
+        return 0.0, _lumencut.scale_end(self.value)
 
     def annotated(self, *, vessel_names: bool = True) -> npt.NDArray[np.uint8]:
         """Return the picture with labels, RGBA, uint8; a side below 200 pixels gets none.

@@ -21,12 +21,6 @@ from lumencut.vessel_tree import VesselTree
 if TYPE_CHECKING:
     from lumencut.lettering import Box
 
-#: What rows and columns are.
-_AXES = (
-    "Along each vessel: its length, in mm. Across it: to its sides, in mm. Branches are turned apart: "
-    "angles between vessels are not those of the body."
-)
-
 #: Turns from this on are drawn (radians).
 _DRAWN_FROM = math.radians(5.0)
 
@@ -90,7 +84,9 @@ class UntangledTree(Reformation):
         given: Settings,
         parameters: dict[str, Any],
     ) -> None:
-        recipe = ReformationRecipe("untangled CPR", _AXES, parameters, "untangled")
+        recipe = ReformationRecipe(
+            "untangled CPR", _lumencut.axes_words("untangled"), parameters, "untangled"
+        )
         super().__init__(renderer, core, given, recipe, measurable=True)
         self._tree = tree
         self.overlaps: tuple[int, ...] = tuple(core.overlaps)
@@ -138,14 +134,11 @@ class UntangledTree(Reformation):
 
     def _ends(self, names: bool) -> dict[str, tuple[float, float]]:
         """The name of each vessel, or its id, and where it ends in the image."""
-        ends: dict[str, tuple[float, float]] = {}
-        for part in self.parts:
-            column, row = part.pixels[0 if part.is_reversed else -1]
-            name = (self._tree[part.vessel].name if names else None) or str(part.vessel)
-            # A vessel that grows backwards ends in its first part, others in their last one.
-            if name not in ends or not part.is_reversed:
-                ends[name] = (float(column), float(row))
-        return ends
+        named = [
+            ((vessel.name if names else None) or str(n), self._core.ends[n])
+            for n, vessel in enumerate(self._tree)
+        ]
+        return {name: (column, row) for name, (column, row) in named}
 
 
 def _written(changed: npt.NDArray[np.bool_]) -> list[Box]:

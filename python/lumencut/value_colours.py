@@ -7,21 +7,7 @@ from collections.abc import Iterable
 import numpy as np
 import numpy.typing as npt
 
-#: Viridis at even steps: from dark blue over green to yellow, of evenly rising lightness, so that it also
-#: reads in grey and by those who see few colours. By Nathaniel Smith and Stéfan van der Walt, dedicated to
-#: the public domain (CC0).
-_VIRIDIS = (
-    (68, 1, 84),
-    (72, 40, 120),
-    (62, 74, 137),
-    (49, 104, 142),
-    (38, 130, 142),
-    (31, 158, 137),
-    (53, 183, 121),
-    (109, 205, 89),
-    (180, 222, 44),
-    (253, 231, 37),
-)
+from lumencut import _lumencut
 
 
 def coloured(
@@ -31,17 +17,7 @@ def coloured(
 
     Values that are not finite are transparent.
     """
-    low, high = ends
-    is_there = np.isfinite(value)
-    share = np.clip((np.where(is_there, value, low) - low) / (high - low), 0.0, 1.0)
-    table = np.array([(0, 0, 0), (255, 255, 255)] if grey else _VIRIDIS, dtype=np.float64)
-    steps = np.linspace(0.0, 1.0, len(table))
-    image = np.zeros((*value.shape, 4), np.uint8)
-    for channel in range(3):
-        image[..., channel] = np.round(np.interp(share, steps, table[:, channel]))
-    image[..., 3] = 255
-    image[~is_there] = 0
-    return image
+    return _lumencut.coloured(value, ends, grey)
 
 
 def with_scale(

@@ -29,7 +29,7 @@ pub fn tangential_layout(
 
 /// A vessel that is straightened by degrees.
 #[pyclass(frozen, extends = Layout, module = "lumencut._lumencut")]
-pub struct Uncurl(uncurl::Uncurl);
+pub struct Uncurl;
 
 #[pymethods]
 impl Uncurl {
@@ -47,13 +47,7 @@ impl Uncurl {
     ) -> PyResult<PyClassInitializer<Self>> {
         let (path, camera) = (path(&points, smoothing)?, camera.camera()?);
         let made = uncurl::Uncurl::new(path, camera, amount, width).map_err(to_python)?;
-        Ok(PyClassInitializer::from(Layout(Arc::new(made.clone()))).add_subclass(Self(made)))
-    }
-
-    /// How far the vessel reaches from the middle of the image, across and up or down (mm).
-    #[getter]
-    fn extent(&self) -> [f64; 2] {
-        self.0.extent().to_array()
+        Ok(PyClassInitializer::from(Layout(Arc::new(made))).add_subclass(Self))
     }
 }
 

@@ -54,6 +54,12 @@ impl Untangled {
         self.0.rotations()
     }
 
+    /// Where each vessel ends in the image: column and row, by the ids.
+    #[getter]
+    fn ends(&self) -> Vec<[f64; 2]> {
+        self.0.ends().iter().map(DVec2::to_array).collect()
+    }
+
     /// The ids of vessels that overlap others, or themselves, nevertheless.
     #[getter]
     fn overlaps(&self) -> Vec<usize> {

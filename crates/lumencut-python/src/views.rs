@@ -2,8 +2,9 @@
 
 use glam::DVec3;
 use lumencut::camera::Camera;
+use lumencut::vessel_tree::Vessel;
 use lumencut::views::{self, Axis, VIEWS};
-use lumencut::{flight as flights, positions as pixels, turn, vessel_views};
+use lumencut::{flight as flights, positions as pixels, turn, uncurling, vessel_views};
 use numpy::{PyArray1, PyArray3, PyArrayMethods, PyReadonlyArray2};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -75,6 +76,18 @@ impl AxisArgument {
             Self::Name(name) => Axis::named(&name).map_err(to_python),
         }
     }
+}
+
+/// The camera in the middle of the points (n, 3) of a vessel, in which it fits at every amount of uncurling.
+#[pyfunction]
+#[allow(clippy::needless_pass_by_value)]
+pub fn fitted_uncurling(
+    camera: MadeCamera,
+    points: PyReadonlyArray2<'_, f64>,
+    smoothing: f64,
+) -> PyResult<Place> {
+    let vessel = Vessel::new(points_of(&points)?, None).map_err(to_python)?;
+    placed(uncurling::fitted_uncurling(&camera.camera()?, &vessel, smoothing))
 }
 
 /// The views of the body by name: direction from the viewer into the scene, and up (LPS).

@@ -4,6 +4,7 @@
 
 use std::f64::consts::PI;
 
+use glam::{DVec2, DVec3};
 use lumencut_core::error::{Error, ErrorKind, Result};
 use lumencut_core::reformations::Layout;
 use lumencut_core::reformations::cpr::Cpr;
@@ -68,6 +69,21 @@ impl Feature {
         }
     }
 
+    /// Which of the values of a half circle the feature shows, the first of several: the largest or the smallest; None for features
+    /// that show no single one, and where no value is known.
+    pub fn place(self, values: &[f32]) -> Option<usize> {
+        let known = values.iter().enumerate().filter(|(_, value)| !value.is_nan());
+        let larger = |best: Option<(usize, f32)>, (n, value): (usize, f32)| {
+            if best.is_some_and(|(_, known)| known >= value) { best } else { Some((n, value)) }
+        };
+        let best = match self {
+            Self::Max => known.map(|(n, value)| (n, *value)).fold(None, larger),
+            Self::Min => known.map(|(n, value)| (n, -value)).fold(None, larger),
+            Self::Mean | Self::Range | Self::Share(_) => None,
+        };
+        best.map(|(n, _)| n)
+    }
+
     /// What the pixel shows.
     fn shown(self, Gathered { least, most, sum, count }: Gathered) -> f32 {
         if count == 0 {
@@ -109,6 +125,20 @@ pub fn angle_count(cpr: &Cpr, pixel_spacing: f64) -> usize {
     ((PI * largest / pixel_spacing).ceil() as usize) | 1
 }
 
+/// By how much a straightened vessel is turned (radians) for each direction of a half circle.
+fn turns(cpr: &Cpr, pixel_spacing: f64) -> impl Iterator<Item = f64> {
+    let angles = angle_count(cpr, pixel_spacing);
+    (0..angles).map(move |n| (n as f64 - (angles / 2) as f64) / angles as f64 * PI)
+}
+
+/// The world points of the half circle that a place in a CFA, column and row, stands for.
+///
+/// # Errors
+/// Those of the layout.
+pub fn half_circle(cpr: &Cpr, pixel_spacing: f64, pixel: DVec2) -> Result<Vec<DVec3>> {
+    turns(cpr, pixel_spacing).map(|aside| Ok(cpr.rotated(aside)?.world_from_pixel(pixel))).collect()
+}
+
 /// The values of a CFA in the layout of `cpr`, a straightened vessel, row by row; NaN where the whole half circle lies outside the
 /// volume. `look` gives the values of the vessel turned about itself, from whatever computes them.
 ///
@@ -121,10 +151,8 @@ pub fn feature_aggregation(
     mut look: impl FnMut(&Cpr) -> Result<Vec<f32>>,
 ) -> Result<Vec<f32>> {
     let [width, height] = cpr.size();
-    let angles = angle_count(cpr, pixel_spacing);
     let mut gathered = vec![Gathered::NOTHING; width * height];
-    for n in 0..angles {
-        let aside = (n as f64 - (angles / 2) as f64) / angles as f64 * PI;
+    for aside in turns(cpr, pixel_spacing) {
         let values = look(&cpr.rotated(aside)?)?;
         for (kept, value) in gathered.iter_mut().zip(values) {
             if !value.is_nan() {

@@ -74,7 +74,14 @@ export async function straightenedCanvas(
   vessel: number,
   { width, spacing }: ReportPlan,
 ): Promise<HTMLCanvasElement> {
-  const cpr: Cpr = { vessel, angle: store.cprAngle.value, width, pixel_spacing: spacing, feature: null };
+  const cpr: Cpr = {
+    vessel,
+    angle: store.cprAngle.value,
+    width,
+    pixel_spacing: spacing,
+    feature: null,
+    roll: null,
+  };
   const picture = lyingPicture(await engine.ask('straightened', { cpr: cpr, window: store.window_.value }));
   const [canvas, context] = canvasOf(...picture.size);
   context.putImageData(pixelsOf(picture), 0, 0);

@@ -245,6 +245,7 @@ function reset(engine: EngineClient): void {
     store.isInverted.value = false;
     store.isTurning.value = false;
     store.cprAngle.value = 0;
+    store.cprRoll.value = null;
     store.resets.value += 1;
     if (windows) {
       store.window_.value = windows.main;

@@ -9,6 +9,7 @@ import type {
   Method,
   Progress,
   Report,
+  Roll,
   Settings,
   Started,
   States,
@@ -77,6 +78,8 @@ export const pickedPlace = signal(0);
 export const cprAngle = signal(0);
 /** Which value of a half circle the CPR shows (CFA). */
 export const cprFeature = signal<Feature | null>(null);
+/** Which side of the lumen the rows of the CPR follow; null where all have its rotation. */
+export const cprRoll = signal<Roll | null>(null);
 
 export const layout = signal<Layout>('strip');
 export const maximised = signal<ViewName | null>(null);

@@ -17,13 +17,14 @@ export function CprView() {
   const vessel = store.pickedVessel.value;
   const angle = store.cprAngle.value;
   const feature = store.cprFeature.value;
+  const roll = feature ? null : store.cprRoll.value;
   const window = store.window_.value;
   const [size, setSize] = useState<Pair | null>(null);
   const length = vessel === null ? 0 : (store.report.value?.vessels?.[vessel]?.length ?? 0);
   const spacing = size && length > 0 ? Math.max(length / size[1], 0.05) : null;
   const cpr: Cpr | null =
     vessel !== null && spacing && size
-      ? { vessel, angle, width: Math.min(WIDTH, size[0] * spacing), pixel_spacing: spacing, feature }
+      ? { vessel, angle, width: Math.min(WIDTH, size[0] * spacing), pixel_spacing: spacing, feature, roll }
       : null;
   const text = cpr && JSON.stringify(cpr);
   const [shown, setShown] = useState<Pair | null>(null);

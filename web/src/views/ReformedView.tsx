@@ -63,10 +63,16 @@ export function ReformedView({ kind }: { readonly kind: Reformation['kind'] }) {
         handlers={handlersOf(kind, [left, top])}
         empty="The vessel is shown here once there is one."
         onSize={setSize}
-        style={{ margin: `${top}px auto 0` }}
+        style={{ margin: `${top}px 0 0 ${left}px` }}
       >
         {refused && <p class="nothing-yet">{refused}</p>}
         {text && shown && <p class="axes">{shown.words}</p>}
+        {text &&
+          shown?.marks.map(({ words, pixel: [x, y] }) => (
+            <b key={`${words} ${x} ${y}`} class="mark" style={{ left: `${x + left}px`, top: `${y + top}px` }}>
+              {words}
+            </b>
+          ))}
         {text && hair && <HairLines at={[hair[0] + left + 0.5, hair[1] + top + 0.5]} />}
       </FlatPicture>
       <div class="pane-controls">

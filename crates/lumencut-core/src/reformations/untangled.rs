@@ -215,6 +215,19 @@ impl Untangled {
         &self.laid_out
     }
 
+    /// Where each vessel ends in the image, column and row, by the ids: a vessel that grows backwards ends in its first part, others
+    /// in their last one.
+    pub fn ends(&self) -> Vec<DVec2> {
+        let mut ends = vec![DVec2::NAN; self.vessels];
+        for LaidOut { vessel, pixels, is_reversed, .. } in self.laid_out.iter() {
+            let known = &mut ends[*vessel];
+            if known.is_nan() || !is_reversed {
+                *known = pixels[if *is_reversed { 0 } else { pixels.len() - 1 }];
+            }
+        }
+        ends
+    }
+
     /// By how much each vessel is turned where a part of it begins (radians, counter-clockwise in the image): of several turns the
     /// largest one.
     pub fn rotations(&self) -> Vec<f64> {

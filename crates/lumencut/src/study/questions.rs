@@ -86,9 +86,9 @@ of_the_study {
     [Turn::First] across { vessel: usize, at: f64 } -> [Vector; 3] = study.across(vessel, at)?;
 
     /// The straightened CPR of a vessel in a window.
-    [Turn::First] straightened { cpr: CprMessage, window: Window } -> Picture = study.straightened(cpr, window)?;
+    [Turn::First] straightened { cpr: CprMessage, window: Window } -> Picture = study.straightened(cpr, (window, asking.watch.stop))?;
 
-    /// What a pixel of the straightened CPR shows that was asked for last.
+    /// What a pixel of the straightened CPR shows that was asked for last; of CFA, the place on its half circle.
     [Turn::First] pick_straightened { pixel: [f64; 2] } -> StraightenedPick = study.pick_straightened(pixel)?;
 
     /// Column and row of a point in the straightened CPR that was asked for last; null where none was.

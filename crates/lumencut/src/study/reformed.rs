@@ -1,5 +1,7 @@
 //! The reformation that a study keeps from one picture to the next, and its picture.
 
+use serde::Serialize;
+
 use crate::study::reformations::{Laid, ReformationMessage};
 
 /// The picture of a reformation.
@@ -15,6 +17,18 @@ pub struct ReformedPicture {
     pub words: String,
     /// The side of a pixel (mm).
     pub pixel_spacing: f64,
+    /// Names of vessels where they end, or open into the one that is shown.
+    pub marks: Vec<Mark>,
+}
+
+/// A name at a place of a picture.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub struct Mark {
+    /// The name.
+    pub words: String,
+    /// Column and row.
+    pub pixel: [f64; 2],
 }
 
 /// The reformation that was shown last.

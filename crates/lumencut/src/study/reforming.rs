@@ -12,7 +12,7 @@ use lumencut_core::stop::Stop;
 use lumencut_core::vessel_tree::Vessel;
 use std::sync::Arc;
 
-use crate::lumen_map::thickness;
+use crate::lumen_map::{ostia, thickness};
 use crate::lumen_wall::{FoundWall, lumen_wall};
 use crate::study::failure::{Failure, Result};
 use crate::study::held_volume::no_volume;
@@ -21,7 +21,7 @@ use crate::study::picking::Pick;
 use crate::study::reformations::{
     BAND, Laid, MapOf, ReformationMessage, head_up, map, spiral, uncurl, untangled,
 };
-use crate::study::reformed::{Reformed, ReformedPicture};
+use crate::study::reformed::{Mark, Reformed, ReformedPicture};
 use crate::value_colours::{Colours, coloured, scale_end};
 
 impl Study {
@@ -45,7 +45,7 @@ impl Study {
                 Reformed { message, size, laid, value }
             }
         };
-        let picture = picture_of(&reformed, window)?;
+        let picture = self.picture_of(&reformed, window)?;
         self.reformed = Some(reformed);
         Ok(picture)
     }
@@ -159,23 +159,45 @@ impl Study {
             }
         }
     }
-}
 
-/// The picture of a reformation in a window, and what there is to say of it.
-fn picture_of(reformed: &Reformed, window: [f64; 2]) -> Result<ReformedPicture> {
-    let layout = reformed.laid.layout();
-    let size = layout.size();
-    let mut words = reformed.laid.axes().words();
-    let is_length =
-        matches!(reformed.message, ReformationMessage::Map { of: MapOf::Radius | MapOf::Thickness, .. });
-    let pixels = if is_length {
-        let end = scale_end(&reformed.value);
-        words += &format!(" Colours: from 0 (dark blue) to {end} mm (yellow).");
-        coloured(&reformed.value, [0.0, end], Colours::Viridis)
-    } else {
-        pipeline::picture(&reformed.value, size, &shown_flat(window)?.1)?
-    };
-    Ok(ReformedPicture { size, bytes: pixels.into_flattened(), words, pixel_spacing: layout.pixel_spacing() })
+    /// The picture of a reformation in a window, and what there is to say of it.
+    fn picture_of(&self, reformed: &Reformed, window: [f64; 2]) -> Result<ReformedPicture> {
+        let layout = reformed.laid.layout();
+        let size = layout.size();
+        let mut words = reformed.laid.axes().words();
+        let is_length =
+            matches!(reformed.message, ReformationMessage::Map { of: MapOf::Radius | MapOf::Thickness, .. });
+        let pixels = if is_length {
+            let end = scale_end(&reformed.value);
+            words += &format!(" Colours: from 0 (dark blue) to {end} mm (yellow).");
+            coloured(&reformed.value, [0.0, end], Colours::Viridis)
+        } else {
+            pipeline::picture(&reformed.value, size, &shown_flat(window)?.1)?
+        };
+        let (bytes, pixel_spacing) = (pixels.into_flattened(), layout.pixel_spacing());
+        let marks = self.marks_of(&reformed.laid);
+        Ok(ReformedPicture { size, bytes, words, pixel_spacing, marks })
+    }
+
+    /// Names of vessels where they end, or where they open into the one that is shown.
+    fn marks_of(&self, laid: &Laid) -> Vec<Mark> {
+        let Some(named) = self.content.named.as_ref() else { return Vec::new() };
+        let places: Vec<(usize, [f64; 2])> = match laid {
+            Laid::Untangled(layout) => layout.ends().iter().map(DVec2::to_array).enumerate().collect(),
+            Laid::Map(layout, _) => ostia(layout, named.leveled.tree().vessels())
+                .iter()
+                .map(|one| {
+                    (one.vessel, [layout.column(one.around), one.at / layout.parameters().pixel_spacing])
+                })
+                .collect(),
+            Laid::Uncurl(..) | Laid::Spiral(_) => Vec::new(),
+        };
+        let mark = |(vessel, pixel): (usize, [f64; 2])| {
+            let words = named.names.get(vessel).filter(|name| !name.is_empty())?.clone();
+            Some(Mark { words, pixel })
+        };
+        places.into_iter().filter_map(mark).collect()
+    }
 }
 
 fn no_level() -> Failure {

@@ -4,7 +4,7 @@ use crate::feature_aggregation::Feature;
 use glam::{DVec2, DVec3};
 use lumencut_core::math::centerline_path::CenterlinePath;
 use lumencut_core::reformations::Layout;
-use lumencut_core::reformations::cpr::{Cpr, CprMode, View};
+use lumencut_core::reformations::cpr::{Cpr, CprMode, Roll, Side, View};
 use lumencut_core::vessel_tree::Vessel;
 use serde::Deserialize;
 
@@ -25,6 +25,29 @@ pub struct CprMessage {
     /// Which value of a half circle a pixel shows, by CFA; without one its own.
     #[serde(default)]
     pub feature: Option<Aggregated>,
+    /// Which side of the lumen each row follows; without one all rows have the same angle.
+    #[serde(default)]
+    pub roll: Option<Followed>,
+}
+
+/// The sides that a roll follows, by their names.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq)]
+#[serde(rename_all = "lowercase")]
+#[cfg_attr(test, derive(ts_rs::TS), ts(rename = "Roll"))]
+pub enum Followed {
+    /// The narrowest one.
+    Narrowest,
+    /// The widest one.
+    Widest,
+}
+
+impl From<Followed> for Side {
+    fn from(followed: Followed) -> Self {
+        match followed {
+            Followed::Narrowest => Self::Narrowest,
+            Followed::Widest => Self::Widest,
+        }
+    }
 }
 
 /// The features of CFA by their names.
@@ -60,21 +83,33 @@ pub struct Laid {
 }
 
 impl Laid {
-    /// The layout that is asked for; that of `before` turned, where it is of the same vessel.
+    /// The layout that is asked for; that of `before` turned, where [`Laid::is_turned`] says so.
     ///
     /// # Errors
     /// `camera` for an invalid angle, width or spacing.
     pub fn new(message: CprMessage, vessel: &Vessel, before: Option<&Self>) -> Result<Self> {
-        let same = |laid: &&Self| {
-            CprMessage { angle: message.angle, feature: message.feature, ..laid.message } == message
-        };
-        if let Some(laid) = before.filter(same) {
-            return Ok(Self { message, cpr: laid.cpr.rotated(message.angle)? });
+        if let Some(laid) = before.filter(|laid| laid.is_turned(&message)) {
+            let is_rolled = message.roll.is_some();
+            let cpr = if is_rolled { laid.cpr.clone() } else { laid.cpr.rotated(message.angle)? };
+            return Ok(Self { message, cpr });
         }
         let view = View { up: DVec3::Z, angle: message.angle, normal: None };
         let path = CenterlinePath::new(vessel, 0.0)?;
         let cpr = Cpr::new(path, CprMode::Straightened, view, Some(message.width), message.pixel_spacing)?;
         Ok(Self { message, cpr })
+    }
+
+    /// The same with rows that follow a roll.
+    ///
+    /// # Errors
+    /// As [`Cpr::rolled`].
+    pub fn rolled(self, roll: Roll) -> Result<Self> {
+        Ok(Self { cpr: self.cpr.rolled(roll)?, ..self })
+    }
+
+    /// Whether a message asks for this layout, but for the angle and what a pixel shows.
+    pub fn is_turned(&self, message: &CprMessage) -> bool {
+        CprMessage { angle: message.angle, feature: message.feature, ..self.message } == *message
     }
 
     /// The world point at a place in the picture, column and row.

@@ -1,12 +1,15 @@
 //! The straightened CPR of a vessel of the study, and what its pixels show.
 
-use crate::feature_aggregation::{Feature, feature_aggregation};
+use crate::feature_aggregation::{Feature, feature_aggregation, half_circle};
+use crate::windows::sample;
+use glam::DVec2;
 use lumencut_core::frame::Frame;
 use lumencut_core::geometry::Geometry;
 use lumencut_core::pipeline::{self, Request};
 use lumencut_core::reformations::Layout;
-use lumencut_core::reformations::cpr::Cpr;
+use lumencut_core::reformations::cpr::{Cpr, Roll};
 use lumencut_core::stages::{Image, ImageSet};
+use lumencut_core::stop::Stop;
 use serde::Serialize;
 
 use crate::study::failure::{Failure, Result};
@@ -29,13 +32,21 @@ pub struct StraightenedPick {
 }
 
 impl Study {
-    /// The straightened CPR of a vessel in a window.
+    /// The straightened CPR of a vessel in a window. A roll needs the lumen, which is measured where it is not known yet.
     ///
     /// # Errors
-    /// `vessel tree` for a vessel that there is not, and those of the layout.
-    pub fn straightened(&mut self, message: CprMessage, window: [f64; 2]) -> Result<Picture> {
-        let laid = Laid::new(message, self.vessel(message.vessel)?, self.laid.as_ref())?;
+    /// `vessel tree` for a vessel that there is not, and for a roll along one without radii whose lumen cannot be measured either;
+    /// `camera` for a feature of a roll; and those of the layout.
+    pub fn straightened(&mut self, message: CprMessage, (window, stop): ([f64; 2], Stop)) -> Result<Picture> {
+        let mut laid = Laid::new(message, self.vessel(message.vessel)?, self.laid.as_ref())?;
+        if let Some(followed) = message.roll
+            && self.laid.as_ref().is_none_or(|before| !before.is_turned(&message))
+        {
+            let (path, found) = self.wall_of(message.vessel, stop)?;
+            laid = laid.rolled(Roll::following(&found.wall, path.length(), followed.into()))?;
+        }
         let picture = match message.feature {
+            Some(_) if message.roll.is_some() => return Err(feature_of_roll()),
             Some(feature) => self.aggregated(&laid, message.pixel_spacing, feature.into(), window)?,
             None => self.shown(Geometry::Curved(laid.cpr.curved()?), window)?,
         };
@@ -43,16 +54,28 @@ impl Study {
         Ok(picture)
     }
 
-    /// What a place in the straightened CPR that was shown last shows.
+    /// What a place in the straightened CPR that was shown last shows: of the half circle of a CFA the place with the largest or the
+    /// smallest value, as it shows them.
     ///
     /// # Errors
     /// `settings` where none was shown.
     pub fn pick_straightened(&self, [column, row]: [f64; 2]) -> Result<StraightenedPick> {
         let none = || Failure::of_message("CPR", &"none", "one that is shown");
         let laid = self.laid.as_ref().ok_or_else(none)?;
-        let at = self.at(laid.world([column, row]));
+        let on_half_circle = match laid.message.feature {
+            Some(feature) => self.aggregated_place(laid, feature.into(), [column, row])?,
+            None => None,
+        };
+        let at = self.at(on_half_circle.unwrap_or_else(|| laid.world([column, row])));
         let (vessel, arc_length) = (laid.message.vessel, laid.arc_length(row));
         Ok(StraightenedPick { point: at.point, value: at.value, vessel, arc_length })
+    }
+
+    fn aggregated_place(&self, laid: &Laid, feature: Feature, pixel: [f64; 2]) -> Result<Option<[f64; 3]>> {
+        let volume = self.content.held.as_ref().ok_or_else(no_volume)?.volume()?;
+        let circle = half_circle(&laid.cpr, laid.message.pixel_spacing, DVec2::from_array(pixel))?;
+        let place = feature.place(&sample(&volume, &circle));
+        Ok(place.map(|n| circle[n].to_array()))
     }
 
     /// Column and row of a world point in the straightened CPR that was shown last; none where none was.
@@ -73,3 +96,12 @@ impl Study {
         Ok(Picture { size, bytes: pipeline::picture(&value, size, &settings)?.into_flattened() })
     }
 }
+
+fn feature_of_roll() -> Failure {
+    let found = "a CPR whose rows follow a side of the lumen";
+    Failure::of_message("feature of the CFA", &found, "one at an even angle")
+}
+
+#[cfg(test)]
+#[path = "tests/straightening.rs"]
+mod tests;

@@ -50,6 +50,8 @@ export type Cpr = {
   readonly pixel_spacing: number;
   /** Which value of a half circle a pixel shows, by CFA; without one its own. */
   readonly feature: Feature | null;
+  /** Which side of the lumen each row follows; without one all rows have the same angle. */
+  readonly roll: Roll | null;
 };
 
 /** The diameter at a place and its standard deviation (mm). */
@@ -323,6 +325,14 @@ export type LookRow = {
 /** What a lumen map shows. */
 export type MapOf = "wall" | "radius" | "thickness";
 
+/** A name at a place of a picture. */
+export type Mark = {
+  /** The name. */
+  readonly words: string;
+  /** Column and row. */
+  readonly pixel: Pair;
+};
+
 /** What a reader marked on one vessel (arc lengths, mm). */
 export type Marks = {
   /** The place of a stenosis. */
@@ -522,6 +532,8 @@ export type ReformedPicture = {
   readonly words: string;
   /** The side of a pixel (mm). */
   readonly pixel_spacing: number;
+  /** Names of vessels where they end, or open into the one that is shown. */
+  readonly marks: ReadonlyArray<Mark>;
 };
 
 /** What is open. */
@@ -607,6 +619,9 @@ export type ReportView = {
   /** The name of its method, such as `csr`. */
   readonly method: Method;
 };
+
+/** The sides that a roll follows, by their names. */
+export type Roll = "narrowest" | "widest";
 
 /** A bar of a length that is easily read. */
 export type ScaleBar = {
@@ -919,7 +934,7 @@ export type Questions = {
     };
     readonly answer: Picture;
   };
-  /** What a pixel of the straightened CPR shows that was asked for last. */
+  /** What a pixel of the straightened CPR shows that was asked for last; of CFA, the place on its half circle. */
   readonly pick_straightened: {
     readonly message: {
       readonly pixel: Pair;

@@ -356,5 +356,9 @@ fn other_pixels_show_the_same_layout_and_places_tell_their_vessel() {
         assert!((at - part.arc_length[n]).abs() < 1e-6);
     }
     assert!(fine.vessel_at(DVec2::splat(-1e4)).is_none());
+    for (vessel, end) in fine.ends().into_iter().enumerate() {
+        let last = tree.vessels()[vessel].points().last().unwrap();
+        assert!(fine.world_from_pixel(end).distance(*last) < 1e-6);
+    }
     assert!(fine.with_pixels(0.0).is_err());
 }

@@ -186,8 +186,9 @@ fn the_straightened_vessel_runs_down_the_middle() {
     let mut study = opened("stenosis");
     assert_eq!(study.pick_straightened([0.0, 0.0]).expect_err("none is shown").subject, "CPR");
     assert!(study.on_straightened([0.0; 3]).is_none());
-    let message = CprMessage { vessel: 0, angle: 0.0, width: 20.0, pixel_spacing: 0.5, feature: None };
-    let picture = study.straightened(message, [300.0, 900.0]).expect("a CPR");
+    let message =
+        CprMessage { vessel: 0, angle: 0.0, width: 20.0, pixel_spacing: 0.5, feature: None, roll: None };
+    let picture = study.straightened(message, ([300.0, 900.0], &|| false)).expect("a CPR");
     let [width, height] = picture.size;
     for row in [2, height / 2, height - 3] {
         let place = [(width - 1) as f64 / 2.0, row as f64];
@@ -198,7 +199,7 @@ fn the_straightened_vessel_runs_down_the_middle() {
         assert!((pixel[0] - place[0]).abs() < 0.1 && (pixel[1] - place[1]).abs() < 0.1);
     }
     let turned = CprMessage { angle: 1.0, ..message };
-    assert_eq!(study.straightened(turned, [300.0, 900.0]).expect("a CPR").size, picture.size);
+    assert_eq!(study.straightened(turned, ([300.0, 900.0], &|| false)).expect("a CPR").size, picture.size);
 }
 
 #[test]
@@ -297,8 +298,10 @@ fn the_views_of_a_flight_are_told_without_a_study() {
 #[test]
 fn a_feature_aggregation_is_as_bright_as_its_circles() {
     let mut study = opened("stenosis");
-    let plain = CprMessage { vessel: 0, angle: 0.0, width: 20.0, pixel_spacing: 0.5, feature: None };
-    let shown = |study: &mut Study, message| study.straightened(message, [300.0, 900.0]).expect("a CPR");
+    let plain =
+        CprMessage { vessel: 0, angle: 0.0, width: 20.0, pixel_spacing: 0.5, feature: None, roll: None };
+    let shown =
+        |study: &mut Study, message| study.straightened(message, ([300.0, 900.0], &|| false)).expect("a CPR");
     let (least, most) = (CprMessage { feature: Some(Aggregated::Min), ..plain }, Some(Aggregated::Max));
     let [least, own, most] =
         [least, plain, CprMessage { feature: most, ..plain }].map(|m| shown(&mut study, m));

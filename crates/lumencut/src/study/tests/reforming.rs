@@ -65,6 +65,23 @@ fn each_fits_into_its_pane_and_a_pick_leads_back_to_its_pixel() {
 }
 
 #[test]
+fn names_stand_where_vessels_end_and_where_they_open_into_the_one_that_is_shown() {
+    let mut study = opened("y_junction");
+    let names = study.content.named.as_ref().expect("vessels").names.clone();
+    let [untangled, _, _, map] = all_kinds(0)[..] else { panic!("four kinds") };
+    let picture = study.reformed(untangled, PANE, (WINDOW, &go)).expect("a picture");
+    let marked: Vec<_> = picture.marks.iter().map(|mark| mark.words.clone()).collect();
+    assert_eq!(marked, names);
+    for (n, mark) in picture.marks.iter().enumerate() {
+        let end = study.vessel(n).expect("a vessel").points().last().expect("points").to_array();
+        let place = study.on_reformed(end).expect("an end that is shown");
+        assert!(DVec2::from_array(place).distance(DVec2::from_array(mark.pixel)) < 1.0, "{}", mark.words);
+    }
+    let wall = study.reformed(map, PANE, (WINDOW, &go)).expect("a map");
+    assert!(wall.marks.iter().all(|mark| mark.words != names[0]), "no vessel opens into itself");
+}
+
+#[test]
 fn a_window_alone_changes_the_picture_and_nothing_is_laid_out_again() {
     let mut study = opened("y_junction");
     let asked = all_kinds(0)[0];

@@ -1,0 +1,68 @@
+//! What the pictures of reformations have in common, as Python has it: words, colours, and lengths that nobody gave.
+
+use lumencut::axes_words::Axes;
+use lumencut::error::{Error, ErrorKind};
+use lumencut::spiral_lengths::{self, Room};
+use lumencut::value_colours::{self, Colours};
+use numpy::{PyArray1, PyArray3, PyArrayMethods, PyReadonlyArray2};
+use pyo3::prelude::*;
+
+use crate::errors::to_python;
+
+/// What rows and columns of a reformation are, in words: `untangled`, `uncurled` by an amount, `spiral by arc` by its pitch (mm),
+/// `spiral by angle`, and `map` by the radius at which its columns are true (mm).
+#[pyfunction]
+#[pyo3(signature = (reformation, number=0.0))]
+pub fn axes_words(reformation: &str, number: f64) -> PyResult<String> {
+    let axes = match reformation {
+        "untangled" => Axes::Untangled,
+        "uncurled" => Axes::Uncurled(number),
+        "spiral by arc" => Axes::SpiralByArc(number),
+        "spiral by angle" => Axes::SpiralByAngle,
+        "map" => Axes::Map(number),
+        other => {
+            let expected = "untangled, uncurled, spiral by arc, spiral by angle or map";
+            let error = Error::new(ErrorKind::Settings, "reformation", format!("'{other}'"), expected);
+            return Err(to_python(error));
+        }
+    };
+    Ok(axes.words())
+}
+
+/// The colours (RGBA) of values (H, W) between two ends; transparent where they are not finite.
+#[pyfunction]
+#[allow(clippy::needless_pass_by_value)]
+pub fn coloured<'py>(
+    py: Python<'py>,
+    value: PyReadonlyArray2<'py, f32>,
+    ends: [f64; 2],
+    grey: bool,
+) -> PyResult<Bound<'py, PyArray3<u8>>> {
+    let value = value.as_array();
+    let (height, width) = value.dim();
+    let values: Vec<f32> = value.iter().copied().collect();
+    let colours = if grey { Colours::Grey } else { Colours::Viridis };
+    let pixels = value_colours::coloured(&values, ends, colours).into_flattened();
+    PyArray1::from_vec(py, pixels).reshape([height, width, 4])
+}
+
+/// The value (mm) at which colours of lengths (H, W) end.
+#[pyfunction]
+#[allow(clippy::needless_pass_by_value)]
+pub fn scale_end(value: PyReadonlyArray2<'_, f32>) -> f64 {
+    let values: Vec<f32> = value.as_array().iter().copied().collect();
+    value_colours::scale_end(&values)
+}
+
+/// How far from a vessel the windings of a spiral CPR reach (mm), by its largest radius (mm).
+#[pyfunction]
+pub fn spiral_reach(largest: f64) -> f64 {
+    spiral_lengths::spiral_reach(largest)
+}
+
+/// The pitch of a spiral CPR (mm), by the usual radius, the smallest side of a voxel, the radius that it reaches, the side of a pixel
+/// (mm), and the most columns.
+#[pyfunction]
+pub fn spiral_pitch(usual: f64, smallest_side: f64, radius: f64, pixel_spacing: f64, columns: f64) -> f64 {
+    spiral_lengths::spiral_pitch(usual, smallest_side, Room { radius, pixel_spacing, columns })
+}
