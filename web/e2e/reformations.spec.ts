@@ -63,7 +63,7 @@ for (const row of table.reformations) {
       expect([found.width, found.height]).toEqual([expected.width, expected.height]);
       expect(difference(found, expected, SAME_CODE)).toBeNull();
     }).toPass({ timeout: 60_000 });
-    await expect(viewer.pane('straightened').locator('.axes')).toContainText('vessel');
+    await expect(viewer.page.locator('.reformed .axes')).toContainText('vessel');
     await viewer.screenshot(`reformation-${row.name}`);
     const [left, top] = [table.size[0] - expected.width, table.size[1] - expected.height];
     const at: Pair = [Math.floor(left / 2) + row.pixel[0] + 0.5, Math.floor(top / 2) + row.pixel[1] + 0.5];
@@ -93,7 +93,7 @@ test('a click in a CFA picks the place that it shows, and a roll has no angle of
   await expect(viewer.readOut).toHaveText(/ · \S.* · \d+\.\d mm$/);
   await choice(viewer, 'What a pixel shows').selectOption('');
   const before = await viewer.pixels('straightened');
-  await choice(viewer, 'Side of the lumen').selectOption('narrowest');
+  await choice(viewer, 'What a pixel shows').selectOption('narrowest');
   await expect(choice(viewer, 'Rotation about the vessel (degrees)')).toBeDisabled();
   await expect
     .poll(async () => difference(await viewer.pixels('straightened'), before, SAME_CODE))

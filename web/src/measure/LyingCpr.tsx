@@ -54,7 +54,7 @@ const cprOf = (vessel: number, { width, spacing }: Lying): Cpr => ({
   width,
   pixel_spacing: spacing,
   feature: store.cprFeature.value,
-  roll: store.cprFeature.value ? null : store.cprRoll.value,
+  roll: store.cprRoll.value,
 });
 
 function pixels(box: Readonly<Record<string, number>>): Record<string, string> {

@@ -1,4 +1,5 @@
 /** What can be chosen of a straightened vessel. */
+import { batch } from '@preact/signals';
 import type { ComponentChildren } from 'preact';
 import type { Feature, Roll } from '../core/messages';
 import * as store from '../state/store';
@@ -9,7 +10,7 @@ export const TURN_STEP = Math.PI / 36;
 /** The rotation about the vessel or the side that it follows, and which value a pixel shows. */
 export function CprControls({ children }: { readonly children?: ComponentChildren }) {
   const degrees = Math.round((store.cprAngle.value * 180) / Math.PI);
-  const isRolled = store.cprRoll.value !== null && store.cprFeature.value === null;
+  const isRolled = store.cprRoll.value !== null;
   return (
     <div class="pane-controls">
       <input
@@ -27,30 +28,26 @@ export function CprControls({ children }: { readonly children?: ComponentChildre
       <output>{isRolled ? '' : `${degrees}°`}</output>
       <select
         aria-label="What a pixel shows"
-        value={store.cprFeature.value ?? ''}
-        onChange={(event) => {
-          store.cprFeature.value = (event.currentTarget.value || null) as Feature | null;
-        }}
+        value={store.cprFeature.value ?? store.cprRoll.value ?? ''}
+        onChange={(event) => choose(event.currentTarget.value)}
       >
         <option value="">CPR</option>
+        <option value="narrowest">CPR, narrowest side</option>
+        <option value="widest">CPR, widest side</option>
         <option value="max">CFA, largest</option>
         <option value="mean">CFA, mean</option>
         <option value="min">CFA, smallest</option>
       </select>
-      {store.cprFeature.value === null && (
-        <select
-          aria-label="Side of the lumen"
-          value={store.cprRoll.value ?? ''}
-          onChange={(event) => {
-            store.cprRoll.value = (event.currentTarget.value || null) as Roll | null;
-          }}
-        >
-          <option value="">fixed angle</option>
-          <option value="narrowest">narrowest side</option>
-          <option value="widest">widest side</option>
-        </select>
-      )}
       {children}
     </div>
   );
+}
+
+/** Takes a feature of CFA, a side of the lumen, or neither. */
+function choose(name: string): void {
+  const isRoll = name === 'narrowest' || name === 'widest';
+  batch(() => {
+    store.cprRoll.value = isRoll ? (name as Roll) : null;
+    store.cprFeature.value = isRoll ? null : ((name || null) as Feature | null);
+  });
 }

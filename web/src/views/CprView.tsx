@@ -17,7 +17,7 @@ export function CprView() {
   const vessel = store.pickedVessel.value;
   const angle = store.cprAngle.value;
   const feature = store.cprFeature.value;
-  const roll = feature ? null : store.cprRoll.value;
+  const roll = store.cprRoll.value;
   const window = store.window_.value;
   const [size, setSize] = useState<Pair | null>(null);
   const length = vessel === null ? 0 : (store.report.value?.vessels?.[vessel]?.length ?? 0);

@@ -55,26 +55,34 @@ export function ReformedView({ kind }: { readonly kind: Reformation['kind'] }) {
   const [left, top] = size && shown ? begin(size, shown.size) : [0, 0];
   const hair = useHair(shown);
   return (
-    <>
-      <FlatPicture
-        name="straightened"
-        words={reformationTitle()}
-        ask={text ? ask : null}
-        handlers={handlersOf(kind, [left, top])}
-        empty="The vessel is shown here once there is one."
-        onSize={setSize}
-        style={{ margin: `${top}px 0 0 ${left}px` }}
-      >
-        {refused && <p class="nothing-yet">{refused}</p>}
-        {text && shown && <p class="axes">{shown.words}</p>}
-        {text &&
-          shown?.marks.map(({ words, pixel: [x, y] }) => (
-            <b key={`${words} ${x} ${y}`} class="mark" style={{ left: `${x + left}px`, top: `${y + top}px` }}>
-              {words}
-            </b>
-          ))}
-        {text && hair && <HairLines at={[hair[0] + left + 0.5, hair[1] + top + 0.5]} />}
-      </FlatPicture>
+    <div class="reformed">
+      <p class="axes" title={shown?.words}>
+        {text && shown?.words}
+      </p>
+      <div class="reformed-picture">
+        <FlatPicture
+          name="straightened"
+          words={reformationTitle()}
+          ask={text ? ask : null}
+          handlers={handlersOf(kind, [left, top])}
+          empty="The vessel is shown here once there is one."
+          onSize={setSize}
+          style={{ margin: `${top}px 0 0 ${left}px` }}
+        >
+          {refused && <p class="nothing-yet">{refused}</p>}
+          {text &&
+            shown?.marks.map(({ words, pixel: [x, y] }) => (
+              <b
+                key={`${words} ${x} ${y}`}
+                class="mark"
+                style={{ left: `${x + left}px`, top: `${y + top}px` }}
+              >
+                {words}
+              </b>
+            ))}
+          {text && hair && <HairLines at={[hair[0] + left + 0.5, hair[1] + top + 0.5]} />}
+        </FlatPicture>
+      </div>
       <div class="pane-controls">
         <ReformationControls kind={kind} />
         <ReformationChoice />
@@ -87,7 +95,7 @@ export function ReformedView({ kind }: { readonly kind: Reformation['kind'] }) {
           </button>
         )}
       </div>
-    </>
+    </div>
   );
 }
 
