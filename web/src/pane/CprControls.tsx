@@ -1,6 +1,5 @@
 /** What can be chosen of a straightened vessel. */
 import { batch } from '@preact/signals';
-import type { ComponentChildren } from 'preact';
 import type { Feature, Roll } from '../core/messages';
 import * as store from '../state/store';
 
@@ -8,7 +7,7 @@ import * as store from '../state/store';
 export const TURN_STEP = Math.PI / 36;
 
 /** The rotation about the vessel or the side that it follows, and which value a pixel shows. */
-export function CprControls({ children }: { readonly children?: ComponentChildren }) {
+export function CprControls() {
   const degrees = Math.round((store.cprAngle.value * 180) / Math.PI);
   const isRolled = store.cprRoll.value !== null;
   return (
@@ -32,13 +31,12 @@ export function CprControls({ children }: { readonly children?: ComponentChildre
         onChange={(event) => choose(event.currentTarget.value)}
       >
         <option value="">CPR</option>
-        <option value="narrowest">CPR, narrowest side</option>
-        <option value="widest">CPR, widest side</option>
+        <option value="narrowest">CPR, narrowest</option>
+        <option value="widest">CPR, widest</option>
         <option value="max">CFA, largest</option>
         <option value="mean">CFA, mean</option>
         <option value="min">CFA, smallest</option>
       </select>
-      {children}
     </div>
   );
 }

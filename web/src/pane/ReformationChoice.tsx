@@ -1,9 +1,10 @@
-/** Which reformation the pane of the picked vessel shows. */
+/** Which reformation the pane of the picked vessel shows: it stands in the place of the pane's title. */
 import { REFORMATIONS, type ReformationKind, reformationKind } from '../state/reformation';
 
 export function ReformationChoice() {
   return (
     <select
+      class="reformation-choice"
       aria-label="Reformation"
       value={reformationKind.value}
       onChange={(event) => {

@@ -6,7 +6,6 @@ import { placeCrossHair } from '../link/cross-hair';
 import { UprightPlaces } from '../measure/UprightPlaces';
 import { CprControls, TURN_STEP } from '../pane/CprControls';
 import { FlatPicture } from '../pane/FlatPicture';
-import { ReformationChoice } from '../pane/ReformationChoice';
 import { dragWindow, windowBack } from '../state/actions';
 import * as store from '../state/store';
 
@@ -76,11 +75,7 @@ export function CprView() {
         {cpr && <div class="place-line" style={{ top: `${row}px` }} />}
         {size && spacing && <UprightPlaces size={size} spacing={spacing} />}
       </FlatPicture>
-      {cpr && (
-        <CprControls>
-          <ReformationChoice />
-        </CprControls>
-      )}
+      {cpr && <CprControls />}
     </>
   );
 }

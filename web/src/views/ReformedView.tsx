@@ -8,7 +8,6 @@ import { attempt } from '../output/attempt';
 import { savePane } from '../output/pane-picture';
 import { TURN_STEP } from '../pane/CprControls';
 import { FlatPicture } from '../pane/FlatPicture';
-import { ReformationChoice } from '../pane/ReformationChoice';
 import { ReformationControls } from '../pane/ReformationControls';
 import { dragWindow, windowBack } from '../state/actions';
 import { mapOf, reformationOf, reformationTitle, uncurled } from '../state/reformation';
@@ -85,7 +84,6 @@ export function ReformedView({ kind }: { readonly kind: Reformation['kind'] }) {
       </div>
       <div class="pane-controls">
         <ReformationControls kind={kind} />
-        <ReformationChoice />
         {shown && (
           <button
             type="button"
