@@ -7,7 +7,7 @@ import re
 import ssl
 import threading
 from collections import Counter
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from email.message import Message
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
@@ -18,6 +18,7 @@ from urllib.parse import parse_qs, urlsplit
 import pydicom
 
 _INSTANCE = re.compile(r"/studies/([\d.]+)/series/([\d.]+)/instances/([\d.]+)")
+_SERIES = re.compile(r"/studies/([\d.]+)/series/([\d.]+)")
 BOUNDARY = "between"
 
 
@@ -29,7 +30,9 @@ class Pacs:
     held : dict
         Content by (study, series, instance).
     asked : Counter
-        How often each instance was asked for.
+        How often each instance was asked for alone.
+    streamed : int
+        How often all of a series was asked for.
     fault : callable
         Gets the handler of a request and its path; true where it has answered in place of the server.
     tokens : set
@@ -41,6 +44,7 @@ class Pacs:
     def __init__(self) -> None:
         self.held: dict[tuple[str, str, str], bytes] = {}
         self.asked: Counter[str] = Counter()
+        self.streamed = 0
         self.fault: Callable[[Handler, str], bool] = lambda handler, path: False
         self.tokens: set[str] = set()
         self.headers: list[dict[str, str]] = []
@@ -82,6 +86,9 @@ class Handler(BaseHTTPRequestHandler):
             self.pacs.asked[found[3]] += 1
             content = self.pacs.held.get(found.groups())  # type: ignore[arg-type]
             self.send(404, b"") if content is None else self.send_instance(content)
+        elif found := _SERIES.fullmatch(path):
+            self.pacs.streamed += 1
+            self.send_instances(value for key, value in self.pacs.held.items() if key[:2] == found.groups())
         else:
             self.search(path, query)
 
@@ -147,9 +154,14 @@ class Handler(BaseHTTPRequestHandler):
 
     def send_instance(self, content: bytes, status: int = 200) -> None:
         """Give an instance as a message of one part."""
+        self.send_instances([content], status)
+
+    def send_instances(self, contents: Iterable[bytes], status: int = 200) -> None:
+        """Give instances as a message of as many parts."""
         head = f"--{BOUNDARY}\r\nContent-Type: application/dicom\r\n\r\n".encode()
+        body = b"".join(head + content + b"\r\n" for content in contents)
         kind = f'multipart/related; type="application/dicom"; boundary={BOUNDARY}'
-        self.send(status, head + content + f"\r\n--{BOUNDARY}--\r\n".encode(), kind)
+        self.send(status, body + f"--{BOUNDARY}--\r\n".encode(), kind)
 
     def send_json(self, status: int, value: object) -> None:
         """Answer in the JSON of DICOM."""

@@ -14,12 +14,13 @@ from dicom_phantom import save, single
 from dicom_series import PLAIN_STACK
 from lumencut import list_series, read_volume
 from lumencut.cli import main
+from lumencut.dicomweb import pulling
 from lumencut.dicomweb.address import parsed_address
 from lumencut.dicomweb.source import fetched
 from lumencut.errors import FormatError, LumencutError, PacsError
 from lumencut.viewer import page as page_room
 from lumencut.viewer.server import ViewerServer
-from pacs_stub import Pacs, running
+from pacs_stub import BOUNDARY, Pacs, running
 from segmentation_files import segmentation
 from view_serving import Client, split, write_page
 
@@ -135,6 +136,48 @@ def test_what_is_not_whole_is_not_there_and_is_fetched_later(pacs, scan, tmp_pat
     assert second.exit_code == 0, second.output
     assert dict(pacs.asked) == dict.fromkeys(uids, 1)
     assert {path.read_bytes() for path in files(out)} == {path.read_bytes() for path in files(scan)}
+
+
+def test_a_series_of_which_much_is_missing_comes_as_one_stream(pacs, scan, tmp_path, monkeypatch):
+    monkeypatch.setattr(pulling, "STREAMED", 10)
+    done = run("pull", pacs.address, "-o", tmp_path / "out")
+    assert done.exit_code == 0, done.output
+    assert "24 of 24 instances fetched" in done.output
+    assert {path.read_bytes() for path in files(tmp_path / "out")} == {
+        path.read_bytes() for path in files(scan)
+    }
+    assert (pacs.streamed, len(pacs.asked)) == (1, 0)
+    for path in files(tmp_path / "out")[3:9]:
+        path.unlink()
+    assert run("pull", pacs.address, "-o", tmp_path / "out").exit_code == 0
+    assert (pacs.streamed, len(pacs.asked)) == (1, 6)
+
+
+@pytest.mark.parametrize("how", ["dies", "partial", "none", "other"])
+def test_what_a_stream_does_not_bring_is_asked_for_one_by_one(pacs, scan, tmp_path, monkeypatch, how):
+    monkeypatch.setattr(pulling, "STREAMED", 10)
+    contents = list(pacs.held.values())
+
+    def fault(handler, path):
+        if not path.endswith(pacs.series):
+            return False
+        if how == "dies":
+            handler.die(b"".join(content + f"\r\n--{BOUNDARY}\r\n\r\n".encode() for content in contents))
+        elif how == "other":
+            handler.send_instances([contents[0], contents[0], b"no DICOM", *contents[1:9]])
+        else:
+            handler.send(206 if how == "partial" else 406, b"")
+        return True
+
+    pacs.fault = fault
+    done = run("pull", pacs.address, "-o", tmp_path / "out")
+    assert done.exit_code == 0, done.output
+    assert {path.read_bytes() for path in files(tmp_path / "out")} == {
+        path.read_bytes() for path in files(scan)
+    }
+    assert {path.suffix for path in files(tmp_path / "out")} == {".dcm"}
+    expected = {"dies": range(8, 16), "partial": [24], "none": [24], "other": [15]}
+    assert len(pacs.asked) in expected[how]
 
 
 def test_a_pacs_that_is_gone_is_not_asked_for_everything(pacs, tmp_path):

@@ -135,8 +135,7 @@ def _pull(client: Client, place: Address, folder: Path) -> bool:
     instances = find_instances(client, place)
     with bar(f"fetching {len(instances)} instances", "instance") as told:
         done = pull_instances(client, instances, folder, told)
-    before = done.listed - done.fetched - len(done.missing)
-    already = f", {before} were there" if before else ""
+    already = f", {done.before} were there" if done.before else ""
     say(f"{folder}: {done.fetched} of {done.listed} instances fetched{already}")
     if not done.is_complete:
         warn(f"{len(done.missing)} instances are missing: {done.reasons}; run it again to fetch them alone")

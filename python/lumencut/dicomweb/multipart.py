@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import secrets
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from email.message import Message
 
 _LONGEST_HEAD = 1 << 16
@@ -25,45 +25,67 @@ def boundary_of(content_type: str) -> bytes | None:
     return boundary.encode("latin-1")
 
 
-def write_first_part(chunks: Iterable[bytes], boundary: bytes, write: Callable[[bytes], object]) -> None:
-    """Hand the content of the first part on piece by piece, and read the message to its end.
+class PartReader:
+    """Reads the parts of a message one after the other, and holds no more of it than a piece.
 
-    Raises
-    ------
-    MultipartError
-        Where there is no part, or the message ends within it.
+    Parameters
+    ----------
+    chunks : iterable of bytes
+        The message as it comes in.
+    boundary : bytes
+        What divides its parts.
     """
-    stream, mark = iter(chunks), b"\r\n--" + boundary
-    # A message may begin with its first boundary.
-    held = _behind_head(stream, b"--" + boundary)
-    while (end := held.find(mark)) < 0:
-        if len(held) >= len(mark):
-            write(held[: 1 - len(mark)])
-            held = held[1 - len(mark) :]
-        held += _next(stream)
-    write(held[:end])
-    for _ in stream:
-        pass
 
+    def __init__(self, chunks: Iterable[bytes], boundary: bytes) -> None:
+        self._stream, self._opening = iter(chunks), b"--" + boundary
+        self._held = b""
+        self._has_begun = False
 
-def _behind_head(stream: Iterator[bytes], opening: bytes) -> bytes:
-    """The first bytes behind the blank line that ends the head of a part."""
-    held = b""
-    while True:
-        start = held.find(opening)
-        end = held.find(b"\r\n\r\n", start) if start >= 0 else -1
-        if end >= 0:
-            return held[end + 4 :]
-        if len(held) > _LONGEST_HEAD:
-            raise MultipartError("no part")
-        held += _next(stream)
+    def read(self, write: Callable[[bytes], object]) -> bool:
+        """Hand the content of the next part on, piece by piece; tell whether there was one.
 
+        Raises
+        ------
+        MultipartError
+            Where the message ends before its end, or is none.
+        """
+        if not self._has_begun:
+            self._skip(self._opening)
+            self._has_begun = True
+        while len(self._held) < 2:
+            self._take()
+        if self._held.startswith(b"--"):
+            for _ in self._stream:
+                pass
+            return False
+        self._skip(b"\r\n\r\n")
+        self._copy(write)
+        return True
 
-def _next(stream: Iterator[bytes]) -> bytes:
-    try:
-        return next(stream)
-    except StopIteration:
-        raise MultipartError("an end within a part") from None
+    def _copy(self, write: Callable[[bytes], object]) -> None:
+        """Hand on what comes before the next boundary, and stand behind it."""
+        mark = b"\r\n" + self._opening
+        while (end := self._held.find(mark)) < 0:
+            if len(self._held) >= len(mark):
+                write(self._held[: 1 - len(mark)])
+                self._held = self._held[1 - len(mark) :]
+            self._take()
+        write(self._held[:end])
+        self._held = self._held[end + len(mark) :]
+
+    def _skip(self, wanted: bytes) -> None:
+        """Stand behind the first place of something in what comes; the head of a part cannot be long."""
+        while (place := self._held.find(wanted)) < 0:
+            if len(self._held) > _LONGEST_HEAD:
+                raise MultipartError("no part")
+            self._take()
+        self._held = self._held[place + len(wanted) :]
+
+    def _take(self) -> None:
+        try:
+            self._held += next(self._stream)
+        except StopIteration:
+            raise MultipartError("an end within a part") from None
 
 
 def written(contents: Sequence[bytes]) -> tuple[bytes, str]:

@@ -2,21 +2,20 @@
 
 from __future__ import annotations
 
-import os
 import threading
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from dataclasses import dataclass, field
 from pathlib import Path
 
 from lumencut.dicomweb.client import AT_ONCE, Client
-from lumencut.dicomweb.multipart import MultipartError, boundary_of, write_first_part
+from lumencut.dicomweb.fetching import fetch_instance, fetch_series, file_of
 from lumencut.dicomweb.queries import Instance
 from lumencut.errors import FileError, PacsError
 
-_ACCEPT = 'multipart/related; type="application/dicom"; transfer-syntax=*'
 _TRIES = 2
-_PREAMBLE = 132
+#: A series of which more than so many instances are missing, and more than half, comes as one stream.
+STREAMED = 100
 #: So many failures one after the other, and a PACS is taken to be gone.
 _PATIENCE = 12
 
@@ -31,6 +30,8 @@ class Pulled:
         Where the files lie, as SERIES/INSTANCE.dcm.
     listed : int
         How many instances the PACS lists.
+    before : int
+        How many of them were there already.
     fetched : int
         How many were fetched now.
     missing : dict of str to str
@@ -39,6 +40,7 @@ class Pulled:
 
     folder: Path
     listed: int
+    before: int = 0
     fetched: int = 0
     missing: dict[str, str] = field(default_factory=dict)
 
@@ -62,7 +64,9 @@ def pull_instances(
     folder: Path,
     progress: Callable[[int, int], object] | None = None,
 ) -> Pulled:
-    """Fetch instances into a folder, several at once; those whose files are there already are not asked for.
+    """Fetch instances into a folder; those whose files are there already are not asked for.
+
+    A series of which much is missing comes as one stream; the rest one by one, several at once.
 
     Parameters
     ----------
@@ -86,99 +90,80 @@ def pull_instances(
     except OSError as error:
         raise FileError(str(folder), error.strerror or str(error), "a folder to write into") from error
     wanted = [one for one in instances if not file_of(folder, one).exists()]
-    done = Pulled(folder, len(instances))
-    stop, failures = threading.Event(), 0
-    pool = ThreadPoolExecutor(AT_ONCE)
-    pending = {pool.submit(_fetched, client, one, folder, stop): one for one in wanted}
+    done = Pulled(folder, len(instances), len(instances) - len(wanted))
+    work = _Work(client, folder, done, progress)
     try:
-        for number, future in enumerate(as_completed(pending), 1):
-            reason = future.result()
-            if reason:
-                done.missing[pending[future].uid] = reason
-            else:
-                done.fetched += 1
-            failures = failures + 1 if reason else 0
-            if failures >= _PATIENCE:
-                stop.set()
-            if progress is not None:
-                progress(len(instances) - len(wanted) + number, len(instances))
+        work.stream(wanted, instances)
+        work.ask([one for one in wanted if not file_of(folder, one).exists()])
     finally:
         # After Ctrl-C nothing more is asked for, and what is half written goes.
-        stop.set()
-        pool.shutdown(cancel_futures=True)
+        work.stop.set()
     return done
 
 
-def file_of(folder: Path, one: Instance) -> Path:
-    """Return where the file of an instance lies in a folder."""
-    return folder / one.series / f"{one.uid}.dcm"
+class _Work:
+    """What is under way."""
 
+    def __init__(
+        self, client: Client, folder: Path, done: Pulled, progress: Callable[[int, int], object] | None
+    ) -> None:
+        self._client, self._folder, self._done, self._progress = client, folder, done, progress
+        self.stop = threading.Event()
+        #: Why nothing more can be written.
+        self._broken = ""
 
-def _fetched(client: Client, one: Instance, folder: Path, stop: threading.Event) -> str:
-    """Fetch one instance; return why that failed, or nothing."""
-    reason = "not asked for any more after the failures before"
-    for _ in range(_TRIES):
-        if stop.is_set():
-            return reason
+    def stream(self, wanted: Sequence[Instance], instances: Sequence[Instance]) -> None:
+        """Fetch each series of which much is missing as one stream."""
+        for series in dict.fromkeys(one.series for one in wanted):
+            missing = {one.uid: one for one in wanted if one.series == series}
+            count = sum(one.series == series for one in instances)
+            if len(missing) > STREAMED and 2 * len(missing) > count and not self._broken:
+                try:
+                    fetch_series(self._client, missing, self._folder, self.stop, self._told)
+                except OSError as error:
+                    self._broken = f"{self._folder}: {error.strerror or error}"
+
+    def ask(self, wanted: Sequence[Instance]) -> None:
+        """Fetch instances one by one, several at once."""
+        failures = 0
+        pool = ThreadPoolExecutor(AT_ONCE)
+        pending = {pool.submit(self._fetched, one): one for one in wanted}
         try:
-            _fetch(client, one, file_of(folder, one), stop)
-            return ""
-        except PacsError as error:
-            reason = f"{error.found} (expected {error.expected})"
-            if error.mend:
-                reason += f"; {error.mend}"
-        except OSError as error:
-            # A full disk has no room for the others either.
-            stop.set()
-            return f"{folder}: {error.strerror or error}"
-    return reason
+            for future in as_completed(pending):
+                if reason := future.result():
+                    self._done.missing[pending[future].uid] = reason
+                    failures += 1
+                else:
+                    failures = 0
+                    self._told()
+                if failures >= _PATIENCE:
+                    self.stop.set()
+        finally:
+            self.stop.set()
+            pool.shutdown(cancel_futures=True)
 
+    def _told(self) -> None:
+        """One more is there."""
+        done = self._done
+        done.fetched += 1
+        if self._progress is not None:
+            self._progress(done.before + done.fetched, done.listed)
 
-def _fetch(client: Client, one: Instance, place: Path, stop: threading.Event) -> None:
-    part = place.with_suffix(".part")
-    try:
-        with part.open("wb") as file:
-            _write(client, one, file.write, stop)
-        _check(part, one)
-        os.replace(part, place)
-    finally:
-        part.unlink(missing_ok=True)
-
-
-def _write(client: Client, one: Instance, write: Callable[[bytes], object], stop: threading.Event) -> None:
-    with client.answered("GET", one.path, None, {"Accept": _ACCEPT}) as answer:
-        client.require(answer, 200)
-
-        def chunks() -> Iterator[bytes]:
-            for chunk in answer.iter_bytes():
-                if stop.is_set():
-                    raise PacsError(one.uid, "an end before all was there", "the whole instance")
-                yield chunk
-
-        try:
-            boundary = boundary_of(answer.headers.get("content-type", ""))
-            if boundary is not None:
-                write_first_part(chunks(), boundary, write)
-            else:
-                for chunk in chunks():
-                    write(chunk)
-        except MultipartError as error:
-            raise PacsError(one.uid, str(error), "a whole instance") from None
-
-
-def _check(part: Path, one: Instance) -> None:
-    """Refuse what is not the instance that was asked for."""
-    import pydicom
-
-    try:
-        with part.open("rb") as file:
-            is_file = file.read(_PREAMBLE)[128:] == b"DICM"
-        header = pydicom.dcmread(part, stop_before_pixels=True, specific_tags=["SOPInstanceUID"])
-        uid = str(header.get("SOPInstanceUID") or "")
-    except OSError:
-        raise
-    except Exception:  # what pydicom raises for what is no DICOM is nearly everything
-        is_file, uid = False, ""
-    if not is_file or uid != one.uid:
-        found = "another instance" if uid else "no DICOM file"
-        raise PacsError(one.uid, found, "the instance that was asked for")
+    def _fetched(self, one: Instance) -> str:
+        """Fetch one instance; return why that failed, or nothing."""
+        reason = "not asked for any more after the failures before"
+        for _ in range(_TRIES):
+            if self._broken or self.stop.is_set():
+                return self._broken or reason
+            try:
+                fetch_instance(self._client, one, self._folder, self.stop)
+                return ""
+            except PacsError as error:
+                reason = f"{error.found} (expected {error.expected})"
+                if error.mend:
+                    reason += f"; {error.mend}"
+            except OSError as error:
+                # A full disk has no room for the others either.
+                self._broken = f"{self._folder}: {error.strerror or error}"
+                return self._broken
+        return reason

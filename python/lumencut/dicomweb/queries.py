@@ -10,7 +10,7 @@ from lumencut.dicomweb.address import Address, is_uid
 from lumencut.dicomweb.client import Client
 from lumencut.errors import PacsError
 
-_PAGE = 500
+_PAGE = 5000
 _STUDY, _SERIES, _INSTANCE = "0020000D", "0020000E", "00080018"
 _STUDY_TEXTS = {
     "date": "00080020",
