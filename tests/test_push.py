@@ -4,30 +4,21 @@ import zipfile
 
 import pydicom
 import pytest
-from click.testing import CliRunner
 
-from dicom_phantom import save, single
-from dicom_series import PLAIN_STACK
-from lumencut.cli import main
+from pacs_scenes import forget_user, write_scan
+from pacs_scenes import run as run_any
 from pacs_stub import Pacs, running
 
 
 @pytest.fixture(autouse=True)
 def nobody_known(monkeypatch, tmp_path):
-    """No credentials or habits of whoever runs the tests."""
-    for name in ("TOKEN", "TOKEN_FILE", "CA"):
-        monkeypatch.delenv(f"LUMENCUT_DICOMWEB_{name}", raising=False)
-    monkeypatch.setenv("NETRC", str(tmp_path / "no-netrc"))
-    monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path / "state"))
+    forget_user(monkeypatch, tmp_path)
 
 
 @pytest.fixture(scope="module")
 def scan(tmp_path_factory):
     """40 slices, more than one batch holds."""
-    folder = tmp_path_factory.mktemp("ct")
-    for k in range(40):
-        save(single(PLAIN_STACK[k % 24], k + 1), folder / f"IM{k:03}.dcm")
-    return folder
+    return write_scan(tmp_path_factory.mktemp("ct"), 40)
 
 
 @pytest.fixture
@@ -37,7 +28,7 @@ def pacs():
 
 
 def run(*arguments, **more):
-    return CliRunner().invoke(main, ["push", *map(str, arguments)], **more)
+    return run_any("push", *arguments, **more)
 
 
 def uid_of(path):
