@@ -18,14 +18,14 @@ from click.testing import CliRunner
 from dicomweb_client import DICOMwebClient
 from dicomweb_client.session_utils import create_session_from_user_pass
 
-from dicom_phantom import save, single
+from dicom_phantom import CENTER, save, single
 from dicom_series import PLAIN_STACK
-from lumencut import read_volume
+from lumencut import Vessel, VesselTree, read_volume, write_centerlines
 from lumencut.cli import main
 from lumencut.dicomweb.address import Address
 from lumencut.dicomweb.client import Client
 from lumencut.dicomweb.pulling import pull_instances
-from lumencut.dicomweb.queries import find_instances
+from lumencut.dicomweb.queries import find_instances, find_series
 
 PLUGIN = "/usr/share/orthanc/plugins/libOrthancDicomWeb.so"
 NAME, PASSWORD = "lumencut", "only-here"
@@ -197,3 +197,24 @@ def test_the_line_for_dcmtk_stores_the_same_files(orthanc, stored, tmp_path):
     with Client(stored) as client:
         (found,) = find_instances(client, Address(stored.base, data.StudyInstanceUID, data.SeriesInstanceUID))
     assert found.uid == data.SOPInstanceUID
+
+
+def test_from_a_scan_to_pictures_and_numbers_beside_it_in_three_commands(stored, tmp_path):
+    lines = VesselTree([Vessel(CENTER + [[-4, 3, z] for z in range(-18, 19, 2)], 3.0, "aorta")])
+    write_centerlines(lines, tmp_path / "lines.vtp")
+    out = tmp_path / "out"
+    out.mkdir()
+    for words in (
+        ("render", stored, tmp_path / "lines.vtp", "--size", "256x256", "-o", out / "csr.dcm"),
+        ("measure", stored, tmp_path / "lines.vtp", "-o", tmp_path / "a.csv", "--dicom", out / "numbers"),
+        ("push", out, stored.base, "--yes"),
+    ):
+        done = run(*words)
+        assert done.exit_code == 0, done.output
+    with Client(stored) as client:
+        found = find_series(client, Address(stored.base, stored.study))
+    made = [
+        one.texts["modality"] for one in found if "(research, not for diagnosis)" in one.texts["description"]
+    ]
+    # The picture and those of the numbers are of the modality of the scan.
+    assert {"CT", "SR", "DOC"} == set(made)

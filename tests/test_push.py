@@ -140,9 +140,19 @@ def test_bad_objects_are_refused_before_anything_is_sent(pacs, scan, tmp_path):
     data.PatientName = "Other"
     data.save_as(tmp_path / "twin.dcm")
     refused = run(scan, tmp_path / "twin.dcm", pacs.base, "--yes")
+    assert refused.exit_code == 1
     assert "the same UID in" in refused.output
     (tmp_path / "text.txt").write_text("no DICOM")
     assert "found no DICOM" in run(tmp_path / "text.txt", pacs.base).output
     assert run(scan).exit_code == 2
     assert run(scan, f"{pacs.base}/studies/1.2").exit_code == 2
     assert not pacs.headers
+
+
+def test_what_was_written_twice_is_sent_once(pacs, scan, tmp_path):
+    data = pydicom.dcmread(sorted(scan.iterdir())[0])
+    data.ContentTime = "235959"
+    data.save_as(tmp_path / "again.dcm")
+    done = run(scan, tmp_path / "again.dcm", pacs.base, "--yes", "--new-study")
+    assert done.exit_code == 0, done.output
+    assert "40 of 40 objects are in" in done.output

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import io
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from lumencut.dicomweb.address import is_uid
 from lumencut.errors import FormatError
@@ -16,6 +18,7 @@ _TAGS = (
     *("SOPClassUID", "SOPInstanceUID", "StudyInstanceUID", "SeriesInstanceUID"),
     *("Modality", "SeriesDescription"),
 )
+_TIMES = ("ContentDate", "ContentTime", "InstanceCreationDate", "InstanceCreationTime")
 _PREAMBLE = 132
 
 
@@ -108,11 +111,22 @@ def _object(source: Source) -> Outgoing | None:
 
 
 def _once(objects: Sequence[Outgoing]) -> list[Outgoing]:
-    """Each object once: copies are left out, and other content under the same UID is refused."""
+    """Each object once: what was written twice is left out, other content under the same UID is refused."""
     known: dict[str, Outgoing] = {}
     for one in objects:
         first = known.setdefault(one.uid, one)
-        if first is not one and first.content() != one.content():
+        if first is not one and _lasting(first) != _lasting(one):
             found = f"the same UID in {first.source}, with other content"
             raise FormatError(str(one.source), found, "a UID of its own", "leave one of them out")
     return list(known.values())
+
+
+def _lasting(one: Outgoing) -> Any:
+    """The object but for the time at which it was written."""
+    import pydicom
+
+    data = pydicom.dcmread(io.BytesIO(one.content()))
+    for keyword in _TIMES:
+        if keyword in data:
+            del data[keyword]
+    return data
