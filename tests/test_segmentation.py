@@ -1,16 +1,19 @@
 """DICOM segmentations as masks: placed by positions, segments by label, and what is refused by name."""
 
+import highdicom
 import numpy as np
 import pydicom
 import pytest
 from click.testing import CliRunner
 from pydicom.sequence import Sequence as Items
+from pydicom.sr.codedict import codes
 
 import lumencut
 from dicom_phantom import ROOT, Image, instance, oblique, save, single, tilted
 from lumencut import Volume, read_centerlines, read_volume, trace_mask
 from lumencut.cli import main
 from lumencut.errors import FormatError, VolumeError
+from lumencut.mask_grid import on_grid_of
 from mask_scenes import tubes
 from segmentation_files import label_map, packed, segmentation
 
@@ -121,6 +124,40 @@ def test_other_forms_hold_the_same(tmp_path, form):
     np.testing.assert_array_equal(read_volume(tmp_path if form == "folder" else path).array, wanted)
 
 
+@pytest.mark.parametrize("kind", ["BINARY", "FRACTIONAL", "LABELMAP"])
+def test_what_highdicom_writes_is_read_as_it_was(tmp_path, scan, kind):
+    labels = masks()[1].array + 2 * masks()[7].array
+    described = [
+        highdicom.seg.SegmentDescription(
+            number,
+            name,
+            codes.SCT.Artery,
+            codes.SCT.Aorta,
+            highdicom.seg.SegmentAlgorithmTypeValues.MANUAL,
+        )
+        for number, name in ((1, "aorta"), (2, "renal"))
+    ]
+    shares = np.stack([labels == 1, labels == 2], -1).astype(float)
+    made = highdicom.seg.Segmentation(
+        [pydicom.dcmread(path) for path in sorted(scan.iterdir())],
+        shares if kind == "FRACTIONAL" else labels,
+        highdicom.seg.SegmentationTypeValues[kind],
+        described,
+        series_instance_uid=f"{ROOT}.1.50",
+        series_number=50,
+        sop_instance_uid=f"{ROOT}.50.1",
+        instance_number=1,
+        manufacturer="made for a test",
+        manufacturer_model_name="test",
+        software_versions="1",
+        device_serial_number="1",
+    )
+    made.save_as(tmp_path / "seg.dcm")
+    read = read_volume(tmp_path / "seg.dcm")
+    np.testing.assert_array_equal(on_grid_of(read, read_volume(scan)).array, labels)
+    assert {vessel.name for vessel in trace_mask(read)} == {"aorta", "renal"}
+
+
 def test_a_segmentation_becomes_lines_with_the_names_of_its_segments(tmp_path, scan):
     mask = read_volume(save(segmentation(masks(), NAMES), tmp_path / "seg.dcm"))
     alone, beside = trace_mask(mask), trace_mask(mask, read_volume(scan))
@@ -139,8 +176,6 @@ def test_the_grid_of_the_scan_may_have_its_axes_in_another_order(tmp_path):
     )
     # Index (a, b, c) of the scan is (28 - b, c, 23 - a) of the masks.
     values = np.where(labels_of(both), 300, 0).transpose(1, 2, 0)[:, ::-1, ::-1]
-    from lumencut.mask_grid import on_grid_of
-
     placed = on_grid_of(mask, Volume(values.astype(np.int16), world_from_index=turned))
     np.testing.assert_array_equal(placed.array > 0, values > 0)
 
