@@ -1,4 +1,4 @@
-"""``lumencut pull`` against a PACS that fails on purpose: whole or not at all, and nobody else hears of it."""
+"""``lumencut pull`` against a PACS that fails by design: whole or not at all, and nobody else hears of it."""
 
 import os
 import shutil

@@ -58,11 +58,11 @@ class Volume(KeepsReadOnly):
 
     _filled_slices: tuple[int, ...] = ()
     _scan = ScanDetails()
-    _study: Study | None = None
     _frame_of_reference = ""
     #: Whether it is a segmentation of DICOM, and the names of its labels.
     _is_segmentation = False
     _label_names: Mapping[int, str] = MappingProxyType({})
+    _study: Study | None = None
 
     def __init__(
         self,

@@ -72,9 +72,9 @@ class VolumeFile:
         with heeding(progress) as told_on, refusing(self.path, self.format, self.notes):
             voxels = self.load(told_on, filled)
         volume = _placed(self, voxels)
-        volume._filled_slices, volume._scan, volume._study = self.filled, self.scan, self.study
         volume._frame_of_reference, volume._is_segmentation = self.frame_of_reference, self.is_segmentation
         volume._label_names = self.label_names
+        volume._filled_slices, volume._scan, volume._study = self.filled, self.scan, self.study
         return volume
 
     def checked(self) -> VolumeFile:

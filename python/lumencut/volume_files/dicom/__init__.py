@@ -52,8 +52,8 @@ def opened(path: Path, wanted: Wanted, read: Callable[[list[str]], Sequence[File
     return VolumeFile(
         path, "DICOM", stack.size, series.stored, space, stack.world_from_index, voxels, notes,
         filled=stack.missing, details=series.details, scan=series.scan,
-        study=study_of([one.image for one in stack.slices]), settled_type=settled_type(stack),
         frame_of_reference=str(stack.slices[0].image.header.get("FrameOfReferenceUID") or ""),
+        study=study_of([one.image for one in stack.slices]), settled_type=settled_type(stack),
     )  # fmt: skip
 
 

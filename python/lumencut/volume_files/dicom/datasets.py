@@ -25,7 +25,7 @@ class _Held(Source):
 
     number: int = 0
     pixels: bytes = b""
-    whole: Any = None
+    dataset: Any = None
 
     @property
     def name(self) -> str:
@@ -39,13 +39,13 @@ class _Held(Source):
         """Open the pixels for reading."""
         return io.BytesIO(self.pixels)
 
+    def all_attributes(self) -> Any:
+        """Give the dataset itself."""
+        return self.dataset
+
     def attributes(self, tags: list[int]) -> Any:
         """Give some attributes of the dataset."""
-        return _chosen(self.whole, tags)
-
-    def dataset(self) -> Any:
-        """Give the dataset itself."""
-        return self.whole
+        return _chosen(self.dataset, tags)
 
     def head(self, count: int) -> bytes:
         """Give the first bytes of the pixels."""
@@ -89,7 +89,7 @@ def _image(number: int, dataset: Any) -> Image:
         raise FormatError(f"{_SUBJECT}: dataset {number}", type(pixels).__name__, "pixels as bytes")
     # Before a dataset is written, the type of its pixels may be open.
     vr = element.VR if element and len(element.VR) == 2 else "OW"
-    source = _Held(_SUBJECT, len(pixels), number=number, pixels=pixels, whole=dataset)
+    source = _Held(_SUBJECT, len(pixels), number=number, pixels=pixels, dataset=dataset)
     return Image(source, _header(dataset), 0, keyword, vr)
 
 

@@ -15,9 +15,14 @@ Header = Any
 """A pydicom Dataset that holds the attributes below, without pixels."""
 
 _OWN_KEYWORDS = (
-    *("SpecificCharacterSet", "SOPClassUID", "StudyInstanceUID", "FrameOfReferenceUID"),
     *(
+        "SpecificCharacterSet",
+        "SOPClassUID",
+        "StudyInstanceUID",
+        "FrameOfReferenceUID",
         "PlanarConfiguration",
+    ),
+    *(
         "ExtendedOffsetTable",
         "ExtendedOffsetTableLengths",
         "SharedFunctionalGroupsSequence",

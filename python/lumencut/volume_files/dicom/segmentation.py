@@ -85,7 +85,7 @@ def open_segmentation(path: Path, image: Image, segments: Collection[int] | None
     """
     subject, notes = str(image.source), list[str]()
     with refusing(image.source, "DICOM segmentation", notes):
-        dataset = image.source.dataset()
+        dataset = image.source.all_attributes()
         names = segment_names(dataset)
         _check(subject, image, names, segments)
         grid = segment_grid(subject, dataset)

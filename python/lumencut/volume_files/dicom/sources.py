@@ -59,19 +59,19 @@ class Source:
         with self.archive.open(self.member) as packed:
             return io.BytesIO(packed.read(self.size))
 
+    def all_attributes(self) -> Any:
+        """Read all of its attributes but the pixels, as a dataset of pydicom."""
+        import pydicom
+
+        with self.open() as stream:
+            return pydicom.dcmread(stream, stop_before_pixels=True, force=True)
+
     def attributes(self, tags: list[int]) -> Any:
         """Read some attributes of a header that was read before, as a dataset of pydicom."""
         import pydicom
 
         with self.open() as stream:
             return pydicom.dcmread(stream, stop_before_pixels=True, force=True, specific_tags=tags)
-
-    def dataset(self) -> Any:
-        """Read all of its attributes but the pixels, as a dataset of pydicom."""
-        import pydicom
-
-        with self.open() as stream:
-            return pydicom.dcmread(stream, stop_before_pixels=True, force=True)
 
     def head(self, count: int) -> bytes:
         """Read its first bytes."""
