@@ -114,10 +114,9 @@ pub fn html(shown: &Shown, vessels: &[VesselPage]) -> Result<String> {
     ))
 }
 
-/// What a vessel is called: its id and, where it has one, its name.
+/// What a vessel is called: its name, and where it has none, its id.
 fn name_of(measured: &Measured) -> String {
-    let name = measured.name.as_ref().map_or_else(String::new, |name| format!(" {name}"));
-    format!("vessel {}{name}", measured.id)
+    measured.name.clone().unwrap_or_else(|| format!("vessel {}", measured.id))
 }
 
 fn page(shown: &Shown, vessel: &VesselPage) -> Result<String> {

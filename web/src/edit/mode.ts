@@ -5,6 +5,7 @@ import { moveTo } from '../link/along';
 import { setSetting, settingOf } from '../state/actions';
 import * as store from '../state/store';
 import { type Tool, tool } from '../state/tool';
+import { forgetRefusal } from './committing';
 import { endVessel } from './pointing';
 
 /** Whether the list of vessels is shown. */
@@ -14,7 +15,7 @@ export const isListOpen = signal(false);
 export const chosenDoubt = signal<number | null>(null);
 
 /** In narrower windows the list would cover the views (CSS pixels). */
-const NARROW = 760;
+export const NARROW = 760;
 
 const TRACING: readonly Tool[] = ['trace', 'stopper'];
 
@@ -41,6 +42,7 @@ export function followTool(): () => void {
         isListOpen.value ||= window.innerWidth > NARROW;
       } else if (!isOn && before) {
         endVessel();
+        forgetRefusal();
         // What the user chose meanwhile stays.
         const isOurs = store.layout.peek() === 'four' && peekContext() === 'mip';
         if (isOurs) {

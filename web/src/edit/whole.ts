@@ -5,7 +5,7 @@ import { Latest } from '../core/latest';
 import type { Vector } from '../core/messages';
 import { document_ } from '../state/history';
 import { tool } from '../state/tool';
-import { commit, isDone } from './committing';
+import { commit, isDone, refusal } from './committing';
 import { candidate, coming, drawn, first, isDrawing } from './drawing';
 import { endVessel } from './pointing';
 
@@ -35,13 +35,17 @@ export function followWhole(engine: Asked): () => void {
   });
 }
 
-/** Takes the whole vessel of the point that was clicked, which stays where none is found; says whether there was such a point. */
+/**
+ * Takes the whole vessel of the point that was clicked; says whether there was such a point. It stays where none is found and a
+ * second point would help; one in a vessel that there is already is forgotten.
+ */
 export function takeWhole(engine: Asked): boolean {
   const click = only.value;
   if (click) {
     endVessel();
     void isDone(commit(engine, { kind: 'add_whole_vessel', click })).then((done) => {
-      first.value = done || isDrawing.value || tool.value !== 'trace' ? first.value : click;
+      const isOver = done || isDrawing.value || tool.value !== 'trace' || refusal.value?.failure.advice === '';
+      first.value = isOver ? first.value : click;
     });
   }
   return click !== null;

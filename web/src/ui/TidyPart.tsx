@@ -31,7 +31,9 @@ export function TidyPart() {
           title="Removes all vessels that do not hang together with the picked one"
           onClick={() => void keepPart(engine)}
         >
-          Keep only this tree
+          {apart.value.length > 0
+            ? `Keep only this tree (removes ${apart.value.length})`
+            : 'Keep only this tree'}
         </button>
       </div>
     </details>

@@ -36,10 +36,10 @@ pub fn not_here(seed: DVec3, value: f64, nearest: DVec3, distance: f64) -> Error
 pub fn no_whole_vessel(click: DVec3, value: f64, reason: NoVessel) -> Error {
     let (found, expected) = match reason {
         NoVessel::NotHere(_, distance) if distance.is_infinite() => {
-            ("no vessel was found in this scan".to_owned(), "a point within a vessel")
+            ("no vessel in all of this scan".to_owned(), "a point within a vessel")
         }
         NoVessel::NotHere(_, distance) => (
-            format!("no vessel was found here; the nearest one is {distance:.1} mm away"),
+            format!("none of the vessels that were found; the nearest one is {distance:.1} mm away"),
             "a point within a vessel",
         ),
         NoVessel::Already(_) => ("a vessel that is traced already".to_owned(), "one that is not"),
