@@ -73,7 +73,7 @@ export function ReformedView({ kind }: { readonly kind: Reformation['kind'] }) {
             shown?.marks.map(({ words, pixel: [x, y] }) => (
               <b
                 key={`${words} ${x} ${y}`}
-                class="mark"
+                class="name-in-map"
                 style={{ left: `${x + left}px`, top: `${y + top}px` }}
               >
                 {words}
