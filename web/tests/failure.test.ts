@@ -1,5 +1,5 @@
 import { expect, test } from 'vitest';
-import { Failure } from '../src/core/failure';
+import { CRASH, Failure } from '../src/core/failure';
 
 const FAILURE = new Failure('format', 'the file', 'no voxels', 'a volume', 'choose another file');
 
@@ -22,6 +22,14 @@ test('the place of a failure and the value there survive it too', () => {
   expect(Failure.of(failure.text)).toEqual(failure);
   expect([failure.place, failure.value]).toEqual([[1, -2, 3.5], 0]);
   expect([FAILURE.place, FAILURE.value]).toEqual([null, null]);
+});
+
+test('the end of the module is a crash, also after it was told from the worker to the page', () => {
+  const crash = Failure.of(new WebAssembly.RuntimeError('memory access out of bounds'));
+  expect([crash.kind, crash.found]).toEqual([CRASH, 'that it has stopped: memory access out of bounds']);
+  expect(crash.mending).toContain('save the session');
+  expect(Failure.of(new Error(crash.text))).toEqual(crash);
+  expect(Failure.of(new RangeError('too long')).kind).toBe('unexpected');
 });
 
 test('what mends it comes behind the advice, in the words of the page', () => {

@@ -25,13 +25,19 @@ const STOP_VIEW = 1;
 const STOP_LONG = 2;
 
 export class EngineClient implements Asked {
+  private readonly worker: Worker;
   private readonly host: Remote<EngineHost>;
   private stopByte: Uint8Array | null = null;
   private readonly precedence = new Precedence(() => this.stop());
 
   constructor() {
-    const worker = new Worker(new URL('../worker/engine.worker.ts', import.meta.url), { type: 'module' });
-    this.host = wrap<EngineHost>(worker);
+    this.worker = new Worker(new URL('../worker/engine.worker.ts', import.meta.url), { type: 'module' });
+    this.host = wrap<EngineHost>(this.worker);
+  }
+
+  /** Ends the worker, and with it the threads that compute for it; nothing can be asked afterwards. */
+  end(): void {
+    this.worker.terminate();
   }
 
   /** The answer to a question of the table; those that the user waits for come before the view under way. */

@@ -37,6 +37,9 @@ export interface More {
   readonly value?: number;
 }
 
+/** The kind of what the module throws where it ends in the middle of its work; nothing more can be asked of it. */
+export const CRASH = 'crash';
+
 /** An error: what is wrong, what was found, what was expected, advice, and what mends it, by names that the page words. */
 export class Failure extends Error {
   readonly mends: readonly Mend[];
@@ -64,7 +67,7 @@ export class Failure extends Error {
     this.value = value ?? null;
   }
 
-  /** What was thrown as a failure: the JSON that the core throws, a stop, or any other error in its own words. */
+  /** What was thrown as a failure: the JSON that the core throws, a stop, the end of the module, or any other error in its own words. */
   static of(thrown: unknown): Failure {
     if (thrown instanceof Failure) {
       return thrown;
@@ -77,6 +80,16 @@ export class Failure extends Error {
     if (fields) {
       const { kind, subject, found, expected, mend } = fields;
       return new Failure(kind, subject, found, expected, mend, fields);
+    }
+    if (thrown instanceof Error && thrown.name === 'RuntimeError') {
+      const advice = 'save the session, reload the page, and open the scan and the session again';
+      return new Failure(
+        CRASH,
+        'the engine of the page',
+        `that it has stopped: ${text}`,
+        'an answer',
+        advice,
+      );
     }
     return new Failure(
       'unexpected',

@@ -1,9 +1,12 @@
 /** Saving the session, and going on with a saved one. */
 import { batch, effect, untracked } from '@preact/signals';
+import { EngineClient } from '../client/engine';
 import { engine } from '../client/shared';
-import { Failure } from '../core/failure';
+import type { Asked } from '../core/asked';
+import { CRASH, Failure } from '../core/failure';
 import type { Bytes, DocumentVessel, GivenFile, Method } from '../core/messages';
 import type { SavedView } from '../core/session-file';
+import { contents } from '../edit/lines';
 import { beginDocument, pickedId, tree } from '../edit/shown';
 import { shownVessels } from '../state/changes';
 import { recover } from '../state/device';
@@ -12,6 +15,7 @@ import { document_ } from '../state/history';
 import { giveFwhm, givenFwhm } from '../state/profiles';
 import * as store from '../state/store';
 import { cameraOf, contentOf, documentOf, type Looked } from './content';
+import { handedOver } from './handing-over';
 
 /** Where the field of a session stands in its file: in the first lines, before the curves. */
 const HEAD = 4096;
@@ -22,14 +26,37 @@ export async function isSession({ file }: GivenFile): Promise<boolean> {
   return /\.json$/i.test(file.name) && (await file.slice(0, HEAD).text()).includes(FIELD);
 }
 
-/** The bytes of the session as it is now. */
+/** The bytes of the session as it is now. Where the engine has crashed, another one writes what the page itself holds. */
 export async function savedSession(): Promise<Bytes> {
   const report = store.report.value;
   if (!report?.volume) {
     throw new Failure('session', 'session', 'no scan', 'a scan that is open');
   }
-  const content = contentOf(document_.value, report, looked(), givenFwhm.value);
-  return (await engine.ask('write_session', content)).bytes;
+  const written = async (asked: Asked, document: Document) => {
+    const content = contentOf(document, report, looked(), givenFwhm.value);
+    return (await asked.ask('write_session', content)).bytes;
+  };
+  try {
+    return await written(engine, document_.value);
+  } catch (error) {
+    if (Failure.of(error).kind !== CRASH) {
+      throw error;
+    }
+    return byAnother(async (other) =>
+      written(other, await handedOver(other, document_.value, contents.value)),
+    );
+  }
+}
+
+/** Lets another engine work, which holds no scan, and ends it. */
+async function byAnother<T>(work: (other: Asked) => Promise<T>): Promise<T> {
+  const other = new EngineClient();
+  try {
+    await other.start('cpu');
+    return await work(other);
+  } finally {
+    other.end();
+  }
 }
 
 function looked(): Looked | null {

@@ -1,11 +1,12 @@
 /** What went wrong, and how far long work is. */
 
 import { engine } from '../client/shared';
-import type { Failure } from '../core/failure';
+import { CRASH, type Failure } from '../core/failure';
 import { isLong, refusal } from '../edit/committing';
 import { performAny } from '../edit/performing';
+import { saveSession } from '../output/session';
 import { problem, progress } from '../state/store';
-import { told } from '../state/telling';
+import { tellFailure, told } from '../state/telling';
 import { Mends } from './Mends';
 
 export function Messages() {
@@ -72,6 +73,11 @@ function Problem() {
       )}
       <Mends failure={failure} />
       <Bridging failure={failure} />
+      {failure.kind === CRASH && (
+        <button type="button" onClick={() => void saveSession().catch(tellFailure)}>
+          Save the session
+        </button>
+      )}
       <button
         type="button"
         onClick={() => {

@@ -1,7 +1,7 @@
 /** What the page asks its worker for. Errors leave as the texts that `Failure.of` reads. */
 import { transfer } from 'comlink';
 import type { Beside, Message, Question, Told } from '../core/asked';
-import { Failure } from '../core/failure';
+import { CRASH, Failure } from '../core/failure';
 import type { Drawn, GivenFile, Picture, Report, SeriesWish, Started, View } from '../core/messages';
 import { Engine, loadJudge, loadModule, memorySize } from '../core/module';
 import { ALL_OF_IT } from '../io/dicom/wanted';
@@ -22,6 +22,8 @@ export class EngineHost {
   private readonly queue = new Queue();
   private engine: Engine | null = null;
   private cancelled = new AbortController();
+  /** Why the module has ended. Its memory may be damaged, so that nothing more is asked of it. */
+  private crash: Error | null = null;
 
   /** Answers a question of the table; those that need no study at once, beside the work that is queued. */
   ask(name: Question, message: unknown, files: Beside, told: Told | null): unknown {
@@ -170,6 +172,9 @@ export class EngineHost {
   }
 
   private ready(): Engine {
+    if (this.crash) {
+      throw this.crash;
+    }
     if (!this.engine) {
       throw new Failure('unexpected', 'the engine', 'nothing', 'one that is started');
     }
@@ -178,7 +183,12 @@ export class EngineHost {
 
   private run<T>(work: () => T | Promise<T>): Promise<T> {
     return this.queue.run(work).catch((error: unknown) => {
-      throw new Error(Failure.of(error).text);
+      const failure = Failure.of(error);
+      const told = new Error(failure.text);
+      if (failure.kind === CRASH) {
+        this.crash = told;
+      }
+      throw told;
     });
   }
 }

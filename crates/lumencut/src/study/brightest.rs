@@ -16,6 +16,9 @@ use crate::study::view::View;
 /// How far apart the places are that are looked at, in the smallest side of a voxel.
 const STEP: f64 = 0.5;
 
+/// The nearest and the farthest depth (mm) of a ray that nothing limits.
+const ALL_DEPTHS: [f64; 2] = [f64::MIN, f64::MAX];
+
 /// The brightest place of a volume on the ray of the pixel (column, row) of a view, the nearest one of several, between two
 /// depths (mm, positive away from the viewer).
 ///
@@ -50,24 +53,40 @@ pub fn brightest_on_ray(
 
 impl Study {
     /// The brightest place on the ray of the pixel (column, row) of a view, as [`brightest_on_ray`] finds it. A slab around the
-    /// cut surface limits the ray to itself.
+    /// cut surface limits the ray to itself where the pixel shows it.
     ///
     /// # Errors
     /// Those of [`brightest_on_ray`], `volume` where none is open, and those of the view.
     pub fn brightest(&mut self, view: &View, pixel: [f64; 2]) -> Result<Pick> {
         let within = self.depths_of_slab(view, pixel)?;
+        self.brightest_within(view, pixel, within)
+    }
+
+    /// The same on all of the ray, whatever the view shows.
+    ///
+    /// # Errors
+    /// Those of [`brightest_on_ray`], `volume` where none is open.
+    pub(super) fn brightest_on_whole_ray(&self, view: &View, pixel: [f64; 2]) -> Result<Pick> {
+        self.brightest_within(view, pixel, ALL_DEPTHS)
+    }
+
+    fn brightest_within(&self, view: &View, pixel: [f64; 2], within: [f64; 2]) -> Result<Pick> {
         let volume = self.content.held.as_ref().ok_or_else(no_volume)?.volume()?;
         let place = brightest_on_ray(&volume, &view.camera, pixel, within)?;
         Ok(self.at(place.to_array()))
     }
 
-    /// The depths (mm) of the near and the far side of the slab of a pixel; without a slab all there are.
+    /// The depths (mm) of the near and the far side of the slab of a pixel. All there are without a slab, and where a focus shows
+    /// what lies around the vessels instead of the cut surface.
     fn depths_of_slab(&mut self, view: &View, pixel: [f64; 2]) -> Result<[f64; 2]> {
         let Some(slab) = view.settings.slab.filter(|_| self.content.tree().is_some()) else {
-            return Ok([f64::MIN, f64::MAX]);
+            return Ok(ALL_DEPTHS);
         };
-        let point = self.pick(view, pixel)?.point;
-        let depth = pixel_from_world(&view.camera, DVec3::from_array(point)).depth;
+        let cut = self.cut_in(view, pixel)?;
+        if !cut.is_shown {
+            return Ok(ALL_DEPTHS);
+        }
+        let depth = pixel_from_world(&view.camera, cut.point).depth;
         Ok([depth - slab.thickness / 2.0, depth + slab.thickness / 2.0])
     }
 }

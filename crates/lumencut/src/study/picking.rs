@@ -1,6 +1,6 @@
 //! What a pixel of a view shows, and what lies at a world point.
 
-use crate::cut_at::cut_at;
+use crate::cut_at::{CutAt, cut_at};
 use crate::meant_vessel::{is_meant, nearest_arc_length};
 use crate::windows;
 use glam::DVec3;
@@ -31,17 +31,25 @@ impl Study {
     /// # Errors
     /// Those of the view, and `volume` where nothing is open.
     pub fn pick(&mut self, view: &View, pixel: [f64; 2]) -> Result<Pick> {
-        let scene = self.content.scene()?;
-        let shown = (&view.camera, &view.settings);
-        let cut = cut_at((&mut self.cpu, view.method), &scene, shown, pixel)?;
+        let cut = self.cut_in(view, pixel)?;
         if !cut.is_shown {
             // Beside the scan there is no brightest place, and no vessel.
-            return Ok(self.brightest(view, pixel).unwrap_or_else(|_| self.told(cut.point, None)));
+            let brightest = self.brightest_on_whole_ray(view, pixel);
+            return Ok(brightest.unwrap_or_else(|_| self.told(cut.point, None)));
         }
         let spacing = view.camera.pixel_spacing();
         let is_meant =
             |vessel: &usize| self.vessel(*vessel).is_ok_and(|vessel| is_meant(vessel, cut.point, spacing));
         Ok(self.told(cut.point, cut.vessel.filter(is_meant)))
+    }
+
+    /// The cut surface in a pixel (column, row) of a view.
+    ///
+    /// # Errors
+    /// Those of the view, and `volume` where nothing is open.
+    pub(super) fn cut_in(&mut self, view: &View, pixel: [f64; 2]) -> Result<CutAt> {
+        let scene = self.content.scene()?;
+        Ok(cut_at((&mut self.cpu, view.method), &scene, (&view.camera, &view.settings), pixel)?)
     }
 
     /// What lies at a world point; the vessel where one is given.

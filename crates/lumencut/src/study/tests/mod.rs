@@ -149,6 +149,24 @@ fn where_nothing_is_cut_a_click_means_the_brightest_place_on_its_ray() {
 }
 
 #[test]
+fn a_slab_limits_no_ray_where_a_focus_shows_what_lies_around_the_vessels() {
+    let mut study = opened("stenosis");
+    let mut view = study.view_of(&view(&study, [96, 80])).expect("a view");
+    view.settings.focus = Some(lumencut_core::settings::Focus { margin: 1.0, fade: 0.0 });
+    let (inside, beside) = ([48.0, 40.0], [(47.5 + 14.0 / view.camera.pixel_spacing()).round(), 40.0]);
+    let cut = study.pick(&view, inside).expect("a pick");
+    let around = study.brightest(&view, beside).expect("a place");
+    view.settings.slab =
+        Some(lumencut_core::settings::Slab { thickness: 0.5, mode: lumencut_core::settings::SlabMode::Max });
+    assert_eq!(study.pick(&view, beside).expect("a pick"), around);
+    assert_eq!(study.brightest(&view, beside).expect("a place"), around);
+    // In the lumen the slab is what is shown.
+    let brightest = study.brightest(&view, inside).expect("a place").point;
+    let far = DVec3::from_array(brightest).distance(DVec3::from_array(cut.point));
+    assert!(far <= 0.25 + view.camera.pixel_spacing(), "{far} mm beside the cut");
+}
+
+#[test]
 fn a_place_on_a_vessel_is_told_with_its_arc_length() {
     let study = opened("y_junction");
     let (point, along) = on_first_vessel(&study);

@@ -1,0 +1,48 @@
+import { expect, test } from 'vitest';
+import type { Asked } from '../src/core/asked';
+import type { LineContent } from '../src/core/messages';
+import { handedOver } from '../src/session/handing-over';
+import { EMPTY } from '../src/state/document';
+
+const line = (end: number): LineContent => ({
+  points: [
+    [0, 0, 0],
+    [0, 0, end],
+  ],
+  radius: null,
+  confidence: null,
+  bridged: null,
+});
+
+const vessel = (id: number, number: number) => ({
+  id,
+  line: number,
+  name: `Vessel ${id}`,
+  color: '#ff0000',
+  isHidden: false,
+  clicks: null,
+  doubt: null,
+});
+
+test('vessels keep all but the numbers of their lines; those whose lines the page does not hold are left out', async () => {
+  const taken: unknown[] = [];
+  const other = {
+    ask: (name: string, message: unknown) => {
+      taken.push([name, message]);
+      return Promise.resolve(taken.length - 1);
+    },
+  } as unknown as Asked;
+  const contents = new Map([
+    [7, line(1)],
+    [3, line(2)],
+  ]);
+  const document = { ...EMPTY, bridge: true, vessels: [vessel(1, 7), vessel(2, 5), vessel(4, 3)] };
+  expect(await handedOver(other, document, contents)).toEqual({
+    ...document,
+    vessels: [vessel(1, 0), vessel(4, 1)],
+  });
+  expect(taken).toEqual([
+    ['add_line', line(1)],
+    ['add_line', line(2)],
+  ]);
+});
