@@ -52,7 +52,7 @@ def test_each_page_says_what_it_is_of_and_what_it_is_not(page):
     assert page.text.count("thrombus and plaque are not lumen") == 2
     assert page.text.count("Settings: step 0.5 mm; window W ") == 2
     assert page.text.count("FWHM of the point spread ") == 2
-    assert "Vessel 1 <script>LAD & 'co', 60.0 mm" in page.text
+    assert "<script>LAD & 'co', 60.0 mm" in page.text
 
 
 def test_no_percentage_without_method_references_and_mm(page):

@@ -140,8 +140,7 @@ fn page(shown: &Shown, vessel: &VesselPage) -> Result<String> {
 /// The name of the vessel, what the report is of, and what it is not.
 fn head(shown: &Shown, vessel: &VesselPage) -> String {
     let length = shown.stated.length(vessel.measured.profile.length(), 1);
-    let mut name = name_of(&vessel.measured);
-    name.replace_range(..1, "V");
+    let name = vessel.measured.name.clone().unwrap_or_else(|| format!("Vessel {}", vessel.measured.id));
     let mut head = format!("<h1>{}, {length}</h1>\n", escaped(&name));
     for (what, words) in [("Scan: ", &shown.scan), ("Saved on ", &shown.saved)] {
         if let Some(words) = words {
