@@ -94,7 +94,7 @@ class PlanarReformation(Reformation):
         self.angle: float = parameters["angle"]
         recipe = ReformationRecipe(f"{self.mode} CPR", _AXES[self.mode], parameters, "cpr")
         super().__init__(renderer, core, given, recipe, measurable=self.mode != "projected")
-        self.is_projection = self.mode == "projected"
+        self.is_projection: bool = self.mode == "projected"
         self.roll: npt.NDArray[np.float64] | None = (
             None if rolled is None else np.interp(self.arc_length, *rolled)
         )
