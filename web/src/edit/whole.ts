@@ -44,7 +44,8 @@ export function takeWhole(engine: Asked): boolean {
   if (click) {
     endVessel();
     void isDone(commit(engine, { kind: 'add_whole_vessel', click })).then((done) => {
-      const isOver = done || isDrawing.value || tool.value !== 'trace' || refusal.value?.failure.advice === '';
+      const isOver =
+        done || isDrawing.value || tool.value !== 'trace' || refusal.value?.failure.advice === '';
       first.value = isOver ? first.value : click;
     });
   }
