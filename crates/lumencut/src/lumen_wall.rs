@@ -36,6 +36,9 @@ const BESIDE_OPEN: f64 = 1.15;
 /// A smaller hole in the wall is none (mm²): between struts of stents single rays slip through.
 const SMALLEST_OPENING: f64 = 3.0;
 
+/// A section's own contrast counts up to so many times the usual one, and down to this part of it.
+const MOST_UNLIKE: f64 = 2.0;
+
 /// The wall around a vessel.
 pub struct FoundWall {
     /// Its radius, and where it is open.
@@ -147,7 +150,7 @@ fn measured(
         let mut known: Vec<f64> = contour.iter().flatten().copied().collect();
         let own =
             median(&mut known).or_else(|| radius_at(vessel, at / straightened.length())).unwrap_or(usual);
-        let told = Some(profile.levels[*n]).filter(|levels| levels.iter().all(|level| level.is_finite()));
+        let told = Some(profile.levels[*n]).filter(|local| is_alike(*local, levels));
         // Where a branch leaves, the contour may reach into it.
         let is_branching = profile.flags[*n] & BRANCH != 0;
         let usual = |k: usize| if is_branching { own } else { contour[k].unwrap_or(own) };
@@ -167,6 +170,14 @@ fn measured(
         }
     };
     Ok(chosen.par_iter().map(station).collect())
+}
+
+/// Whether the levels of lumen and surroundings of one section may stand for it: air beside a vessel under the skin, or bone, is not what
+/// its wall is made of.
+fn is_alike(local: [f64; 2], usual: Option<[f64; 2]>) -> bool {
+    let contrast = |[lumen, around]: [f64; 2]| lumen - around;
+    let ratio = contrast(local) / usual.map_or(contrast(local), contrast);
+    ratio.is_finite() && (1.0 / MOST_UNLIKE..=MOST_UNLIKE).contains(&ratio)
 }
 
 /// The median of the measured radii, or of those of the centerline.

@@ -13,6 +13,9 @@ const SAMPLE: f64 = 0.4;
 /// What is brighter than the lumen by this share of its contrast is no lumen, but calcium or metal.
 pub const TOO_BRIGHT: f64 = 0.5;
 
+/// Beyond its reach a ray is followed this much farther, to see whether bone or calcium begins there that touches the vessel.
+const FARTHER: f64 = 0.5;
+
 /// What a ray from the middle of the vessel meets.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Fall {
@@ -46,7 +49,8 @@ pub struct RaysAcross<'a, 'v> {
 
 impl RaysAcross<'_, '_> {
     /// What each ray in the section at an arc length meets within its reach (mm), where values first fall half of the way from the
-    /// lumen's level to that of the surroundings.
+    /// lumen's level to that of the surroundings. Bone that touches the vessel leaves no such fall: where values rise to it just beyond the
+    /// reach, the wall lies where they are lowest before.
     pub fn falls(&self, at: f64, [lumen, around]: [f64; 2], reach: impl Fn(usize) -> f64) -> Vec<Fall> {
         let frame = self.straightened.frame(at);
         let index = &self.voxels.index_from_world;
@@ -57,12 +61,17 @@ impl RaysAcross<'_, '_> {
         let ray = |k: usize| {
             let (sine, cosine) = (TAU * k as f64 / self.directions as f64).sin_cos();
             let stride = index.transform_vector3(frame.across * cosine + frame.ahead * sine) * step;
-            let count = (reach(k) / step).ceil() as usize + 1;
+            let samples = |reach: f64| (reach / step).ceil() as usize + 1;
+            let [count, farther] = [samples(reach(k)), samples((1.0 + FARTHER) * reach(k))];
             let mut values = Vec::new();
-            while values.len() < count {
+            while values.len() < farther {
                 self.voxels.along(start, stride, &mut values);
             }
-            fall(values[..count].iter().map(|value| depth(*value)), step)
+            let depths: Vec<f64> = values[..farther].iter().map(|value| depth(*value)).collect();
+            match fall(&depths[..count], step) {
+                Fall::Open => touching(&depths, step),
+                met => met,
+            }
         };
         (0..self.directions).map(ray).collect()
     }
@@ -70,9 +79,9 @@ impl RaysAcross<'_, '_> {
 
 /// Where a ray whose depths (0 in lumen, 1 in its surroundings) are sampled every so many mm falls to half, or meets calcium or
 /// metal, which lie in a wall.
-fn fall(depths: impl Iterator<Item = f64>, step: f64) -> Fall {
+fn fall(depths: &[f64], step: f64) -> Fall {
     let mut before = f64::NAN;
-    for (n, depth) in depths.enumerate() {
+    for (n, &depth) in depths.iter().enumerate() {
         if depth.is_nan() || (n == 0 && depth >= 0.5) {
             return Fall::Unknown;
         }
@@ -86,4 +95,13 @@ fn fall(depths: impl Iterator<Item = f64>, step: f64) -> Fall {
         before = depth;
     }
     Fall::Open
+}
+
+/// The wall of a vessel that touches bone or calcium: where its values are lowest before they rise to that. Open where they do not.
+fn touching(depths: &[f64], step: f64) -> Fall {
+    let rises = |pair: &[f64]| pair.iter().all(|depth| *depth < -TOO_BRIGHT);
+    let Some(rise) = depths.windows(2).position(rises) else { return Fall::Open };
+    let lowest = |best: usize, n: usize| if depths[n] >= depths[best] { n } else { best };
+    // Next to the middle it is noise that decides which value is lowest.
+    Fall::Wall((rise / 2..rise).fold(rise / 2, lowest) as f64 * step)
 }

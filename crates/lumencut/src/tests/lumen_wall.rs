@@ -81,6 +81,41 @@ fn a_branch_at_right_angles_is_an_opening_of_its_size() {
 }
 
 #[test]
+fn bone_that_touches_a_vessel_is_no_opening() {
+    // Between lumen and bone values fall to two thirds alone, and rise above those of the lumen beyond 1.6 radii.
+    let bone = |across: DVec2| {
+        let rises = across.x > 3.0 && across.y.abs() < 2.0;
+        if rises { 200.0 + 90.0 * (across.x - 3.8).max(0.0) } else { 0.0 }
+    };
+    let values = painted(|across, _| lumen(across, 4.0).max(bone(across)));
+    let falls = with(&values, |volume| {
+        let rays = RaysAcross { voxels: &Voxels::new(volume), straightened: &straight(), directions: 4 };
+        rays.falls(20.0, [300.0, 0.0], |_| 6.4)
+    });
+    for fall in falls {
+        let away = fall.radius().expect("a wall");
+        assert!((3.4..4.4).contains(&away), "{away} mm");
+    }
+    // Of a branch values stay those of lumen.
+    let branch = painted(|across, _| lumen(across, 4.0).max(lumen(DVec2::new(0.0, across.y), 2.0)));
+    let falls = with(&branch, |volume| {
+        let rays = RaysAcross { voxels: &Voxels::new(volume), straightened: &straight(), directions: 4 };
+        rays.falls(20.0, [300.0, 0.0], |_| 6.4)
+    });
+    assert_eq!(falls.iter().filter(|fall| **fall == Fall::Open).count(), 2);
+}
+
+#[test]
+fn air_beside_a_vessel_under_the_skin_does_not_tell_its_wall() {
+    let usual = Some([353.0, 53.0]);
+    let alike = [[353.0, 53.0], [353.0, -90.0], [330.0, 170.0]].map(|local| is_alike(local, usual));
+    assert_eq!(alike, [true; 3]);
+    let unlike = [[353.0, -1000.0], [353.0, 320.0], [53.0, 353.0], [f64::NAN, 0.0], [353.0, f64::NAN]];
+    assert_eq!(unlike.map(|local| is_alike(local, usual)), [false; 5]);
+    assert!(is_alike([353.0, -1000.0], None) && !is_alike([f64::NAN; 2], None));
+}
+
+#[test]
 fn without_a_lumen_the_centerline_tells_the_wall() {
     let values = painted(|_, _| 7.0);
     let wall = with(&values, |volume| lumen_wall(volume, &line(), &straight(), None)).expect("radii").wall;
