@@ -29,6 +29,7 @@ test('a vessel and the one that hangs on it take two actions each: a click and E
     await expect(ghost(viewer)).toHaveCount(n > 0 ? 1 : 0);
     await viewer.press('Enter');
     await expect(rows(viewer)).toHaveCount(n + 1);
+    await expect(rows(viewer).nth(n).getByRole('radio')).toBeChecked();
     await viewer.screenshot(`whole-vessel-${n}`);
   }
   const { clicks, keys } = await counted();

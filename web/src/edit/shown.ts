@@ -20,6 +20,9 @@ const linesOf = (vessels: readonly DocumentVessel[]): string =>
     .map(({ line }) => line)
     .join();
 
+/** A vessel that is picked as soon as it is shown. */
+export const toPick = signal<number | null>(null);
+
 /** The vessel of the document that is picked. */
 export const pickedId = (): number | null => tree.value[store.pickedVessel.value ?? -1]?.id ?? null;
 
@@ -115,10 +118,10 @@ function take(report: Report, vessels: readonly DocumentVessel[]): void {
   const lengths = (report.vessels ?? []).map((vessel) => vessel.length);
   // Where none was picked the longest is, unless one is being drawn.
   const isFirst = picked === null && vessels.every((vessel) => vessel.id !== active.value);
-  const now =
-    isFirst && lengths.length > 0
-      ? lengths.indexOf(Math.max(...lengths))
-      : successor(tree.value, picked, vessels);
+  const wanted = vessels.findIndex(({ id }) => id === toPick.value);
+  const longest = () => lengths.indexOf(Math.max(...lengths));
+  const before = () => (isFirst && lengths.length > 0 ? longest() : successor(tree.value, picked, vessels));
+  const now = wanted >= 0 ? wanted : before();
   const hair = store.crossHair.value;
   batch(() => {
     if (hair && hair.vessel !== null) {
@@ -131,6 +134,7 @@ function take(report: Report, vessels: readonly DocumentVessel[]): void {
     // The volume stays the one that it was, so that views of it keep what they look at.
     store.report.value = { ...report, volume: store.report.value?.volume ?? report.volume };
     store.pickedVessel.value = now;
+    toPick.value = wanted >= 0 ? null : toPick.value;
     const length = lengths[now ?? -1] ?? 0;
     store.pickedPlace.value = isSame ? Math.min(store.pickedPlace.value, length) : length / 2;
   });

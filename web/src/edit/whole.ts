@@ -5,9 +5,10 @@ import { Latest } from '../core/latest';
 import type { Vector } from '../core/messages';
 import { document_ } from '../state/history';
 import { tool } from '../state/tool';
-import { commit, isDone, refusal } from './committing';
+import { commit, refusal } from './committing';
 import { candidate, coming, drawn, first, isDrawing } from './drawing';
 import { endVessel } from './pointing';
+import { toPick } from './shown';
 
 /** The place whose whole vessel can be taken: the only one that was clicked of a vessel. */
 export const only = computed<Vector | null>(() =>
@@ -43,10 +44,10 @@ export function takeWhole(engine: Asked): boolean {
   const click = only.value;
   if (click) {
     endVessel();
-    void isDone(commit(engine, { kind: 'add_whole_vessel', click })).then((done) => {
-      const isOver =
-        done || isDrawing.value || tool.value !== 'trace' || refusal.value?.failure.advice === '';
-      first.value = isOver ? first.value : click;
+    void commit(engine, { kind: 'add_whole_vessel', click }).then((edited) => {
+      toPick.value = edited?.added[0] ?? toPick.value;
+      const isLeft = edited === null && refusal.value?.failure.advice !== '';
+      first.value = isLeft && !isDrawing.value && tool.value === 'trace' ? click : first.value;
     });
   }
   return click !== null;
