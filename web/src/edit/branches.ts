@@ -4,7 +4,6 @@ import type { Edit, Edited, GivenFile, Vector } from '../core/messages';
 import { notes } from '../state/store';
 import { isTreeShown } from '../state/tidy';
 import { commit, isDone } from './committing';
-import { isListOpen, NARROW } from './mode';
 
 /** Adds all branches that a seed reaches; doubtful ones wait until they are accepted. */
 export const addBranches = (engine: Asked, seed: Vector): Promise<boolean> =>
@@ -23,8 +22,6 @@ export async function findVessels(engine: Asked): Promise<boolean> {
   const isFound = await addMany(engine, { kind: 'find_vessels' });
   // Of many vessels the widest one is looked for first, and then what hangs on it.
   isTreeShown.value ||= isFound;
-  // What was found, and what of it is doubtful, is told there.
-  isListOpen.value ||= isFound && window.innerWidth > NARROW;
   return isFound;
 }
 

@@ -6,16 +6,11 @@ import { setSetting, settingOf } from '../state/actions';
 import * as store from '../state/store';
 import { type Tool, tool } from '../state/tool';
 import { forgetRefusal } from './committing';
+import { openList } from './list-open';
 import { endVessel } from './pointing';
-
-/** Whether the list of vessels is shown. */
-export const isListOpen = signal(false);
 
 /** The doubtful branch that was clicked, which is to be accepted or left out. */
 export const chosenDoubt = signal<number | null>(null);
-
-/** In narrower windows the list would cover the views (CSS pixels). */
-export const NARROW = 760;
 
 const TRACING: readonly Tool[] = ['trace', 'stopper'];
 
@@ -39,7 +34,7 @@ export function followTool(): () => void {
         before = { layout: store.layout.peek(), context: peekContext() };
         show({ layout: 'four', context: 'mip' });
         store.maximised.value = null;
-        isListOpen.value ||= window.innerWidth > NARROW;
+        openList();
       } else if (!isOn && before) {
         endVessel();
         forgetRefusal();

@@ -6,7 +6,7 @@ import type { DocumentVessel, LineFacts, LineId } from '../core/messages';
 import { recover } from '../state/device';
 import { document_ } from '../state/history';
 import { markNone, shorterThan, thinnerThan } from '../state/tidy';
-import { isListOpen } from './mode';
+import { isListOpen } from './list-open';
 import { pickedId } from './shown';
 import { remove } from './vessels';
 

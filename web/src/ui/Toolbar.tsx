@@ -1,6 +1,6 @@
 /** The bar at the top: the modes, the list of vessels, saving, the window, the layout and what is for research. */
 import { engine } from '../client/shared';
-import { isListOpen } from '../edit/mode';
+import { isListOpen } from '../edit/list-open';
 import { performAny } from '../edit/performing';
 import { perform, showLayout } from '../state/actions';
 import * as store from '../state/store';

@@ -5,6 +5,7 @@ import { findVessels } from '../edit/branches';
 import { waiting } from '../edit/committing';
 import { answerDoubt, placeOfDoubt, stepDoubt } from '../edit/doubts';
 import { candidate, coming, drawn, isDrawing } from '../edit/drawing';
+import { openList } from '../edit/list-open';
 import { chosenDoubt } from '../edit/mode';
 import { performAny } from '../edit/performing';
 import { acceptCandidate, endVessel } from '../edit/pointing';
@@ -37,6 +38,13 @@ export function TraceBar() {
   ) : null;
 }
 
+/** Finds all vessels; what was found, and what of it is doubtful, is told in the list. */
+async function findAll(): Promise<void> {
+  if (await findVessels(engine)) {
+    openList();
+  }
+}
+
 /** Without centerlines the page offers to find and to trace them. */
 function Offer() {
   const isClosed = useSignal(false);
@@ -50,7 +58,7 @@ function Offer() {
         type="button"
         disabled={waiting.value > 0}
         title="All vessels that are brighter than the tissue around them"
-        onClick={() => void findVessels(engine)}
+        onClick={() => void findAll()}
       >
         Find all vessels
       </button>
