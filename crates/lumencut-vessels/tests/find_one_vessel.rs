@@ -95,12 +95,20 @@ fn a_sure_vessel_comes_before_a_doubtful_one() {
 fn a_click_in_no_vessel_and_one_in_a_vessel_that_there_is_are_refused() {
     let tree = tree();
     let all = lines(&tree);
-    assert_eq!(one_vessel(&tree, IN_ARTERY, 0.5, &all), Err(NoVessel::Already(1)));
+    assert_eq!(one_vessel(&tree, IN_ARTERY, 0.5, &all), Err(NoVessel::Already));
     let refused = one_vessel(&tree, DVec3::new(45.0, 0.0, 57.0), 0.5, &[]);
-    assert_eq!(refused, Err(NoVessel::NotHere(DVec3::new(45.0, 0.0, 50.0), 7.0)));
+    assert_eq!(refused, Err(NoVessel::NotHere(7.0)));
     let empty = Trees { vessels: Vec::new(), ..tree };
     let refused = one_vessel(&empty, IN_ARTERY, 0.5, &[]);
-    assert_eq!(refused, Err(NoVessel::NotHere(IN_ARTERY, f64::INFINITY)));
+    assert_eq!(refused, Err(NoVessel::NotHere(f64::INFINITY)));
+}
+
+#[test]
+fn a_click_behind_the_end_of_a_vessel_that_ends_in_another_one_adds_nothing() {
+    let tree = tree();
+    // It crosses the last point of the artery; the click lies beyond that and outside of it.
+    let traced = line(DVec3::new(60.0, -20.0, 50.0), DVec3::new(60.0, 20.0, 50.0), 1.0);
+    assert_eq!(one_vessel(&tree, DVec3::new(62.0, 0.0, 50.0), 0.5, &[traced]), Err(NoVessel::Already));
 }
 
 #[test]

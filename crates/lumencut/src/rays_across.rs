@@ -62,14 +62,15 @@ impl RaysAcross<'_, '_> {
             let (sine, cosine) = (TAU * k as f64 / self.directions as f64).sin_cos();
             let stride = index.transform_vector3(frame.across * cosine + frame.ahead * sine) * step;
             let samples = |reach: f64| (reach / step).ceil() as usize + 1;
-            let [count, farther] = [samples(reach(k)), samples((1.0 + FARTHER) * reach(k))];
             let mut values = Vec::new();
-            while values.len() < farther {
-                self.voxels.along(start, stride, &mut values);
-            }
-            let depths: Vec<f64> = values[..farther].iter().map(|value| depth(*value)).collect();
-            match fall(&depths[..count], step) {
-                Fall::Open => touching(&depths, step),
+            let mut depths = |reach: f64| -> Vec<f64> {
+                while values.len() < samples(reach) {
+                    self.voxels.along(start, stride, &mut values);
+                }
+                values[..samples(reach)].iter().map(|value| depth(*value)).collect()
+            };
+            match fall(&depths(reach(k)), step) {
+                Fall::Open => touching(&depths((1.0 + FARTHER) * reach(k)), step),
                 met => met,
             }
         };

@@ -13,15 +13,15 @@ pub const REACH: f64 = 1.5;
 
 /// A point of a vessel that is near a seed.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Near {
+struct Near {
     /// The number of the vessel.
-    pub vessel: usize,
+    vessel: usize,
     /// The point (mm, LPS).
-    pub point: DVec3,
+    point: DVec3,
     /// How far the seed is from it (mm).
-    pub distance: f64,
+    distance: f64,
     /// The same in radii of the vessel there.
-    pub radii: f64,
+    radii: f64,
 }
 
 /// The vessels of the part that a seed (mm, LPS) lies in, found as without a seed; where it lies in none of them fainter ones are
@@ -53,28 +53,42 @@ pub fn find_from(volume: &Volume, seed: DVec3, request: &FindRequest) -> Result<
 /// # Errors
 /// The nearest point of any vessel, and how far it is from the seed (mm), where no vessel is within reach.
 pub fn part_at(trees: &Trees, seed: DVec3, voxel: f64) -> std::result::Result<usize, (DVec3, f64)> {
+    let sure_parts: Vec<usize> =
+        trees.vessels.iter().filter(|vessel| vessel.doubt.is_none()).map(|vessel| vessel.part).collect();
+    let vessel = vessel_at(trees, seed, voxel, |vessel| sure_parts.contains(&vessel.part))?;
+    Ok(trees.vessels[vessel].part)
+}
+
+/// The vessel nearest to a place (mm, LPS) in units of its radius, those that come first before the others; a radius counts as one
+/// voxel (mm) over the reach of a seed at least.
+///
+/// # Errors
+/// The nearest point of any vessel, and how far it is from the place (mm), where no vessel is within reach.
+pub fn vessel_at(
+    trees: &Trees,
+    place: DVec3,
+    voxel: f64,
+    comes_first: impl Fn(&FoundVessel) -> bool,
+) -> std::result::Result<usize, (DVec3, f64)> {
     let near: Vec<Near> = trees
         .vessels
         .iter()
         .enumerate()
-        .map(|(number, vessel)| near(number, vessel, seed, voxel / REACH))
+        .map(|(number, vessel)| near(number, vessel, place, voxel / REACH))
         .collect();
-    let sure_parts: Vec<usize> =
-        trees.vessels.iter().filter(|vessel| vessel.doubt.is_none()).map(|vessel| vessel.part).collect();
-    let part = |near: &Near| trees.vessels[near.vessel].part;
-    let within = |is_sure: bool| {
+    let within = |is_first: bool| {
         near.iter()
-            .filter(|near| near.radii <= REACH && sure_parts.contains(&part(near)) == is_sure)
+            .filter(|near| near.radii <= REACH && comes_first(&trees.vessels[near.vessel]) == is_first)
             .min_by(|a, b| a.radii.total_cmp(&b.radii))
     };
-    within(true).or_else(|| within(false)).map(part).ok_or_else(|| {
+    within(true).or_else(|| within(false)).map(|near| near.vessel).ok_or_else(|| {
         let nearest = near.iter().min_by(|a, b| a.distance.total_cmp(&b.distance));
-        nearest.map_or((seed, f64::INFINITY), |near| (near.point, near.distance))
+        nearest.map_or((place, f64::INFINITY), |near| (near.point, near.distance))
     })
 }
 
 /// The point of a vessel that is nearest to a seed in units of the radius, which counts as `least` (mm) at least.
-pub(crate) fn near(vessel: usize, found: &FoundVessel, seed: DVec3, least: f64) -> Near {
+fn near(vessel: usize, found: &FoundVessel, seed: DVec3, least: f64) -> Near {
     let line = &found.line;
     let of = |n: usize| {
         let [from, to] = [line.points[n], line.points[n + 1]];

@@ -1,7 +1,5 @@
 //! What has been found: vessels in parts that hang together, with what makes them doubtful.
 
-use glam::DVec3;
-
 use crate::trace::find::track::TrackDoubt;
 use crate::trace::lines::centerline::Centerline;
 
@@ -36,10 +34,10 @@ pub struct FoundVessel {
 /// Why a click gives no vessel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum NoVessel {
-    /// None was found there: the nearest point of one, and how far it is (mm); infinitely far where none was found at all.
-    NotHere(DVec3, f64),
-    /// The click lies within a vessel that there is already: its number.
-    Already(usize),
+    /// None was found there: how far the nearest one is (mm); infinitely far where none was found at all.
+    NotHere(f64),
+    /// The click lies within a vessel that there is already, or all that it would add does.
+    Already,
 }
 
 /// From this confidence on a vessel is sure.

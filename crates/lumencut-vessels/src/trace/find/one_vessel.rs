@@ -2,14 +2,11 @@
 
 use glam::DVec3;
 
-use crate::trace::find::choose::near;
+use crate::trace::find::choose::vessel_at;
 use crate::trace::find::found::{NoVessel, Trees};
 use crate::trace::lines::centerline::Centerline;
 use crate::trace::lines::nearest_point::nearest_point;
 use crate::trace::lumen::within::holds;
-
-/// A click chooses a vessel up to so many radii from its middle, or up to a voxel where that is more.
-pub use crate::trace::find::choose::REACH;
 
 /// Nearer than this the end of a branch is a point of the vessel that it hangs on (mm); they are equal but for rounding.
 const SAME: f64 = 1e-6;
@@ -26,10 +23,11 @@ pub fn one_vessel(
     voxel: f64,
     beside: &[Centerline],
 ) -> Result<Centerline, NoVessel> {
-    if let Some(number) = beside.iter().position(|vessel| holds(vessel, click)) {
-        return Err(NoVessel::Already(number));
+    if beside.iter().any(|vessel| holds(vessel, click)) {
+        return Err(NoVessel::Already);
     }
-    let number = vessel_at(trees, click, voxel)?;
+    let number = vessel_at(trees, click, voxel, |vessel| vessel.doubt.is_none())
+        .map_err(|(_, distance)| NoVessel::NotHere(distance))?;
     let own = &trees.vessels[number].line;
     let (before, whole) = with_ancestors(trees, number);
     let at = before + nearest_point(&own.points, click);
@@ -43,30 +41,16 @@ pub fn one_vessel(
         confidence: whole.confidence[range].to_vec(),
     };
     let end = line.points.len() - 1;
+    // All that is left of it lies in the other one.
+    if end == 0 {
+        return Err(NoVessel::Already);
+    }
     for (end, is_met) in [(0, first.is_some()), (end, last.is_some())] {
         if is_met {
             line.points[end] = nearest_of(beside, line.points[end]);
         }
     }
     Ok(line)
-}
-
-/// The number of the vessel that a click chooses.
-fn vessel_at(trees: &Trees, click: DVec3, voxel: f64) -> Result<usize, NoVessel> {
-    let all = || {
-        trees.vessels.iter().enumerate().map(|(number, vessel)| near(number, vessel, click, voxel / REACH))
-    };
-    let within = |is_sure: bool| {
-        all()
-            .filter(|near| near.radii <= REACH && trees.vessels[near.vessel].doubt.is_none() == is_sure)
-            .min_by(|a, b| a.radii.total_cmp(&b.radii))
-    };
-    within(true).or_else(|| within(false)).map(|near| near.vessel).ok_or_else(|| {
-        let nearest = all().min_by(|a, b| a.distance.total_cmp(&b.distance));
-        nearest.map_or(NoVessel::NotHere(click, f64::INFINITY), |near| {
-            NoVessel::NotHere(near.point, near.distance)
-        })
-    })
 }
 
 /// The line of a vessel behind those of the vessels that it hangs on, up to where each is left; and how many points these have.

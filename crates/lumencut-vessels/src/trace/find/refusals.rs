@@ -35,21 +35,21 @@ pub fn not_here(seed: DVec3, value: f64, nearest: DVec3, distance: f64) -> Error
 /// The error for a click (mm, LPS) that gives no whole vessel, with the value there.
 pub fn no_whole_vessel(click: DVec3, value: f64, reason: NoVessel) -> Error {
     let (found, expected) = match reason {
-        NoVessel::NotHere(_, distance) if distance.is_infinite() => {
+        NoVessel::NotHere(distance) if distance.is_infinite() => {
             ("no vessel in all of this scan".to_owned(), "a point within a vessel")
         }
-        NoVessel::NotHere(_, distance) => (
+        NoVessel::NotHere(distance) => (
             format!("none of the vessels that were found; the nearest one is {distance:.1} mm away"),
             "a point within a vessel",
         ),
-        NoVessel::Already(_) => ("a vessel that is traced already".to_owned(), "one that is not"),
+        NoVessel::Already => ("a vessel that is traced already".to_owned(), "one that is not"),
     };
     let error = Error::new(ErrorKind::Tracing, "this point", found, expected).at(click, value);
     match reason {
-        NoVessel::NotHere(..) => {
+        NoVessel::NotHere(_) => {
             error.mend("click the vessel at a second place: the way between both is traced")
         }
-        NoVessel::Already(_) => error,
+        NoVessel::Already => error,
     }
 }
 
