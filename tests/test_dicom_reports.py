@@ -164,6 +164,18 @@ def test_outlines_and_centerlines_are_in_the_frame_of_the_scan(tmp_path):
     np.testing.assert_allclose(np.reshape(line.GraphicData, (-1, 3)), LINE[0].points, atol=1e-4)
 
 
+@pytest.mark.parametrize("method", ["nascet", "ecst"])
+def test_a_percentage_names_the_walls_that_it_was_inferred_from(tmp_path, method):
+    *places, percent, _ = groups(save(tmp_path, stenoses=[graded(method)]))
+    (number,) = child(percent, "Lumen Diameter Stenosis")
+    walls = [one for one in number.ContentSequence if one.ValueType == "SCOORD3D"]
+    # The narrow place first: a viewer such as OHIF goes to the first one, and fails where there is none.
+    outlines = [child(place, "Image Region")[0].GraphicData for place in places]
+    assert [wall.GraphicData for wall in walls] == outlines
+    assert len(walls) == (2 if method == "nascet" else 1)
+    assert {wall.RelationshipType for wall in walls} == {"INFERRED FROM"}
+
+
 def test_an_uncertainty_has_the_unit_of_its_number(tmp_path):
     narrow = groups(save(tmp_path, stenoses=[graded()]))[0]
     diameter = child(narrow, "Vessel lumen diameter")[0]

@@ -12,6 +12,7 @@ from dicom_scenes import LINE, SETTINGS, scan, series
 from lumencut import Camera, FormatError, Renderer, SettingsError
 from lumencut.dicom_objects.picture import greys, on_black
 from lumencut.turntables import save_animation, turntable
+from lumencut.uncurling import fitted_uncurling
 from test_cli_dicom import line as line
 from test_cli_dicom import run
 
@@ -80,5 +81,22 @@ def test_the_command_line_writes_turntables(line, tmp_path):
     assert (data.pixel_array[0] != bare).any()
     said = run("turntable", series(), line, "-o", tmp_path / "a.webp", *words, "--grey", code=2)
     assert "--grey does nothing without an output .dcm" in said
-    said = run("uncurl", series(), line, "-o", path, code=2)
-    assert "one picture needs --amount" in said
+
+
+def test_the_command_line_writes_a_vessel_that_becomes_straight(line, tmp_path):
+    path, words = tmp_path / "a.dcm", ("--frames", "3", "--size", "200x200", "--fps", "4")
+    run("uncurl", series(), line, "-o", path, *words)
+    assert faults(path) == faults(path, "Warning") == []
+    data = pydicom.dcmread(path)
+    assert (data.NumberOfFrames, data.FrameTime, data.SamplesPerPixel) == (3, 250, 3)
+    assert data.SeriesDescription == "Lumencut CPR uncurl film (research, not for diagnosis)"
+    # Lengths are true along the vessel alone, and so a ruler would be wrong.
+    assert "PixelSpacing" not in data
+    made = lumencut.uncurl(scan(), LINE[0], fitted_uncurling(Camera.anterior(LINE, (200, 200)), LINE[0]))
+    for shown, amount in zip(data.pixel_array, (0, 0.5, 1), strict=True):
+        np.testing.assert_array_equal(shown, on_black(made.changed(amount).annotated()))
+    run("uncurl", series(), line, "-o", path, *words, "--grey", "--anonymous")
+    data = pydicom.dcmread(path)
+    assert (data.SamplesPerPixel, data.PatientName) == (1, "")
+    said = run("uncurl", series(), line, "-o", path, "--amount", "1", "--grey", code=2)
+    assert "--grey does nothing with --amount" in said

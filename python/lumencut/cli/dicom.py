@@ -49,6 +49,10 @@ compress_option = click.option(
     "--compress", is_flag=True, help="For .dcm: pixels as JPEG 2000, lossless; default: bare."
 )
 
+grey_option = click.option(
+    "--grey", is_flag=True, help="For .dcm: grey frames, which some programs read alone."
+)
+
 
 def is_object(path: Path) -> bool:
     """Tell whether a file is to be DICOM."""

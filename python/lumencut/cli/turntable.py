@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from lumencut.cli import options
-from lumencut.cli.dicom import check_objects, dicom_options, is_object, study_of
+from lumencut.cli.dicom import check_objects, dicom_options, grey_option, is_object, study_of
 from lumencut.cli.labels import check_labels, label_options
 from lumencut.cli.parameters import Named, PlaceOnVessel
 from lumencut.cli.report import bar, detail, say, timings, verbose_option
@@ -79,7 +79,7 @@ AXIS_NAMES = ("superior", "up", "right", "direction")
 @options.view_options
 @label_options
 @dicom_options
-@click.option("--grey", is_flag=True, help="For .dcm: grey frames, which some programs read alone.")
+@grey_option
 @paper_option
 @setting_options
 @verbose_option

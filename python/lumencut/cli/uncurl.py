@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
 from lumencut.cli import options, reformations
+from lumencut.cli.dicom import grey_option, study_of
 from lumencut.cli.like import typed
 from lumencut.cli.report import bar, say, timings
 from lumencut.errors import FormatError, SettingsError
@@ -20,6 +21,8 @@ if TYPE_CHECKING:
 
     from lumencut.animation import Writer
     from lumencut.camera import Camera
+    from lumencut.dicom_objects.picture import Picture
+    from lumencut.dicom_objects.study import Study
     from lumencut.renderer import Renderer
     from lumencut.settings import Settings
     from lumencut.uncurling import Uncurled
@@ -33,7 +36,8 @@ if TYPE_CHECKING:
     "--output",
     type=options.FILE,
     required=True,
-    help="Film (.webp, .apng, .mp4, frame-%03d.png or a folder), or with --amount a picture (.png, .npz, …).",
+    help="Film (.webp, .apng, .mp4, .dcm, frame-%03d.png or a folder), or with --amount a picture (.png, "
+    ".dcm, .npz, …).",
 )
 @click.option(
     "--amount",
@@ -57,6 +61,7 @@ if TYPE_CHECKING:
 @options.view_options
 @reformations.smoothing_option
 @reformations.picture_options
+@grey_option
 def uncurl(**given: Any) -> None:
     """Show a vessel of CENTERLINES with its surroundings as it is straightened: from the body to its CPR.
 
@@ -69,7 +74,8 @@ def uncurl(**given: Any) -> None:
     """  # noqa: D301 - click needs the control character itself
     output, fps = given["output"], given["fps"]
     chosen, settings = reformations.like({**given, "camera": None}, "uncurl")
-    write = _writer(output, chosen["amount"], fps)
+    dicom = {**study_of(chosen), "compress": chosen["compress"], "grey": chosen["grey"]}
+    write = _writer(output, chosen["amount"], fps, dicom)
     renderer, _, vessels = reformations.read_vessels(chosen, settings, "uncurl")
     title, vessel = max(vessels, key=lambda named: named[1].length)
     camera = _camera(chosen, vessel)
@@ -82,16 +88,18 @@ def uncurl(**given: Any) -> None:
     say(f"{output}: vessel {title} uncurled, {frames} frames, {frames / fps:.3g} s")
 
 
-def _writer(output: Path, amount: float | None, fps: float) -> Writer | None:
+def _writer(output: Path, amount: float | None, fps: float, dicom: dict[str, Any]) -> Writer | None:
     """What writes a film, None where one picture is asked for; refuse what cannot be written."""
     if amount is not None:
+        if dicom["grey"]:
+            raise click.UsageError("--grey does nothing with --amount; leave one of them out")
         options.check_picture(output)
         return None
     from lumencut.animation import checked_fps, writer_for
 
     try:
         checked_fps(fps)
-        write = writer_for(output)
+        write = writer_for(output, dicom=dicom)
     except (FormatError, SettingsError) as error:
         raise click.UsageError(f"{error}; one picture needs --amount") from error
     options.check_folder(output)
@@ -125,11 +133,21 @@ def _made(
 class _Picture:
     """A frame of the film, as the writers of animations take it."""
 
-    camera: Camera
+    made: Uncurled
     image: npt.NDArray[np.uint8]
+
+    @property
+    def camera(self) -> Camera:
+        return self.made.camera
 
     def _png_options(self, **_: bool) -> dict[str, Any]:
         return {}
+
+    def _study(self, study: Any, *, anonymous: bool) -> Study:
+        return self.made._study(study, anonymous=anonymous)
+
+    def _as_object(self, **labels: bool) -> Picture:
+        return replace(self.made._as_object(**labels), image=self.image)
 
 
 def _film(first: Uncurled, frames: int, *, annotate: bool) -> Iterator[Any]:
@@ -142,5 +160,5 @@ def _film(first: Uncurled, frames: int, *, annotate: bool) -> Iterator[Any]:
             timings(f"frame {done}", made.timings)
             # What lies outside the volume is black.
             image[..., 3] = 255
-            yield _Picture(made.camera, image)
+            yield _Picture(made, image)
             told(done, frames)

@@ -23,8 +23,10 @@ class Place:
     ----------
     kind : (str, str, str)
         The code of what it is.
+    marked : float
+        Where the reader marked it (mm along the vessel).
     arc_length : float
-        Where it is on the vessel (mm).
+        Where the section next to that is, which was measured (mm).
     contour : numpy.ndarray, shape (m, 3)
         The wall of the lumen (mm, LPS).
     equivalent, uncertainty : float
@@ -36,6 +38,7 @@ class Place:
     """
 
     kind: Coded
+    marked: float
     arc_length: float
     contour: npt.NDArray[np.float64]
     equivalent: float
@@ -109,4 +112,4 @@ def _place(profile: Any, at: float, kind: Coded) -> Place:
     number = profile._core.nearest(at)
     names = ("diameter_equivalent", "uncertainty", "diameter_mean", "diameter_min", "diameter_max", "area")
     values = (float(getattr(profile, name)[number]) for name in names)
-    return Place(kind, float(profile.arc_length[number]), profile.contour[number], *values)
+    return Place(kind, at, float(profile.arc_length[number]), profile.contour[number], *values)

@@ -61,6 +61,8 @@ class Picture:
         Whether the surface of the body may be seen.
     code : (str, str), default curved reformatting
         How it was derived (DCM).
+    film : str or None, default None
+        In short what a film is that it is the first frame of; None for a turntable of the method.
     """
 
     image: npt.NDArray[np.uint8]
@@ -72,6 +74,7 @@ class Picture:
     comments: str = ""
     shows_body: bool = False
     code: tuple[str, str] = CURVED_REFORMATION
+    film: str | None = None
 
 
 def write_picture(
@@ -133,7 +136,8 @@ def write_turning(
             )
     if not shown:
         raise FormatError(str(path), "no frames", "at least one frame")
-    kind = Kind(_GREY_FRAMES if grey else _COLOUR_FRAMES, f"{shown[0].method} turntable", 9003)
+    name = shown[0].film or f"{shown[0].method} turntable"
+    kind = Kind(_GREY_FRAMES if grey else _COLOUR_FRAMES, name, 9003)
     data = _described(_turning(shown), study, kind, 1)
     (_set_greys if grey else _set_colours)(data, bytes(pixels), size)
     _set_timing(data, len(shown), fps)

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from lumencut import _lumencut
 from lumencut.dicom_objects import codes
@@ -106,10 +107,9 @@ class _Vessel:
         """A section with its contour (TID 1410)."""
         from highdicom.sr import ImageRegion3D, PlanarROIMeasurementsAndQualitativeEvaluations
 
-        outline = np.vstack([place.contour, place.contour[:1]])
         return PlanarROIMeasurementsAndQualitativeEvaluations(
             self._tracked(f"{place.kind[2]} at {place.arc_length:.1f} mm"),
-            referenced_region=ImageRegion3D("POLYGON", outline, self._frame),
+            referenced_region=ImageRegion3D("POLYGON", _outline(place), self._frame),
             finding_type=_code(place.kind),
             finding_sites=self._sites,
             measurements=_measurements(place),
@@ -120,17 +120,29 @@ class _Vessel:
         from highdicom.sr import MeasurementsAndQualitativeEvaluations
 
         name = codes.AREA_STENOSIS if one.method == "area" else codes.DIAMETER_STENOSIS
+        method = codes.METHODS[one.method]
         group = MeasurementsAndQualitativeEvaluations(
             self._tracked(f"stenosis at {one.at:.1f} mm"),
             finding_type=_code(codes.STENOSIS),
             finding_sites=self._sites,
             measurements=[
-                _number(name, one.percent, "%", codes.METHODS[one.method], one.percent_uncertainty)
+                _number(name, one.percent, "%", method, one.percent_uncertainty, regions=self._walls(one))
             ],
         )
         for words in (str(one), *one.doubts):
             _comment(group, words)
         return group
+
+    def _walls(self, one: Stenosis) -> list[Any]:
+        """The walls that a percentage was inferred from: that of the narrow place first, then the references.
+
+        OHIF fails to open a report with a group that lies nowhere.
+        """
+        from highdicom.sr import CoordinatesForMeasurement3D
+
+        used = [place for place in self._one.places if place.marked in (one.at, *dict(one.references))]
+        used.sort(key=lambda place: place.marked != one.at)
+        return [CoordinatesForMeasurement3D("POLYGON", _outline(place), self._frame) for place in used]
 
     def _line(self) -> Any:
         """The centerline with its length (TID 1501)."""
@@ -155,6 +167,11 @@ class _Vessel:
         )
 
 
+def _outline(place: Place) -> npt.NDArray[np.float64]:
+    """The wall of a section as a closed polygon, its first point again at the end (mm, LPS)."""
+    return np.vstack([place.contour, place.contour[:1]])
+
+
 def _measurements(place: Place) -> list[Any]:
     """The diameters and the area of a section."""
     found = [_number(codes.DIAMETER, place.equivalent, "mm", codes.BY_AREA, place.uncertainty)]
@@ -171,8 +188,12 @@ def _number(
     method: Coded | None = None,
     uncertainty: float = np.nan,
     derivation: Coded | None = None,
+    regions: Sequence[Any] | None = None,
 ) -> Any:
-    """A number; its uncertainty, where it is known, is one standard deviation to both sides."""
+    """A number; its uncertainty, where it is known, is one standard deviation to both sides.
+
+    `regions` are what it was inferred from, where the group does not say so for all of its numbers.
+    """
     from highdicom.sr import Measurement, MeasurementProperties
 
     properties = None
@@ -191,6 +212,7 @@ def _number(
         method=None if method is None else _code(method),
         derivation=None if derivation is None else _code(derivation),
         properties=properties,
+        referenced_coordinates=regions,
     )
 
 

@@ -132,7 +132,8 @@ def reformed_picture(
     sides = (edges["right"], edges["bottom"]) if {"right", "bottom"} <= edges.keys() else None
     text = parameters + settings_text(settings)
     short = "CFA" if recipe.command == "cfa" else "CPR"
-    return Picture(image, f"{short} {recipe.name}", words, text, spacing, sides, recipe.axes)
+    film = f"{short} uncurl film" if recipe.command == "uncurl" else None
+    return Picture(image, f"{short} {recipe.name}", words, text, spacing, sides, recipe.axes, film=film)
 
 
 def joined_picture(image: npt.NDArray[np.uint8], method: str, words: str, settings: Settings) -> Picture:
