@@ -25,7 +25,7 @@ LOOKS = {
 def main(runs: int) -> None:
     """Print a table of the medians (ms)."""
     set_threads(1)
-    volume, tree = demo.stent_scene(demo.default_cache())
+    volume, tree = demo.stent_scene()
     renderer = Renderer(volume, tree, device="cpu")
     camera = Camera.anterior(tree, size=(1024, 1024))
     times: dict[str, dict[str, list[float]]] = {look: defaultdict(list) for look in LOOKS}

@@ -23,7 +23,7 @@ THREADS = 2
 def main(runs: int) -> None:
     """Print a table of medians (ms)."""
     set_threads(THREADS)
-    volume, tree = demo.stent_scene(demo.default_cache())
+    volume, tree = demo.stent_scene()
     vessel = tree.path([0, 1, 2])
     renderer = Renderer(volume, VesselTree([vessel]), "cpu")
     camera = fitted_uncurling(Camera.anterior(vessel, size=SIZE), vessel)

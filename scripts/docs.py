@@ -50,11 +50,11 @@ def _write(path: Path, text: str) -> None:
 
 def check_stent() -> None:
     """Fail at once where the CT that most pictures show cannot be had."""
-    from lumencut.demo import default_cache, stent_scene
+    from lumencut.demo import stent_scene
     from lumencut.errors import LumencutError
 
     try:
-        stent_scene(default_cache())
+        stent_scene()
     except LumencutError as error:
         raise PageError(f"the CT of the gallery: {error}") from error
 

@@ -82,6 +82,12 @@ def test_the_volume_is_taken_once(index, tmp_path):
     assert len(tree) == 9
 
 
+def test_the_volume_is_kept_in_the_cache_of_the_user(index, tmp_path, monkeypatch):
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    demo.stent_scene()
+    assert [str(path.relative_to(tmp_path)) for path in tmp_path.rglob("*.npz")] == ["lumencut/stent.npz"]
+
+
 def test_the_centerlines_lie_in_the_volume(index, tmp_path):
     volume, tree = demo.stent_scene(tmp_path)
     assert volume.contains(tree.points).mean() > 0.99

@@ -164,7 +164,7 @@ def stent():
 @pytest.mark.parametrize("path", GALLERY, ids=lambda path: path.stem)
 def test_a_script_of_the_gallery_makes_its_picture(path, stent, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(demo, "stent_scene", lambda cache: stent)
+    monkeypatch.setattr(demo, "stent_scene", lambda: stent)
     runpy.run_path(str(path), run_name="__main__")
     with Image.open(tmp_path / docs_pages.script_of(path).picture) as picture:
         low, high = picture.convert("L").getextrema()
@@ -219,7 +219,7 @@ def test_an_empty_site_is_refused(tmp_path):
 
 
 def test_without_the_ct_of_the_demo_nothing_is_built(tmp_path, monkeypatch, capsys):
-    def unreachable(cache):
+    def unreachable():
         raise demo.UnreachableError("imageio", "no network", "a wheel from the package index")
 
     former = tmp_path / "site"

@@ -12,6 +12,8 @@ from nbclient import NotebookClient
 from PIL import Image
 
 import lumencut
+from lumencut import demo
+from stent_scene import stent_stand_in
 
 ROOT = Path(__file__).resolve().parents[1]
 NOTEBOOK = ROOT / "examples" / "notebook.ipynb"
@@ -49,6 +51,17 @@ def test_the_notebook_is_kept_without_outputs():
     cells = nbformat.read(NOTEBOOK, 4).cells
     assert [cell.id for cell in cells if cell.get("outputs")] == []
     assert any("show(" in cell.source for cell in cells)
+
+
+def test_the_first_cell_of_the_page_shows_the_vessels(monkeypatch):
+    page = (ROOT / "docs" / "notebook.md").read_text("utf-8")
+    first = page.partition("```python\n")[2].partition("```")[0]
+    monkeypatch.setattr(demo, "stent_scene", stent_stand_in)
+    names = {}
+    exec(first, names)
+    assert len(names["view"].tree) == len(names["tree"])
+    assert names["view"].picture.startswith(b"\x89PNG")
+    names["view"].close()
 
 
 def test_the_page_of_notebooks_names_all_traits():

@@ -19,7 +19,7 @@ def tube(tmp_path, monkeypatch):
     """A tube in the place of the demo's CT, which is on the network, and points along it."""
     made = phantom.stenosis()
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(demo, "stent_scene", lambda cache: (made.volume, made.tree))
+    monkeypatch.setattr(demo, "stent_scene", lambda: (made.volume, made.tree))
     monkeypatch.setattr(demo, "STENT_POINTS", (made.tree[0].points[[10, -10]],))
     return made
 

@@ -10,7 +10,7 @@ from PIL import Image
 import lumencut
 from lumencut import demo
 
-volume, tree = demo.stent_scene(demo.default_cache())
+volume, tree = demo.stent_scene()
 renderer = lumencut.Renderer(volume, tree)
 camera = lumencut.Camera.inferior(tree, size=(420, 420))
 rules = (lumencut.Settings.paper(), lumencut.Settings())

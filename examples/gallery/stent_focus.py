@@ -7,6 +7,6 @@ lies is seen at once.
 import lumencut
 from lumencut import demo
 
-volume, tree = demo.stent_scene(demo.default_cache())
+volume, tree = demo.stent_scene()
 camera = lumencut.Camera.left(tree, size=(400, 560))
 lumencut.render(volume, tree, camera, lumencut.Settings.focused()).save("stent_focus.webp")

@@ -10,7 +10,7 @@ from PIL import Image
 import lumencut
 from lumencut import demo
 
-volume, _ = demo.stent_scene(demo.default_cache())
+volume, _ = demo.stent_scene()
 tree = lumencut.find_vessels(volume)
 camera = lumencut.Camera.anterior(tree, size=(320, 560))
 scan = lumencut.render(volume, None, camera, lumencut.Settings(context="mip"))

@@ -10,7 +10,7 @@ from PIL import Image
 import lumencut
 from lumencut import demo
 
-volume, tree = demo.stent_scene(demo.default_cache())
+volume, tree = demo.stent_scene()
 way = tree.path([0, 1, 2])
 cut = lumencut.cpr(volume, way, "straightened", width=30, pixel_spacing=0.4)
 around = [lumencut.cfa(volume, way, radius=15, feature=kind, pixel_spacing=0.4) for kind in ("max", "min")]

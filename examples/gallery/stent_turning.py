@@ -6,7 +6,7 @@ One view shows one diameter: a narrowing that is not round is judged from all si
 import lumencut
 from lumencut import demo
 
-volume, tree = demo.stent_scene(demo.default_cache())
+volume, tree = demo.stent_scene()
 renderer = lumencut.Renderer(volume, tree)
 camera = lumencut.fitted_turn(lumencut.Camera.anterior(tree, size=(320, 420)), tree)
 lumencut.save_animation(lumencut.turntable(renderer, camera, frames=36), "stent_turning.webp")

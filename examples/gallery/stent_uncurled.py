@@ -9,7 +9,7 @@ from PIL import Image
 import lumencut
 from lumencut import demo
 
-volume, tree = demo.stent_scene(demo.default_cache())
+volume, tree = demo.stent_scene()
 way = tree.path([0, 1, 2])
 first = lumencut.uncurl(volume, way, lumencut.Camera.left(way, size=(320, 420)))
 amounts = np.concatenate([np.zeros(6), np.linspace(0, 1, 24), np.ones(6)])

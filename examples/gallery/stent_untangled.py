@@ -7,7 +7,7 @@ as that takes, so angles between vessels are not those of the body.
 import lumencut
 from lumencut import demo
 
-volume, tree = demo.stent_scene(demo.default_cache())
+volume, tree = demo.stent_scene()
 camera = lumencut.Camera.left(tree)
 made = lumencut.untangled(volume, tree, camera, pixel_spacing=0.45, slab=(4, "mean"))
 made.save("stent_untangled.webp")

@@ -10,7 +10,7 @@ from PIL import Image
 import lumencut
 from lumencut import demo
 
-volume, tree = demo.stent_scene(demo.default_cache())
+volume, tree = demo.stent_scene()
 renderer = lumencut.Renderer(volume, tree)
 anterior = lumencut.Camera.anterior(tree, size=(320, 560))
 turned = anterior.rotated(degrees=55)

@@ -10,6 +10,6 @@ from PIL import Image
 import lumencut
 from lumencut import demo
 
-volume, tree = demo.stent_scene(demo.default_cache())
+volume, tree = demo.stent_scene()
 wall = lumencut.lumen_map(volume, tree.path([0, 1, 2]), pixel_spacing=0.3, tree=tree)
 Image.fromarray(np.hstack([wall.image, wall.changed("radius").image])).save("stent_wall.webp")

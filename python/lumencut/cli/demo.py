@@ -73,10 +73,10 @@ def _scene(cache: Path | None, device: Literal["auto", "cpu", "gpu"]) -> tuple[R
 
 def demo_scene(cache: Path | None = None) -> tuple[Volume, VesselTree, bool]:
     """Return the volume and the vessels of the demo, and whether they are the CT's and no phantom's."""
-    from lumencut.demo import UnreachableError, default_cache, stent_scene
+    from lumencut.demo import UnreachableError, stent_scene
 
     try:
-        return *stent_scene(cache or default_cache()), True
+        return *stent_scene(cache), True
     except UnreachableError as error:
         from lumencut.phantom import aorta
 

@@ -54,13 +54,13 @@ def default_cache() -> Path:
     return (Path(base) if base else Path.home() / ".cache") / "lumencut"
 
 
-def stent_scene(cache: Path) -> tuple[Volume, VesselTree]:
+def stent_scene(cache: Path | None = None) -> tuple[Volume, VesselTree]:
     """Return the volume and the vessel tree of the demo.
 
     Parameters
     ----------
-    cache : Path
-        Folder where the volume is kept; made where it is missing.
+    cache : Path, optional
+        Folder where the volume is kept, made where it is missing; :func:`default_cache` where not given.
 
     Raises
     ------
@@ -72,7 +72,7 @@ def stent_scene(cache: Path) -> tuple[Volume, VesselTree]:
     from lumencut.centerlines import read_centerlines
     from lumencut.volume import Volume
 
-    content = _checked(*_kept(cache), MEMBER_SHA256)
+    content = _checked(*_kept(cache or default_cache()), MEMBER_SHA256)
     voxels = np.load(BytesIO(content), allow_pickle=False)["arr_0"]
     with as_file(files("lumencut.demo") / "stent-centerlines.vtp") as path:
         tree = read_centerlines(path, "lps", unit="mm")
