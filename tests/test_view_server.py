@@ -14,7 +14,7 @@ from lumencut.viewer.server import ViewerServer
 from lumencut.volume_files import open_volume
 from lumencut.volume_writers import write_volume as write_any
 from scene_files import bent_line, write_lines, write_volume
-from view_serving import INDEX, SCRIPT, made_file, serving, split, write_page
+from view_serving import SCRIPT, SERVED, made_file, serving, split, write_page
 from volume_samples import coded, oblique, write_stack
 
 SENT_ALIKE = ["int8", "uint8", "int16", "uint16", "int32", "uint32", "float32", "float64"]
@@ -46,7 +46,7 @@ def streamed(page, file):
 def test_the_page_is_served_as_it_was_built(page):
     with serving(page) as client:
         index, script, wasm = (client.ask(name) for name in ("", "assets/app.js", "assets/core.wasm"))
-    assert (index.status, index.body.decode()) == (200, INDEX)
+    assert (index.status, index.body.decode()) == (200, SERVED)
     assert index.headers["content-type"] == "text/html; charset=utf-8"
     assert (script.status, script.body) == (200, SCRIPT)
     assert script.headers["content-type"] == "text/javascript; charset=utf-8"
@@ -55,7 +55,7 @@ def test_the_page_is_served_as_it_was_built(page):
 
 def test_a_query_belongs_to_the_page(page):
     with serving(page) as client:
-        assert client.ask("?volume=data/volume").body.decode() == INDEX
+        assert client.ask("?volume=data/volume").body.decode() == SERVED
 
 
 def test_without_the_last_slash_the_page_is_found(page):

@@ -18,6 +18,10 @@ from lumencut.viewer.server import ViewerServer
 from lumencut.volume_files.opened import VolumeFile
 
 INDEX = "<!doctype html><html><head lang='en'><title>stand-in</title></head><body></body></html>"
+#: The same as it is served: it says where the server makes objects of what the page sends.
+SERVED = INDEX.replace(
+    "<head lang='en'>", '<head lang=\'en\'><meta name="lumencut-objects" content="make/objects">'
+)
 SCRIPT = b"export const one = 1\n"
 
 
@@ -50,12 +54,19 @@ class Client:
         self.place = server.place
 
     def connection(self) -> http.client.HTTPConnection:
-        return http.client.HTTPConnection("127.0.0.1", self.place.port, timeout=10)
+        return http.client.HTTPConnection("127.0.0.1", self.place.port, timeout=60)
 
-    def ask(self, name: str = "", method: str = "GET", path: str | None = None, **headers: str) -> Answer:
+    def ask(
+        self,
+        name: str = "",
+        method: str = "GET",
+        path: str | None = None,
+        content: bytes | None = None,
+        **headers: str,
+    ) -> Answer:
         connection = self.connection()
         try:
-            connection.request(method, path or f"/{self.place.token}/{name}", headers=headers)
+            connection.request(method, path or f"/{self.place.token}/{name}", content, headers)
             response = connection.getresponse()
             return answer(response)
         finally:

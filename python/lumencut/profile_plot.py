@@ -148,7 +148,7 @@ def _top(sections: Sections, counted: npt.NDArray[np.bool_]) -> float:
 
 def _draw_marks(axes: Axes, marks: Sequence[Mark]) -> None:
     for mark in marks:
-        symbol = "D" if mark.name == "reference" else "v"
+        symbol = "D" if mark.is_reference else "v"
         axes.axvline(mark.arc_length, color=_MARKS, lw=0.7, ls="--" if mark.is_suggestion else "-")
         axes.plot(
             [mark.arc_length], [mark.diameter], symbol, color=_MARKS, ms=6,

@@ -73,6 +73,11 @@ class Mark:
     is_suggestion: bool
 
     @property
+    def is_reference(self) -> bool:
+        """Whether the place of a stenosis is compared with it."""
+        return self.name == "reference"
+
+    @property
     def title(self) -> str:
         """What it is, and whether it is but a suggestion."""
         return f"{self.name} (suggestion)" if self.is_suggestion else self.name

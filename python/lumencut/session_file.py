@@ -100,14 +100,32 @@ def _recipe(path: Path, view: dict[str, Any], vessels: int) -> Recipe:
         found = f"a view by the method {view['method']}"
         mend = "choose CSR in the viewer and save the session again"
         raise FormatError(str(path), found, "one by csr or csr-paper", mend)
-    make = Settings.paper if view["method"] == "csr-paper" else Settings
     try:
-        settings = make(**{name: _made(name, value) for name, value in view["settings"].items()})
+        settings = view_settings(view["method"], view["settings"])
         camera = Camera(**{**view["camera"], "size": tuple(view["camera"]["size"])})
     except (SettingsError, CameraError, TypeError, ValueError) as error:
         found = f"a view that cannot be rendered ({error})"
         raise FormatError(str(path), found, _EXPECTED, _MEND) from error
     return Recipe(camera, settings, annotate=True, vessel_names=False, vessels=vessels)
+
+
+def view_settings(method: str, given: dict[str, Any]) -> Settings:
+    """Return the settings of a view of the viewer, which tells those that differ from the usual ones.
+
+    Parameters
+    ----------
+    method : str
+        The name of its method; ``"csr-paper"`` has other usual settings.
+    given : dict
+        The settings by their names, as JSON holds them.
+
+    Raises
+    ------
+    SettingsError, TypeError, ValueError
+        For values that are none of a setting.
+    """
+    make = Settings.paper if method == "csr-paper" else Settings
+    return make(**{name: _made(name, value) for name, value in given.items()})
 
 
 def _made(name: str, value: Any) -> Any:

@@ -71,7 +71,9 @@ def _write_numbers(path: Path, shown: list[MeasuredVessel], study: Study) -> Non
     from lumencut.dicom_objects.structured_report import write_report
 
     graded = [(one, () if one.stenosis is None else (one.stenosis,)) for one in shown]
-    write_report(path, [measured(one.profile, stenoses, one.vessel) for one, stenoses in graded], study)
+    write_report(
+        path, [measured(one.profile, stenoses, one.vessel, one.marks) for one, stenoses in graded], study
+    )
 
 
 def _write_pdf(

@@ -2,22 +2,20 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
-from lumencut.dicom_objects.objects import Kind, coded, new_object, sealed, write
+from lumencut.dicom_objects.objects import Kind, Target, coded, new_object, sealed, write
 from lumencut.dicom_objects.study import Study
 
 _PDF = "1.2.840.10008.5.1.4.1.1.104.1"
 _IMAGING_REPORT = ("18748-4", "Diagnostic imaging report", "LN")
 
 
-def write_pdf(path: Path, content: bytes, title: str, study: Study) -> None:
+def write_pdf(target: Target, content: bytes, title: str, study: Study) -> None:
     """Write a PDF as a DICOM object.
 
     Parameters
     ----------
-    path : Path
-        The file.
+    target : Path or binary file
+        The file, or what takes its bytes.
     content : bytes
         The PDF.
     title : str
@@ -35,4 +33,4 @@ def write_pdf(path: Path, content: bytes, title: str, study: Study) -> None:
     data.MIMETypeOfEncapsulatedDocument = "application/pdf"
     data.EncapsulatedDocument = content + b"\0" * (len(content) % 2)
     data.EncapsulatedDocumentLength = len(content)
-    write(sealed(data, content), path)
+    write(sealed(data, content), target)

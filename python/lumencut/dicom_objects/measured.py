@@ -11,6 +11,7 @@ import numpy.typing as npt
 
 from lumencut.dicom_objects.codes import DISTAL_REFERENCE, LUMEN_MINIMUM, PROXIMAL_REFERENCE, Coded
 from lumencut.errors import MeasuringError
+from lumencut.profile_sections import Mark
 from lumencut.stenosis import Stenosis
 from lumencut.vessel import Vessel
 
@@ -74,7 +75,9 @@ class Measured:
     stenoses: tuple[Stenosis, ...]
 
 
-def measured(profile: Any, stenoses: Sequence[Stenosis], vessel: Vessel | None = None) -> Measured:
+def measured(
+    profile: Any, stenoses: Sequence[Stenosis], vessel: Vessel | None = None, marks: Sequence[Mark] = ()
+) -> Measured:
     """Return what a report holds of a profile of :func:`lumencut.measure`.
 
     Parameters
@@ -85,6 +88,8 @@ def measured(profile: Any, stenoses: Sequence[Stenosis], vessel: Vessel | None =
         What was graded on it.
     vessel : Vessel, optional
         The vessel as it is to be called, in the place of the one that was measured.
+    marks : sequence of Mark, default ()
+        What a reader marked counts where nothing is graded; what is suggested never does.
 
     Raises
     ------
@@ -103,9 +108,22 @@ def measured(profile: Any, stenoses: Sequence[Stenosis], vessel: Vessel | None =
         kinds[one.at] = LUMEN_MINIMUM
         for place, _ in one.references:
             kinds.setdefault(place, PROXIMAL_REFERENCE if place < one.at else DISTAL_REFERENCE)
+    if not stenoses:
+        kinds = _marked_kinds([mark for mark in marks if not mark.is_suggestion])
     places = tuple(_place(profile, at, kind) for at, kind in sorted(kinds.items()))
     vessel = vessel or profile._vessel
     return Measured(vessel.name, vessel.points, vessel.length, places, tuple(stenoses))
+
+
+def _marked_kinds(marks: Sequence[Mark]) -> dict[float, Coded]:
+    """What each marked place is; references of no place are none."""
+    at = next((mark.arc_length for mark in marks if not mark.is_reference), None)
+    if at is None:
+        return {}
+    beside = [mark.arc_length for mark in marks if mark.is_reference]
+    return {at: LUMEN_MINIMUM} | {
+        place: PROXIMAL_REFERENCE if place < at else DISTAL_REFERENCE for place in beside
+    }
 
 
 def _place(profile: Any, at: float, kind: Coded) -> Place:

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path
-from typing import Any
+from typing import Any, BinaryIO
 
 from lumencut import _lumencut
 from lumencut._files import replace_whole
@@ -23,6 +23,8 @@ CURVED_REFORMATION = ("113073", "Curved multiplanar reformatting")
 _MOST_NAMED = 2000
 #: What stands for letters that not every character set has.
 _PLAIN = {"°": " deg", "×": "x", "–": "-", "±": "+/-", "²": "2", "ß": "ss", "…": "..."}
+#: Where an object is written: a file, or what takes its bytes.
+Target = Path | BinaryIO
 #: The longest texts of the value representations LO, ST and LT.
 LO, ST, LT = 64, 1024, 10240
 
@@ -162,15 +164,15 @@ def sealed(data: Any, *content: bytes) -> Any:
     return data
 
 
-def write(data: Any, path: Path, encode: Callable[[Any], None] | None = None) -> None:
-    """Write an object as a file that appears only once it is whole.
+def write(data: Any, target: Target, encode: Callable[[Any], None] | None = None) -> None:
+    """Write an object; a file appears only once it is whole.
 
     Parameters
     ----------
     data : pydicom.Dataset
         The object with its UID.
-    path : Path
-        The file.
+    target : Path or binary file
+        The file, or what takes its bytes.
     encode : callable, optional
         Compresses the pixels of the object.
     """
@@ -185,4 +187,7 @@ def write(data: Any, path: Path, encode: Callable[[Any], None] | None = None) ->
     data.file_meta = meta
     if encode is not None:
         encode(data)
-    replace_whole(path, lambda whole: pydicom.dcmwrite(whole, data, enforce_file_format=True))
+    if isinstance(target, Path):
+        replace_whole(target, lambda whole: pydicom.dcmwrite(whole, data, enforce_file_format=True))
+    else:
+        pydicom.dcmwrite(target, data, enforce_file_format=True)

@@ -14,6 +14,7 @@ from lumencut.dicom_objects.objects import (
     CURVED_REFORMATION,
     LT,
     Kind,
+    Target,
     add_laterality,
     add_sources,
     cut,
@@ -78,14 +79,14 @@ class Picture:
 
 
 def write_picture(
-    path: Path, picture: Picture, study: Study, *, number: int = 1, compress: bool = False
+    target: Target, picture: Picture, study: Study, *, number: int = 1, compress: bool = False
 ) -> None:
     """Write a picture as Secondary Capture.
 
     Parameters
     ----------
-    path : Path
-        The file.
+    target : Path or binary file
+        The file, or what takes its bytes.
     picture : Picture
         What is written.
     study : Study
@@ -100,7 +101,7 @@ def write_picture(
     colours = on_black(picture.image)
     _set_colours(data, colours.tobytes(), colours.shape[:2])
     sealed(data, data.PixelData)
-    write(data, path, _packed if compress else None)
+    write(data, target, _packed if compress else None)
 
 
 def write_turning(

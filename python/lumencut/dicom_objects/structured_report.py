@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import copy
 from collections.abc import Sequence
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -14,7 +13,7 @@ from lumencut import _lumencut
 from lumencut.dicom_objects import codes
 from lumencut.dicom_objects.codes import Coded
 from lumencut.dicom_objects.measured import Measured, Place
-from lumencut.dicom_objects.objects import LO, RESEARCH, ST, Kind, cut, new_object, sealed, write
+from lumencut.dicom_objects.objects import LO, RESEARCH, ST, Kind, Target, cut, new_object, sealed, write
 from lumencut.dicom_objects.study import Study
 from lumencut.dicom_objects.uids import uid_of
 from lumencut.errors import FormatError, MissingPackageError
@@ -42,13 +41,13 @@ def check_highdicom() -> None:
         ) from error
 
 
-def write_report(path: Path, vessels: Sequence[Measured], study: Study, *, names: bool = True) -> None:
+def write_report(target: Target, vessels: Sequence[Measured], study: Study, *, names: bool = True) -> None:
     """Write vessels with what a reader marked on them: PRELIMINARY and UNVERIFIED.
 
     Parameters
     ----------
-    path : Path
-        The file.
+    target : Path or binary file
+        The file, or what takes its bytes.
     vessels : sequence of Measured
         What is told.
     study : Study
@@ -80,7 +79,7 @@ def write_report(path: Path, vessels: Sequence[Measured], study: Study, *, names
     _take(data, _document(content, data, study))
     told = [text for group in groups for text in _texts(group)]
     sealed(data, *told)
-    write(data, path)
+    write(data, target)
 
 
 class _Vessel:

@@ -59,7 +59,7 @@ def view_picture(
     # A ruler across a picture of mpCPR, whose rows are moved, would be wrong.
     is_true = source.states_spacing and source.method != "mpcpr"
     words = (
-        f"{_NAMES.get(method, method.upper() + ' of the volume')} {_by()} View {view}; "
+        f"{_NAMES.get(method, method.upper() + ' of the volume')} {written_by()} View {view}; "
         f"camera {json.dumps(_rounded(camera_parameters(camera)))}; {changed(settings)}"
     )
     return Picture(
@@ -128,7 +128,7 @@ def reformed_picture(
         Side of a pixel (mm); None where a ruler across the picture would be wrong.
     """
     parameters = json.dumps(_rounded(recipe.parameters))
-    words = f"{recipe.name} {_by()} {recipe.axes} Parameters {parameters}; {changed(settings)}"
+    words = f"{recipe.name} {written_by()} {recipe.axes} Parameters {parameters}; {changed(settings)}"
     sides = (edges["right"], edges["bottom"]) if {"right", "bottom"} <= edges.keys() else None
     text = parameters + settings_text(settings)
     short = "CFA" if recipe.command == "cfa" else "CPR"
@@ -138,11 +138,12 @@ def reformed_picture(
 
 def joined_picture(image: npt.NDArray[np.uint8], method: str, words: str, settings: Settings) -> Picture:
     """Return several pictures on one sheet, which has no scale of its own, with what their object says."""
-    text = f"{words} {_by()} {changed(settings)}"
+    text = f"{words} {written_by()} {changed(settings)}"
     return Picture(image, method, text, settings_text(settings) + words, None, None, words, True)
 
 
-def _by() -> str:
+def written_by() -> str:
+    """Return the words for who made a picture, and what for."""
     return f"by Lumencut {_lumencut.__version__} {RESEARCH}."
 
 

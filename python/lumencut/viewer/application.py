@@ -1,4 +1,4 @@
-"""What the server answers: the page, the data of the scene, and nothing to anybody else."""
+"""What the server answers: the page, the data of the scene and what is made of them; nothing to others."""
 
 from __future__ import annotations
 
@@ -12,7 +12,6 @@ import numpy as np
 from starlette.requests import Request
 from starlette.responses import (
     FileResponse,
-    JSONResponse,
     PlainTextResponse,
     RedirectResponse,
     Response,
@@ -20,12 +19,13 @@ from starlette.responses import (
 )
 from starlette.types import Receive, Scope, Send
 
-from lumencut.errors import LumencutError
-from lumencut.mends import as_option, written
+from lumencut.mends import as_option
 from lumencut.viewer import volume_stream
 from lumencut.viewer.arriving import ArrivingScene
 from lumencut.viewer.guard import Place, has_body
 from lumencut.viewer.page import Page, type_of
+from lumencut.viewer.posts import OBJECTS, Posts
+from lumencut.viewer.refusing import refusal, unreadable
 
 _log = logging.getLogger("lumencut")
 
@@ -43,7 +43,8 @@ class Application:
 
     def __init__(self, page: Page, scene: ArrivingScene | None, place: Place) -> None:
         self._page, self._scene, self._place = page, scene, place
-        metadata = {}
+        self._posts = Posts(scene, place)
+        metadata = {"lumencut-objects": OBJECTS}
         if scene is not None:
             metadata["lumencut-volume"] = "data/volume"
             if scene.has_centerlines:
@@ -64,14 +65,16 @@ class Application:
 
     async def _answer(self, request: Request) -> Response:
         if not self._place.is_host(request.headers.get("host")):
-            return _refusal(421)
+            return refusal(421)
         path = self._place.inside(request.scope["raw_path"])
         if path is None:
-            return _refusal(404)
+            return refusal(404)
+        if path.removeprefix("/") in self._posts.names:
+            return await self._posts.answer(path.removeprefix("/"), request)
         if request.method not in ("GET", "HEAD"):
-            return _refusal(405, {"Allow": "GET, HEAD"})
+            return refusal(405, {"Allow": "GET, HEAD"})
         if has_body(request.headers):
-            return _refusal(400)
+            return refusal(400)
         if path == "":
             # The names of the page's files are relative to its folder.
             return RedirectResponse(f"/{self._place.token}/", 308)
@@ -84,31 +87,20 @@ class Application:
             file = self._page.files[name]
             return FileResponse(file, media_type=type_of(file))
         if self._scene is None:
-            return _refusal(404)
+            return refusal(404)
         if name == "data/volume":
             return await _volume(self._scene, is_head=is_head)
         if name == "data/centerlines" and self._scene.has_centerlines:
             return await _centerlines(self._scene)
         if name == "data/problem" and self._scene.problem is not None:
             return PlainTextResponse(self._scene.problem.written(as_option))
-        return _refusal(404)
-
-
-def _refusal(status: int, headers: dict[str, str] | None = None) -> Response:
-    """An answer that tells nothing, after which the connection ends."""
-    return Response(status_code=status, headers={"Connection": "close"} | (headers or {}))
-
-
-def _unreadable(error: LumencutError) -> Response:
-    """The error as the page reads it; what mends it are options of the command that serves."""
-    told = {"kind": "format", "subject": error.subject, "found": error.found, "expected": error.expected}
-    return JSONResponse({**told, "mend": written(error.mend, as_option)}, 422)
+        return refusal(404)
 
 
 async def _volume(scene: ArrivingScene, *, is_head: bool) -> Response:
     await _until(lambda: scene.read_type is not None or scene.problem is not None)
     if scene.problem is not None and not scene.is_whole:
-        return _unreadable(scene.problem)
+        return unreadable(scene.problem)
     assert scene.read_type is not None
     header = scene.header(scene.read_type)
     headers = {"Content-Length": str(len(header) + scene.length(scene.read_type))}
@@ -140,7 +132,7 @@ async def _centerlines(scene: ArrivingScene) -> Response:
     await _until(lambda: scene.centerlines is not None or scene.centerline_problem is not None)
     if scene.centerlines is None:
         assert scene.centerline_problem is not None
-        return _unreadable(scene.centerline_problem)
+        return unreadable(scene.centerline_problem)
     return Response(scene.centerlines, media_type=_VTP)
 
 

@@ -50,6 +50,8 @@ class ArrivingScene:
         self.read_type: np.dtype[Any] | None = file.settled_type
         #: The voxels [k, j, i] and how many of their first slices are final.
         self.voxels: tuple[npt.NDArray[Any] | None, int] = (None, 0)
+        #: The volume, once it is read to its end.
+        self.volume: Volume | None = None
         #: What is wrong with the volume, and with the centerlines.
         self.problem: LumencutError | None = None
         self.centerline_problem: LumencutError | None = None
@@ -106,7 +108,7 @@ class ArrivingScene:
     def _read_volume(self) -> None:
         volume = self._file.volume(self._heed, self._fill)
         promised, self.read_type = self.read_type, volume.dtype
-        self.voxels = volume.array, self.slices
+        self.voxels, self.volume = (volume.array, self.slices), volume
         log_oddities(self._file)
         if promised not in (None, volume.dtype):
             # Whoever has the header of before cannot take these voxels; the next one gets the right header.

@@ -68,6 +68,12 @@ class Place:
         """Tell whether a request is for this server: a name of another site may lead to this machine too."""
         return host in (f"127.0.0.1:{self.port}", f"localhost:{self.port}")
 
+    def is_own_page(self, headers: Mapping[str, str]) -> bool:
+        """Tell whether a request is none that a browser sends for a page of another site."""
+        origin = headers.get("origin")
+        is_own = origin is None or self.is_host(origin.removeprefix("http://"))
+        return is_own and headers.get("sec-fetch-site", "same-origin") == "same-origin"
+
     def inside(self, raw_path: bytes) -> str | None:
         """Return what follows the token in a path as it was sent; None for all that is not plainly within."""
         if len(raw_path) > _LONGEST or not _PLAIN.fullmatch(raw_path):

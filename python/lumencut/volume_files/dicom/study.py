@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import os
 from collections.abc import Sequence
 from typing import Any
@@ -59,6 +60,38 @@ def study_below(path: str | os.PathLike[str]) -> Study:
     study = study_of(images)
     series = {str(image.header.get("SeriesInstanceUID") or "") for image in images}
     return study if len(series) == 1 else Study(study.header, (), study.study_count)
+
+
+def study_in(header: bytes, instances: Sequence[str] = ()) -> Study:
+    """Return the study that the header of one image names.
+
+    Parameters
+    ----------
+    header : bytes
+        A DICOM file, or what of it stands before its pixels.
+    instances : sequence of str, default ()
+        The UIDs of all images of the scan, which are of the class of this one; without them it stands alone.
+
+    Raises
+    ------
+    FormatError
+        For bytes that are no DICOM.
+    """
+    import pydicom
+
+    subject, of_image = "the DICOM file", ("SOPClassUID", "SOPInstanceUID")
+    wanted = [*READ, *of_image]
+    with refusing(subject, "DICOM", []):
+        # Files without the preamble are DICOM too: what they hold tells.
+        read = pydicom.dcmread(io.BytesIO(header), stop_before_pixels=True, specific_tags=wanted, force=True)
+        kind, own = (str(read.get(keyword) or "") for keyword in of_image)
+    if not kind:
+        mend = "choose another file of the scan's folder"
+        raise FormatError(subject, "what is no DICOM image", "an image of the study", mend)
+    for keyword in of_image:
+        read.pop(keyword, None)
+    uids = instances or ([own] if own else [])
+    return Study(_readable(read), tuple((kind, uid) for uid in uids))
 
 
 def _tags() -> list[int]:

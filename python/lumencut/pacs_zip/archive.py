@@ -1,0 +1,173 @@
+"""The zip archive of "Save for PACS": what the page sends becomes objects of the scan's study.
+
+All of it stays in memory: no file is made.
+"""
+
+from __future__ import annotations
+
+import io
+import zipfile
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import replace
+from typing import BinaryIO
+
+from lumencut.dicom_objects.chosen_study import chosen_study
+from lumencut.dicom_objects.encapsulated_pdf import write_pdf
+from lumencut.dicom_objects.picture import write_picture
+from lumencut.dicom_objects.structured_report import check_highdicom, write_report
+from lumencut.dicom_objects.study import Origin, Study
+from lumencut.dicom_objects.uids import uid_of
+from lumencut.errors import FormatError, MeasuringError
+from lumencut.pacs_zip.given import Given, checked, read_json, refused
+from lumencut.pacs_zip.pictures import big_view, key_image, pane_picture, settings_in
+from lumencut.pacs_zip.told_vessels import ToldVessel, told_vessel
+from lumencut.profile_plot import check_matplotlib
+from lumencut.report_pdf import report_pdf
+from lumencut.settings import Settings
+from lumencut.volume import Volume
+from lumencut.volume_files.dicom.study import study_in
+
+#: Where the objects are put: the scan's own study, one without a patient, that of another file.
+_CHOICES = ("scan", "anonymous", "like")
+_TITLE = "Lumencut: measured vessels"
+_MEND = 'choose "Anonymous", or a DICOM file of the study'
+
+#: The name of an object in the archive, and what writes it.
+_Member = tuple[str, Callable[[BinaryIO], object]]
+
+
+def pacs_zip(content: bytes, served: Volume | None) -> bytes:
+    """Return the zip archive of what the page asks for.
+
+    Parameters
+    ----------
+    content : bytes
+        The request as JSON; ``docs/viewer.md`` lists its fields.
+    served : Volume or None
+        The volume that the server shows; None where there is none.
+
+    Returns
+    -------
+    bytes
+        The archive: ``view.dcm``, ``vessel.dcm``, ``finding-1.dcm`` and so on, ``report.dcm`` and
+        ``report-pdf.dcm``, as far as the page shows them.
+
+    Raises
+    ------
+    FormatError
+        For a request that is none, and where there is no study to belong to.
+    MissingPackageError
+        Without highdicom or matplotlib, where there are findings.
+    """
+    request = read_json(content)
+    if request.number("version") != 1:
+        raise refused("a request of another version", "version 1")
+    if request.items("findings"):
+        check_highdicom()
+        check_matplotlib()
+    origin = _origin(request, served)
+    with _mended():
+        study = chosen_study(_placed(request, origin), None, anonymous=_choice(request) == "anonymous")
+    members = [*_pictures(request, study, origin), *_numbers(request, study)]
+    if not members:
+        raise refused("nothing that is shown", "a picture or a finding")
+    return _zipped(members)
+
+
+def _choice(request: Given) -> str:
+    choice = request.object("study").text("choice")
+    return checked(choice, "a study", " or ".join(_CHOICES), _CHOICES.__contains__)
+
+
+def _origin(request: Given, served: Volume | None) -> Origin:
+    """The scan: that of the server, or one that the page read."""
+    given = request.object("study")
+    if given.flag("is_served"):
+        if served is None:
+            raise refused("the scan of the server", "a scan that is read to its end")
+        return served._origin
+    fingerprint = uid_of("scan of the page", request.text("fingerprint"))
+    if given.text_or_none("header") is None or _choice(request) == "like":
+        return Origin(None, fingerprint)
+    study = study_in(given.content("header"), given.texts("instances"))
+    return Origin(replace(study, study_count=int(given.number("study_count"))), fingerprint)
+
+
+def _placed(request: Given, origin: Origin) -> Origin:
+    """The scan, in the study of the file that was chosen where one was."""
+    if _choice(request) != "like":
+        return origin
+    return replace(origin, study=study_in(request.object("study").content("header")))
+
+
+@contextmanager
+def _mended() -> Iterator[None]:
+    """Say what mends a study that cannot be taken in the words of the page."""
+    try:
+        yield
+    except FormatError as error:
+        raise FormatError(error.subject, error.found, error.expected, _MEND) from error
+
+
+def _pictures(request: Given, study: Study, origin: Origin) -> Iterator[_Member]:
+    """What is shown, and the key image of each finding."""
+    view, pane = request.object("view"), request.object_or_none("pane")
+    settings = settings_in(view)
+    shown = big_view(view, request.object("stated"), origin)
+    yield "view.dcm", lambda file: write_picture(file, shown, study)
+    if pane is not None:
+        beside = pane_picture(pane, settings)
+        yield "vessel.dcm", lambda file: write_picture(file, beside, study)
+    for number, finding in enumerate(request.objects("findings"), 1):
+        yield f"finding-{number}.dcm", _key_image(finding, number, settings, study)
+
+
+def _key_image(finding: Given, number: int, settings: Settings, study: Study) -> Callable[[BinaryIO], object]:
+    picture = key_image(finding, number, settings)
+    return lambda file: write_picture(file, picture, study, number=number)
+
+
+def _numbers(request: Given, study: Study) -> Iterator[_Member]:
+    """The structured report and the PDF of the findings, where there are some."""
+    vessels = _vessels(request)
+    if not vessels:
+        return
+    try:
+        pdf = report_pdf(request.text("report"), vessels)
+    except (IndexError, KeyError) as error:
+        raise refused("a report of other vessels", "a page for each finding") from error
+    yield "report.dcm", lambda file: _write_report(file, vessels, study)
+    yield "report-pdf.dcm", lambda file: write_pdf(file, pdf, _TITLE, study)
+
+
+def _write_report(file: BinaryIO, vessels: list[ToldVessel], study: Study) -> None:
+    with _mended():
+        write_report(file, [one.measured for one in vessels], study)
+
+
+def _vessels(request: Given) -> list[ToldVessel]:
+    findings = request.objects("findings")
+    if not findings:
+        return []
+    numbers = read_json(request.text("numbers").encode()).objects("vessels")
+    if len(numbers) != len(findings):
+        raise refused(f"{len(numbers)} vessels for {len(findings)} findings", "as many of both")
+    has_names = _choice(request) != "anonymous"
+    pairs = zip(numbers, findings, strict=True)
+    try:
+        return [told_vessel(*pair, has_name=has_names) for pair in pairs]
+    except MeasuringError as error:
+        raise refused(error.found, error.expected) from error
+
+
+def _zipped(members: list[_Member]) -> bytes:
+    """The objects in an archive, one after the other."""
+    archive = io.BytesIO()
+    with zipfile.ZipFile(archive, "w", zipfile.ZIP_DEFLATED, compresslevel=1) as into:
+        for name, write in members:
+            content = io.BytesIO()
+            write(content)
+            # Times of files would tell when the page was looked at, and make two archives differ.
+            into.writestr(zipfile.ZipInfo(name), content.getvalue(), zipfile.ZIP_DEFLATED, 1)
+    return archive.getvalue()

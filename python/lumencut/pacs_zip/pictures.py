@@ -1,0 +1,86 @@
+"""The pictures that the page shows, with what their DICOM objects say of them."""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+from lumencut.camera import Camera
+from lumencut.dicom_objects.picture import Picture
+from lumencut.dicom_objects.study import Origin
+from lumencut.dicom_objects.views import changed, settings_text, view_picture, written_by
+from lumencut.errors import CameraError, SettingsError
+from lumencut.frame_source import FrameSource
+from lumencut.pacs_zip.given import Given, checked, points_of, refused
+from lumencut.session_file import view_settings
+from lumencut.settings import Settings
+
+#: The methods of the page by the names that pictures have for them.
+_METHODS = {"csr": "csr", "csr-paper": "csr", "cr": "cr", "mpcpr": "mpcpr"}
+
+
+def settings_in(view: Given) -> Settings:
+    """Return the settings of the view that the page shows.
+
+    Raises
+    ------
+    FormatError
+        For what are no settings.
+    """
+    method = checked(view.text("method"), "a method", " or ".join(_METHODS), _METHODS.__contains__)
+    try:
+        return view_settings(method, view.plain("settings"))
+    except (SettingsError, TypeError, ValueError) as error:
+        raise refused(f"settings that are none ({error})", "the settings of a view") from error
+
+
+def big_view(view: Given, stated: Given, origin: Origin) -> Picture:
+    """Return the turning view as it is shown, with the labels that are in it.
+
+    Parameters
+    ----------
+    view : Given
+        The picture, the camera with its pixels, method and settings, and whether vessels are cut.
+    stated : Given
+        Whether spacing and orientation of the scan are known.
+    origin : Origin
+        The scan.
+
+    Raises
+    ------
+    FormatError
+        For what is no view.
+    """
+    image = view.picture("picture")
+    height, width = image.shape[:2]
+    given = view.object("camera")
+    try:
+        camera = Camera(
+            center=_vector(given, "center"), direction=_vector(given, "direction"), up=_vector(given, "up"),
+            size=(width, height), pixel_spacing=given.number("pixel_spacing"),
+        )  # fmt: skip
+    except CameraError as error:
+        raise refused(f"a camera that is none ({error.found})", error.expected) from error
+    how = (settings_in(view), None, stated.flag("spacing"), stated.flag("orientation"))
+    source = FrameSource(*how, 0, (), _METHODS[view.text("method")], origin)
+    return view_picture(image, camera, source, has_cut=view.flag("has_cut"))
+
+
+def pane_picture(pane: Given, settings: Settings) -> Picture:
+    """Return the reformation that the page shows beside the turning view; no ruler is true across it."""
+    axes = pane.text("axes")
+    words = f"A reformation of the viewer, {written_by()} {axes} {changed(settings)}"
+    return Picture(pane.picture("picture"), "CPR", words, settings_text(settings) + axes, None, None, axes)
+
+
+def key_image(finding: Given, number: int, settings: Settings) -> Picture:
+    """Return the key image of a finding: the straightened vessel, and the sections at its places."""
+    told = f"Key image of finding {number}: the straightened vessel from left to right, sections below it."
+    words = f"{told[:-1]}, {written_by()} {changed(settings)}"
+    text = f"{settings_text(settings)} findings"
+    return Picture(finding.picture("picture"), "CPR key image", words, text, None, None, told)
+
+
+def _vector(given: Given, name: str) -> npt.NDArray[np.float64]:
+    """Three numbers of a camera, shape (3,)."""
+    return points_of([given.items(name)], f"{name} of a camera").reshape(3)

@@ -1,0 +1,141 @@
+"""Requests for "Save for PACS" as the page sends them, of vessels that Python measured."""
+
+from __future__ import annotations
+
+import base64
+import io
+import json
+import zipfile
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import lumencut
+from dicom_scenes import LINE, scan, series
+from lumencut import Camera, Renderer, Vessel, VesselTree
+from lumencut.frame import picture_as_png
+from lumencut.measure_report import report
+from lumencut.measured_vessel import Marked, MeasuredVessel, vessels_json
+
+NAME = "left renal artery"
+MARKED = Marked(12.0, (24.0,))
+#: The options of `lumencut measure` that its JSON and its report tell.
+ASKED: dict[str, Any] = {
+    "step": 0.5,
+    "fwhm": None,
+    "at": 12.0,
+    "reference": [24.0],
+    **dict.fromkeys(("method", "original", "comparison", "group")),
+}
+
+
+@cache
+def measured(marked: Marked = MARKED, name: str | None = NAME) -> MeasuredVessel:
+    """The vessel of the phantom with what is marked on it."""
+    vessel = Vessel(LINE[0].points, 3.0, name)
+    return MeasuredVessel.of("0", vessel, lumencut.measure(scan(), vessel), marked)
+
+
+@cache
+def renderer() -> Renderer:
+    """What draws the phantom."""
+    return Renderer(scan(), VesselTree([Vessel(LINE[0].points, 3.0, NAME)]))
+
+
+def camera() -> Camera:
+    """The view of the picture."""
+    return Camera.anterior(renderer().scene, (96, 64))
+
+
+def frame() -> lumencut.Frame:
+    """The picture as Python renders it."""
+    return renderer().render(camera())
+
+
+def encoded(content: bytes) -> str:
+    """Bytes as the page sends them."""
+    return base64.b64encode(content).decode()
+
+
+@cache
+def html(marked: Marked = MARKED, name: str | None = NAME) -> str:
+    """The report that Python writes."""
+    return report(renderer(), scan(), [measured(marked, name)], ASKED)
+
+
+def header() -> bytes:
+    """What stands before the pixels of a slice of the scan."""
+    content = next(iter(sorted(series().iterdir()))).read_bytes()
+    return content[: content.rindex(b"\xe0\x7f\x10\x00") + 12]
+
+
+def view_part() -> dict[str, Any]:
+    """The turning view."""
+    shown = camera()
+    vectors = {name: [float(one) for one in getattr(shown, name)] for name in ("center", "direction", "up")}
+    return {
+        "picture": encoded(picture_as_png(frame().image)),
+        "camera": {**vectors, "pixel_spacing": shown.pixel_spacing},
+        "method": "csr",
+        "settings": {"window": [300, 900]},
+        "has_cut": True,
+    }
+
+
+def finding_part(one: MeasuredVessel) -> dict[str, Any]:
+    """A finding with its key image."""
+    profile = one.profile
+    marked = [mark.arc_length for mark in one.marks if not mark.is_suggestion]
+    contours = [[at, profile.contour[profile._core.nearest(at)].tolist()] for at in marked]
+    return {
+        "picture": encoded(picture_as_png(frame().image)),
+        "points": one.vessel.points.tolist(),
+        "contours": contours,
+        "marks": [[mark.name, mark.arc_length, mark.is_suggestion] for mark in one.marks],
+        "words": None if one.stenosis is None else one.stenosis._graded.words(),
+    }
+
+
+def request(choice: str = "scan", marked: Marked = MARKED, name: str | None = NAME) -> dict[str, Any]:
+    """A request for all objects, of a scan that the server shows."""
+    one = measured(marked, name)
+    return {
+        "version": 1,
+        "study": {"choice": choice, "is_served": True, "header": None, "instances": [], "study_count": 1},
+        "fingerprint": "a scan",
+        "stated": {"spacing": True, "orientation": True},
+        "view": view_part(),
+        "pane": {"picture": encoded(picture_as_png(frame().image)), "axes": "Rows run along the vessel."},
+        "findings": [finding_part(one)],
+        "numbers": vessels_json(ASKED, [one]),
+        "report": html(marked, name),
+    }
+
+
+def dropped(choice: str = "scan", **study: Any) -> dict[str, Any]:
+    """The same of a DICOM folder that was dropped into the page."""
+    asked = request(choice)
+    uids = [data.SOPInstanceUID for data in slices()]
+    given = {"choice": choice, "is_served": False, "header": encoded(header()), "instances": uids}
+    return {**asked, "study": {**given, "study_count": 1, **study}}
+
+
+@cache
+def slices() -> list[Any]:
+    """The headers of the scan."""
+    import pydicom
+
+    return [pydicom.dcmread(path, stop_before_pixels=True) for path in sorted(series().iterdir())]
+
+
+def sent(asked: dict[str, Any]) -> bytes:
+    """A request as bytes."""
+    return json.dumps(asked).encode()
+
+
+def members(archive: bytes, folder: Path) -> dict[str, Path]:
+    """The files of an archive, unpacked."""
+    with zipfile.ZipFile(io.BytesIO(archive)) as opened:
+        assert opened.testzip() is None
+        opened.extractall(folder)
+        return {name: folder / name for name in opened.namelist()}

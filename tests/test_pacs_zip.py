@@ -1,0 +1,208 @@
+"""What "Save for PACS" gives for what the page sends: the objects that Python writes, and plain refusals."""
+
+from __future__ import annotations
+
+import copy
+import sys
+
+import numpy as np
+import pydicom
+import pytest
+
+from dicom_judges import faults
+from dicom_scenes import scan
+from lumencut import FormatError, MissingPackageError
+from lumencut.dicom_objects.chosen_study import chosen_study
+from lumencut.dicom_objects.measured import measured as reported
+from lumencut.dicom_objects.structured_report import write_report
+from lumencut.measured_vessel import Marked
+from lumencut.pacs_zip.archive import pacs_zip
+from pacs_requests import dropped, encoded, finding_part, frame, measured, members, request, sent, slices
+from test_dicom_reports import child, code, groups
+
+ALL = {"view.dcm", "vessel.dcm", "finding-1.dcm", "report.dcm", "report-pdf.dcm"}
+
+
+def made(asked, folder, served=True):
+    return members(pacs_zip(sent(asked), scan() if served else None), folder)
+
+
+def own_report(path, anonymous=False, marked=None):
+    """The structured report that Python writes of the same."""
+    one = measured() if marked is None else measured(marked)
+    one = one.unnamed() if anonymous else one
+    study = chosen_study(scan()._origin, None, anonymous=anonymous)
+    stenoses = () if one.stenosis is None else (one.stenosis,)
+    write_report(path, [reported(one.profile, stenoses, one.vessel, one.marks)], study)
+    return pydicom.dcmread(path)
+
+
+def test_every_object_is_of_the_study_and_without_error(tmp_path):
+    found = made(request(), tmp_path)
+    assert found.keys() == ALL
+    for path in found.values():
+        assert faults(path) == []
+        data = pydicom.dcmread(path)
+        assert (data.PatientName, data.AccessionNumber) == ("Doe^Jane", "A-4711")
+        assert data.StudyInstanceUID == slices()[0].StudyInstanceUID
+        assert "(research, not for diagnosis)" in data.SeriesDescription
+
+
+@pytest.mark.parametrize("marked", [None, Marked(12.0), Marked(12.0, (24.0,), "area"), Marked()])
+def test_the_structured_report_is_that_of_python(tmp_path, marked):
+    asked = request() if marked is None else request(marked=marked)
+    found = pydicom.dcmread(made(asked, tmp_path)["report.dcm"])
+    own = own_report(tmp_path / "own.dcm", marked=marked)
+    assert found.SOPInstanceUID == own.SOPInstanceUID
+    assert found.ContentSequence == own.ContentSequence
+
+
+def test_a_marked_place_is_written_though_it_is_not_graded(tmp_path):
+    found = groups(made(request(marked=Marked(12.0)), tmp_path)["report.dcm"])
+    meanings = [code(child(one, "Finding")[0].ConceptCodeSequence)[2] for one in found]
+    assert meanings == ["Site of Lumen Minimum", "Centerline"]
+
+
+def test_the_view_is_the_picture_that_is_shown(tmp_path):
+    data = pydicom.dcmread(made(request(), tmp_path)["view.dcm"])
+    np.testing.assert_array_equal(data.pixel_array, frame().image[..., :3])
+    own = frame()._as_object(annotate=False, vessel_names=False)
+    assert data.ImageComments == own.comments
+    assert float(data.PixelSpacing[0]) == pytest.approx(own.pixel_spacing)
+    assert list(data.PatientOrientation) == ["L", "F"]
+    assert len(data.SourceImageSequence) == len(slices())
+    # No ruler is true across the others.
+    assert "PixelSpacing" not in pydicom.dcmread(tmp_path / "vessel.dcm")
+
+
+def test_the_pdf_holds_the_report(tmp_path):
+    data = pydicom.dcmread(made(request(), tmp_path)["report-pdf.dcm"])
+    assert data.EncapsulatedDocument.startswith(b"%PDF")
+    assert data.DocumentTitle == "Lumencut: measured vessels"
+
+
+def test_the_same_request_gives_the_same_objects(tmp_path):
+    uids = []
+    for name in ("one", "other"):
+        (tmp_path / name).mkdir()
+        found = made(request(), tmp_path / name)
+        uids.append([pydicom.dcmread(path).SOPInstanceUID for path in found.values()])
+    assert uids[0] == uids[1]
+
+
+def test_a_dropped_folder_gives_the_objects_of_one_that_is_served(tmp_path):
+    served, given = tmp_path / "served", tmp_path / "given"
+    served.mkdir()
+    given.mkdir()
+    for one, other in zip(
+        made(request(), served).values(), made(dropped(), given, served=False).values(), strict=True
+    ):
+        assert faults(other) == []
+        assert pydicom.dcmread(one).SOPInstanceUID == pydicom.dcmread(other).SOPInstanceUID
+
+
+def test_anonymous_objects_tell_no_patient_and_no_vessel(tmp_path):
+    found = made(request("anonymous"), tmp_path)
+    for path in found.values():
+        assert faults(path) == []
+        data = pydicom.dcmread(path)
+        assert (data.PatientName, data.PatientID, data.AccessionNumber) == ("", "", "")
+        assert "renal" not in str(data)
+    own = own_report(tmp_path / "own.dcm", anonymous=True)
+    assert pydicom.dcmread(found["report.dcm"]).SOPInstanceUID == own.SOPInstanceUID
+
+
+def test_a_scan_that_is_no_dicom_can_be_anonymous(tmp_path):
+    asked = dropped("anonymous", header=None, instances=[])
+    found = made(asked, tmp_path, served=False)
+    study = {pydicom.dcmread(path).StudyInstanceUID for path in found.values()}
+    assert len(study) == 1
+    other = {**asked, "fingerprint": "another scan"}
+    (tmp_path / "other").mkdir()
+    again = made(other, tmp_path / "other", served=False)
+    assert study.isdisjoint({pydicom.dcmread(path).StudyInstanceUID for path in again.values()})
+
+
+def test_a_file_of_the_study_can_be_chosen(tmp_path):
+    asked = dropped("like", instances=[])
+    for path in made(asked, tmp_path, served=False).values():
+        assert faults(path) == []
+        assert pydicom.dcmread(path).PatientName == "Doe^Jane"
+
+
+def test_without_a_finding_there_are_pictures_alone(tmp_path):
+    asked = {**request(), "findings": [], "pane": None}
+    assert made(asked, tmp_path).keys() == {"view.dcm"}
+
+
+MEND = 'choose "Anonymous", or a DICOM file of the study'
+
+
+def test_a_scan_without_a_study_is_refused_with_what_the_page_offers():
+    with pytest.raises(FormatError, match="was not read from DICOM") as caught:
+        pacs_zip(sent(dropped(header=None, instances=[])), None)
+    assert caught.value.mend == MEND
+
+
+def test_two_studies_are_refused():
+    with pytest.raises(FormatError, match="images of 2 studies"):
+        pacs_zip(sent(dropped(study_count=2)), None)
+
+
+@pytest.mark.parametrize("content", [b"", b"no DICOM at all" * 20, bytes(1000)])
+def test_a_file_that_is_no_dicom_is_refused(content):
+    with pytest.raises(FormatError, match="the DICOM file"):
+        pacs_zip(sent(dropped("like", header=encoded(content))), None)
+
+
+def test_a_study_without_a_frame_of_reference_holds_no_coordinates(tmp_path):
+    data = copy.deepcopy(slices()[0])
+    del data.FrameOfReferenceUID
+    data.save_as(tmp_path / "a.dcm")
+    asked = dropped(header=encoded((tmp_path / "a.dcm").read_bytes()))
+    with pytest.raises(FormatError, match="without a FrameOfReferenceUID") as caught:
+        pacs_zip(sent(asked), None)
+    assert caught.value.mend == MEND
+
+
+@pytest.mark.parametrize(("package", "extra"), [("highdicom", "dicom"), ("matplotlib", "plot")])
+def test_what_is_missing_is_named_with_its_extra(monkeypatch, package, extra):
+    monkeypatch.setitem(sys.modules, package, None)
+    with pytest.raises(MissingPackageError, match=rf"lumencut\[{extra}\]"):
+        pacs_zip(sent(request()), scan())
+
+
+def broken():
+    """Requests that no page sends, each with a part of what is said of it."""
+    yield {"version": 2}, "another version"
+    yield {"study": None}, "the request: study"
+    yield {"findings": 3}, "a number as the request: findings"
+    yield {"numbers": "{}"}, "vessels"
+    yield {"numbers": "no"}, "no JSON"
+    yield {"report": "<h1>one</h1><svg></svg><h1>two</h1><svg></svg>"}, "a report of other vessels"
+    view = request()["view"]
+    yield {"view": {**view, "picture": "%"}}, "base64"
+    yield {"view": {**view, "picture": encoded(b"no picture")}}, "cannot be read"
+    yield {"view": {**view, "method": "none"}}, "a method"
+    yield {"view": {**view, "settings": {"none": 1}}}, "settings that are none"
+    yield {"view": {**view, "camera": {**view["camera"], "direction": [0, 0, 0]}}}, "a camera that is none"
+    finding = finding_part(measured())
+    yield {"findings": [{**finding, "points": [[0, 0]]}]}, "no points"
+    yield {"findings": [{**finding, "points": [[0, 0, 0]]}]}, "a vessel that is none"
+    yield {"findings": [{**finding, "contours": []}]}, "without the contour"
+    yield {"findings": [{**finding, "contours": [3]}]}, "a contour"
+    yield {"findings": [{**finding, "marks": [["a", "b", False]]}]}, "a mark"
+    yield {"findings": [finding, finding]}, "1 vessels for 2 findings"
+
+
+@pytest.mark.parametrize(("change", "words"), list(broken()), ids=lambda one: str(one)[:30])
+def test_what_no_page_sends_is_refused(change, words):
+    with pytest.raises(FormatError, match="what the page sent") as caught:
+        pacs_zip(sent({**request(), **change}), scan())
+    assert words in str(caught.value)
+
+
+@pytest.mark.parametrize("content", [b"", b"[]", b"\xff", b"[" * 100_000])
+def test_what_is_no_request_is_refused(content):
+    with pytest.raises(FormatError, match="what the page sent"):
+        pacs_zip(content, None)
