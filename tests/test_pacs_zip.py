@@ -165,6 +165,13 @@ def test_a_study_without_a_frame_of_reference_holds_no_coordinates(tmp_path):
     assert caught.value.mend == MEND
 
 
+def test_numbers_that_are_no_millimetres_are_not_written():
+    asked = {**request("anonymous"), "stated": {"spacing": False, "orientation": True}}
+    with pytest.raises(FormatError, match="how far its voxels lie apart"):
+        pacs_zip(sent(asked), scan())
+    assert pacs_zip(sent({**asked, "findings": []}), scan())
+
+
 @pytest.mark.parametrize(("package", "extra"), [("highdicom", "dicom"), ("matplotlib", "plot")])
 def test_what_is_missing_is_named_with_its_extra(monkeypatch, package, extra):
     monkeypatch.setitem(sys.modules, package, None)

@@ -111,6 +111,7 @@ def test_voxels_arrive_to_the_byte(page, name):
         "states_spacing": True,
         "states_orientation": True,
         "filled_slices": [],
+        "has_study": False,
         "scan": dict.fromkeys(SCAN),
         "notes": ["one", "two — three"],
     }

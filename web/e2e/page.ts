@@ -25,14 +25,14 @@ export class Viewer {
     const context = await browser.newContext(options);
     const page = await context.newPage();
     const viewer = new Viewer(page);
-    await viewer.guard();
+    await viewer.guard(options.baseURL ?? pageAddress());
     await page.goto(`./${query}`);
     return viewer;
   }
 
-  private async guard(): Promise<void> {
+  private async guard(address: string): Promise<void> {
     const context = this.page.context();
-    const own = new URL(pageAddress()).origin;
+    const own = new URL(address).origin;
     const isForeign = ({ origin, protocol }: URL) => /^(http|ws)s?:$/.test(protocol) && origin !== own;
     await context.route(isForeign, (route) => {
       this.faults.push(`request to ${route.request().url()}`);

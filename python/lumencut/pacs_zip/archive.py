@@ -64,8 +64,7 @@ def pacs_zip(content: bytes, served: Volume | None) -> bytes:
     if request.number("version") != 1:
         raise refused("a request of another version", "version 1")
     if request.items("findings"):
-        check_highdicom()
-        check_matplotlib()
+        _check_findings(request)
     origin = _origin(request, served)
     with _mended():
         study = chosen_study(_placed(request, origin), None, anonymous=_choice(request) == "anonymous")
@@ -73,6 +72,18 @@ def pacs_zip(content: bytes, served: Volume | None) -> bytes:
     if not members:
         raise refused("nothing that is shown", "a picture or a finding")
     return _zipped(members)
+
+
+def _check_findings(request: Given) -> None:
+    """Refuse findings that no report can be made of."""
+    check_highdicom()
+    check_matplotlib()
+    if not request.object("stated").flag("spacing"):
+        found, mend = (
+            "a scan that does not say how far its voxels lie apart",
+            "leave the findings out of the report",
+        )
+        raise FormatError("numbers beside the scan", found, "a scan in millimetres", mend)
 
 
 def _choice(request: Given) -> str:

@@ -47,6 +47,7 @@ def header(file: VolumeFile, read_type: np.dtype[Any]) -> bytes:
         "states_spacing": file.states_spacing,
         "states_orientation": file.states_orientation,
         "filled_slices": list(file.filled),
+        "has_study": file.study is not None,
         "scan": _scan_record(file.scan),
         "notes": list(notes),
     }

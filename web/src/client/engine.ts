@@ -5,6 +5,7 @@ import { Failure } from '../core/failure';
 import { TURNS } from '../core/generated/questions';
 import type { Drawn, GivenFile, Report, SeriesWish, Started, States, View } from '../core/messages';
 import { Precedence } from '../core/precedence';
+import type { ScanStudy } from '../core/scan-study';
 import type { EngineHost } from '../worker/host';
 
 /** Files of the same origin. */
@@ -18,6 +19,7 @@ export interface Opened {
   readonly notes: readonly string[];
   readonly name?: string;
   readonly states?: States;
+  readonly study?: ScanStudy | null;
 }
 
 /** Bits of the byte that stops work: a view gives way to whatever the user waits for, long work to `cancel` alone. */
@@ -90,6 +92,11 @@ export class EngineClient implements Asked {
 
   openFiles(files: readonly GivenFile[], wish: SeriesWish, told: Told): Promise<Opened> {
     return this.first(this.host.openFiles(files, wish, proxy(told)));
+  }
+
+  /** What of a DICOM file stands before its pixels. */
+  dicomHead(file: GivenFile): Promise<Uint8Array<ArrayBuffer>> {
+    return this.first(this.host.dicomHead(file));
   }
 
   /** Stops loading, tracing and measuring; the last two, once under way, only where the memory is shared. */

@@ -2,6 +2,7 @@
 
 import type { Judge } from '../core/judge';
 import type { States } from '../core/messages';
+import type { ScanStudy } from '../core/scan-study';
 import type { Wanted } from './dicom/wanted';
 import { type Known, known } from './kinds';
 import { openMetaImage } from './metaimage';
@@ -32,6 +33,8 @@ export interface Opened {
 }
 
 interface Volume {
+  /** The study of DICOM that it belongs to; null where it is no DICOM. */
+  readonly study: ScanStudy | null;
   readonly name: string;
   readonly notes: readonly string[];
   readonly states: States;
@@ -153,8 +156,8 @@ async function openVolume(sorted: Sorted, every: readonly Source[], asked: Asked
   const sources = archive ? await membersOf(archive) : every.filter((source) => !lines.includes(source));
   const subject = archive?.path ?? commonName(sources);
   const series = { subject, sources, wanted: asked.wanted };
-  const notes = await openDicom(series, judge, asked.study, asked.steps);
-  return { name: fileName(subject), notes, states: STATED };
+  const read = await openDicom(series, judge, asked.study, asked.steps);
+  return { ...read, name: fileName(subject), states: STATED };
 }
 
 async function membersOf(archive: Source): Promise<Source[]> {
@@ -166,7 +169,7 @@ async function openFile({ source, kind }: Known, { beside, study, steps }: Asked
   const open = kind === 'nrrd' ? openNrrd : kind === 'metaimage' ? openMetaImage : openNifti;
   const file = await open(source, beside);
   await load(file, study, steps);
-  return { name: fileName(source.path), notes: file.notes, states: file.states };
+  return { study: null, name: fileName(source.path), notes: file.notes, states: file.states };
 }
 
 /** The folder in which all files are; the name of a single one. */

@@ -2,6 +2,7 @@
 import { Failure } from '../core/failure';
 import { isInverted, type ViewName } from '../state/store';
 import { saveAs } from './pictures';
+import { canvasOf } from './report-pictures';
 import { studyFileName } from './study-file-names';
 import { wrapped } from './wrapping';
 
@@ -14,12 +15,19 @@ const LEAST_WIDTH = 320;
 /** Saves the picture that a view shows as a PNG. */
 export async function savePane(name: ViewName, content: string, words: string): Promise<void> {
   const shown = document.querySelector<HTMLCanvasElement>(`[data-testid=${name}] canvas.flat`);
-  const canvas = document.createElement('canvas');
-  const context = canvas.getContext('2d');
-  if (!shown || !context || shown.width < 2) {
+  if (!shown || shown.width < 2) {
     throw new Failure('picture', 'picture', 'none', 'a view that shows one');
   }
-  canvas.width = Math.max(shown.width, LEAST_WIDTH);
+  const canvas = drawnPane(shown, words);
+  const blob = await new Promise<Blob | null>((resolve) => canvas.toBlob(resolve, 'image/png'));
+  if (blob) {
+    saveAs(blob, studyFileName({ content, ending: 'png' }));
+  }
+}
+
+/** A picture with words below it. */
+export function drawnPane(shown: HTMLCanvasElement, words: string): HTMLCanvasElement {
+  const [canvas, context] = canvasOf(Math.max(shown.width, LEAST_WIDTH), shown.height);
   context.font = FONT;
   const lines = wrapped(words, canvas.width - 2 * MARGIN, (text) => context.measureText(text).width);
   canvas.height = shown.height + lines.length * LINE + 2 * MARGIN;
@@ -34,8 +42,5 @@ export async function savePane(name: ViewName, content: string, words: string): 
   lines.forEach((line, n) => {
     context.fillText(line, MARGIN, shown.height + MARGIN + n * LINE);
   });
-  const blob = await new Promise<Blob | null>((resolve) => canvas.toBlob(resolve, 'image/png'));
-  if (blob) {
-    saveAs(blob, studyFileName({ content, ending: 'png' }));
-  }
+  return canvas;
 }

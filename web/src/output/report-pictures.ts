@@ -72,7 +72,7 @@ export async function straightened(vessel: number, plan: ReportPlan): Promise<Re
 /** The straightened vessel from left to right, as a canvas. */
 export async function straightenedCanvas(
   vessel: number,
-  { width, spacing }: ReportPlan,
+  { width, spacing }: Pick<ReportPlan, 'width' | 'spacing'>,
 ): Promise<HTMLCanvasElement> {
   const cpr: Cpr = {
     vessel,

@@ -33,7 +33,7 @@ export async function saveReport(): Promise<void> {
  * The vessels of the report: those on which something is marked, but for those that the reader leaves out. The picked vessel comes
  * with them where it is what is measured now, or where nothing is marked at all.
  */
-function reported(): readonly Finding[] {
+export function reported(): readonly Finding[] {
   const marked = listedFindings.value.filter(({ line }) => !leftOut.value.has(line));
   const picked = findingOf(store.pickedVessel.value ?? -1);
   const isListed = marked.some(({ line }) => line === picked?.line);
@@ -61,14 +61,15 @@ async function remarkOn(findings: readonly Finding[]): Promise<string> {
 const namedScan = (): string | null =>
   isScanNamed.value && store.studyName.value !== '' ? store.studyName.value : null;
 
-async function reportOf(findings: readonly Finding[]): Promise<string> {
+/** The report of findings as HTML; `scan` is the name that it tells. */
+export async function reportOf(findings: readonly Finding[], scan = namedScan()): Promise<string> {
   const vessels: ReportVessel[] = [];
   for (const finding of findings) {
     vessels.push(await pageOf(finding, await profileOfLine(engine, finding.line)));
   }
   return engine.ask('measured_report', {
     vessels,
-    scan: namedScan(),
+    scan,
     saved: new Date().toLocaleString('sv-SE', { dateStyle: 'short', timeStyle: 'short' }),
     stated: stated(),
     is_millimetre_assumed: isMillimetreAssumed.value,

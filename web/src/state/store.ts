@@ -16,6 +16,7 @@ import type {
   Vector,
   Window,
 } from '../core/messages';
+import type { ScanStudy } from '../core/scan-study';
 
 export type Layout = 'one' | 'two' | 'four' | 'strip' | 'measure' | 'report';
 export const LAYOUTS: readonly Layout[] = ['one', 'two', 'four', 'strip', 'measure', 'report'];
@@ -50,6 +51,8 @@ export const studyName = signal('');
 export const notes = signal<readonly string[]>([]);
 /** What the file says of its grid. */
 export const states = signal<States>({ spacing: true, orientation: true });
+/** The study of DICOM that the scan belongs to, as far as it is known. */
+export const scanStudy = signal<ScanStudy | null>(null);
 export const histogram = signal<Histogram | null>(null);
 export const progress = signal<Progress | null>(null);
 export const problem = signal<Failure | null>(null);

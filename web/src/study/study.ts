@@ -96,7 +96,7 @@ function layDown(): void {
 
 async function showStudy(
   engine: EngineClient,
-  { report, notes, states }: Opened,
+  { report, notes, states, study = null }: Opened,
   name: string,
 ): Promise<void> {
   const size = store.camera.value?.size ?? FIRST_SIZE;
@@ -110,6 +110,7 @@ async function showStudy(
     store.report.value = report;
     store.notes.value = notes;
     store.studyName.value = name;
+    store.scanStudy.value = study;
     store.states.value = states ?? { spacing: true, orientation: true };
     store.histogram.value = histogram;
     store.window_.value = report.windows?.main ?? store.window_.value;
@@ -167,6 +168,7 @@ function forget(): void {
   dropLength();
   store.report.value = null;
   store.notes.value = [];
+  store.scanStudy.value = null;
   store.histogram.value = null;
   store.crossHair.value = null;
   store.pickedVessel.value = null;

@@ -7,6 +7,7 @@ import { Help } from './Help';
 import { Layout } from './Layout';
 import { LeaveQuestion } from './LeaveQuestion';
 import { Messages } from './Messages';
+import { PacsQuestion } from './PacsQuestion';
 import { StartPage } from './StartPage';
 import { StatusBar } from './StatusBar';
 import { Toolbar } from './Toolbar';
@@ -21,6 +22,7 @@ export function App() {
       {isOpen ? <Work /> : <StartPage />}
       <FileQuestion />
       <LeaveQuestion />
+      <PacsQuestion />
       <Messages />
       <DropZone />
       <StatusBar />

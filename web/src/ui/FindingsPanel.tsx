@@ -15,6 +15,7 @@ import { mm, unitless } from '../measure/words';
 import { attempt } from '../output/attempt';
 import { copyPicture, copyWords } from '../output/copying';
 import { keyImage, keyPicture } from '../output/key-image';
+import { askForPacs } from '../output/pacs';
 import { saveReport } from '../output/report';
 import { showBestView, toggleLayout } from '../state/actions';
 import { profiles, stopped } from '../state/profiles';
@@ -68,6 +69,9 @@ function Head({ count }: { readonly count: number }) {
         onClick={() => attempt(saveReport)}
       >
         Save report
+      </button>
+      <button type="button" onClick={() => attempt(askForPacs)}>
+        Save for PACS
       </button>
       <ScanNamed />
     </div>

@@ -2,6 +2,7 @@
 import { currentProfile } from '../measure/current';
 import { listedFindings } from '../measure/findings';
 import { attempt } from '../output/attempt';
+import { askForPacs } from '../output/pacs';
 import { savePng } from '../output/pictures';
 import { saveReport } from '../output/report';
 import { saveSession } from '../output/session';
@@ -18,6 +19,11 @@ export function SaveMenu() {
       <summary>Save</summary>
       <div class="menu-body">
         {(isMeasured || listedFindings.value.length > 0) && <Report />}
+        <Choice
+          words="For PACS (DICOM, zip)"
+          title="Pictures, report and numbers beside the scan, in a zip archive; nothing is sent"
+          save={askForPacs}
+        />
         <Choice
           words="Session (JSON)"
           title="Vessels, marks and views, to go on later: open it after its scan"

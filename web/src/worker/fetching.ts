@@ -1,6 +1,7 @@
 /** Loads a study of the same origin: the stream of voxels that `lumencut view` serves or a file, and centerlines. */
 import { Failure } from '../core/failure';
 import type { Progress, States } from '../core/messages';
+import type { ScanStudy } from '../core/scan-study';
 import { ALL_OF_IT } from '../io/dicom/wanted';
 import { type Beside, BlobSource, fileName } from '../io/source';
 import type { Study } from '../io/study';
@@ -28,6 +29,8 @@ interface Header {
   /** Whether the file says how large its voxels are, and where the patient's sides are. */
   readonly states_spacing?: boolean;
   readonly states_orientation?: boolean;
+  /** Whether the scan was read from DICOM. */
+  readonly has_study?: boolean;
 }
 
 /** What is told of a study beside what the engine knows. */
@@ -35,11 +38,12 @@ export interface Fetched {
   readonly notes: readonly string[];
   readonly name: string;
   readonly states: States;
+  readonly study: ScanStudy | null;
 }
 
 /** Loads volume and centerlines one after the other; tells what was odd, and the name of the volume. */
 export async function fetchStudy(means: Means, addresses: Addresses, told: Told): Promise<Fetched> {
-  let fetched: Fetched = { notes: [], name: '', states: { spacing: true, orientation: true } };
+  let fetched: Fetched = { notes: [], name: '', states: { spacing: true, orientation: true }, study: null };
   if (addresses.volume !== null) {
     fetched = await fetchVolume(means, addresses.volume, told);
   } else {
@@ -92,7 +96,8 @@ async function fetchVolume(means: Means, address: string, told: Told): Promise<F
     spacing: header.states_spacing !== false,
     orientation: header.states_orientation !== false,
   };
-  return { notes: header.notes ?? [], name: header.name ?? '', states };
+  const study: ScanStudy = { isServed: true, hasStudy: header.has_study === true };
+  return { notes: header.notes ?? [], name: header.name ?? '', states, study };
 }
 
 /** What came of an answer so far, and the rest of it. */

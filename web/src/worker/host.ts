@@ -116,9 +116,17 @@ export class EngineHost {
     const work = async (means: Means) => {
       const { openFiles } = await import('../io/study');
       const { volume, notes } = await openFiles(sources, among(sources), { ...ALL_OF_IT, ...series }, means);
-      return volume ? { name: volume.name, states: volume.states, notes } : { notes };
+      return volume ? { ...volume, notes } : { notes };
     };
     return this.load(told, work, wish);
+  }
+
+  /** What of a DICOM file stands before its pixels. */
+  dicomHead({ path, file }: GivenFile): Promise<Uint8Array<ArrayBuffer>> {
+    return this.run(async () => {
+      const { headOf } = await import('../io/dicom');
+      return headOf(new BlobSource(path, file));
+    });
   }
 
   /** Loads in steps, until `cancel`; where that ends early and what was open is gone already, nothing is open. */

@@ -92,6 +92,7 @@ export function attribute(keyword: string): Attribute | null {
 export const TAGS = {
   characterSet: 'x00080005',
   sopClass: 'x00080016',
+  study: 'x0020000d',
   mediaSopClass: 'x00020002',
   transferSyntax: 'x00020010',
   shared: 'x52009229',

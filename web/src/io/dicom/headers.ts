@@ -3,10 +3,11 @@ import { Failure } from '../../core/failure';
 import type { Source } from '../source';
 import { fileName } from '../source';
 import { damaged, printable } from '../words';
+import { TAGS } from './attributes';
 import { type Parsed, type PixelElement, parsed } from './parsing';
 import { isDicom } from './recognising';
 import type { HeaderRecord, Recorder } from './records';
-import { bytesIn } from './values';
+import { bytesIn, textsOf } from './values';
 
 /** Bytes that hold the headers of nearly all images, then those of most multi-frame ones, before all of the file is read. */
 const HEADS = [1 << 17, 1 << 23];
@@ -15,6 +16,8 @@ const HEADS = [1 << 17, 1 << 23];
 export interface Image {
   readonly source: Source;
   readonly header: HeaderRecord;
+  /** The UID of its study. */
+  readonly study: string;
   readonly pixels: PixelElement | null;
   readonly isBig: boolean;
   readonly isDeflated: boolean;
@@ -38,6 +41,11 @@ export async function lookInto(source: Source, recorder: Recorder): Promise<Look
   }
   const image = imageOf(source, await header(source, head), recorder);
   return { source, image, record: { name, kind: '', header: image.header } };
+}
+
+/** Where the pixels of a file are, and whether it is deflated. */
+export async function pixelsOf(source: Source): Promise<Pick<Parsed, 'pixels' | 'isDeflated'>> {
+  return header(source, await source.slice(0, HEADS[0] ?? 0));
 }
 
 /** Parses as much of the file as its header needs; pixels must follow unless all of it was read. */
@@ -68,9 +76,11 @@ function unreadable(source: Source): Failure {
 function imageOf(source: Source, file: Parsed, recorder: Recorder): Image {
   try {
     const { pixels, isBig, isDeflated } = file;
+    const study = file.elements[TAGS.study];
     return {
       source,
       header: recorder.record(file),
+      study: study ? (textsOf(file, study)[0] ?? '') : '',
       pixels,
       isBig,
       isDeflated,

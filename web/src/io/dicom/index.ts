@@ -1,6 +1,7 @@
 /** DICOM: one series of grey images, of a folder, a zip archive or single files, becomes one volume. */
 
 import type { Judge } from '../../core/judge';
+import type { ReadScan } from '../../core/scan-study';
 import { inOrder, type Source } from '../source';
 import type { Steps } from '../steps';
 import type { Sink } from '../volume-file';
@@ -8,7 +9,10 @@ import { type LookedInto, lookInto } from './headers';
 import { asked, judged } from './judging';
 import { Recorder } from './records';
 import { loadStack } from './stack';
+import { studyOf } from './study';
 import type { Wanted } from './wanted';
+
+export { headOf } from './study';
 
 /** What the files are: named together, and what of them is wanted. */
 export interface Series {
@@ -17,17 +21,18 @@ export interface Series {
   readonly wanted: Wanted;
 }
 
-/** Reads a series into the engine; gives what was odd. */
-export async function openDicom(
-  series: Series,
-  judge: Judge,
-  sink: Sink,
-  steps: Steps,
-): Promise<readonly string[]> {
+/** What is told of a series beside its voxels: what was odd, and its study. */
+export interface ReadSeries {
+  readonly notes: readonly string[];
+  readonly study: ReadScan | null;
+}
+
+/** Reads a series into the engine. */
+export async function openDicom(series: Series, judge: Judge, sink: Sink, steps: Steps): Promise<ReadSeries> {
   const files = await lookIntoAll(series.sources, judge, steps);
   const plan = judged(judge, series.subject, files, series.wanted);
   await loadStack(series.subject, plan, files, sink, steps);
-  return plan.notes;
+  return { notes: plan.notes, study: await studyOf(plan, files) };
 }
 
 async function lookIntoAll(sources: readonly Source[], judge: Judge, steps: Steps): Promise<LookedInto[]> {

@@ -1,0 +1,154 @@
+/** "Save for PACS": what the page shows comes back from its own server as objects of DICOM, in an archive that Python reads. */
+import { type ChildProcess, spawn, spawnSync } from 'node:child_process';
+import { once } from 'node:events';
+import { join } from 'node:path';
+import { type Browser, expect, test } from '@playwright/test';
+import { button, menu, SIZE } from './controls';
+import { Viewer } from './page';
+
+const ROOT = join(import.meta.dirname, '../..');
+const python = process.env.LUMENCUT_PYTHON ?? join(ROOT, '.venv/bin/python');
+const SCRIPT = join(ROOT, 'tests/pacs_page.py');
+const ENVIRONMENT = { ...process.env, PYTHONPATH: join(ROOT, 'python') };
+
+interface Served {
+  readonly address: string;
+  readonly files: readonly string[];
+  readonly lines: string;
+}
+
+interface Told {
+  readonly errors: readonly string[];
+  readonly patient: string;
+  readonly description: string;
+  readonly sources: number;
+  readonly findings?: readonly string[];
+  readonly names?: readonly string[];
+  readonly diameters?: readonly number[];
+}
+
+const running: ChildProcess[] = [];
+test.afterEach(() => {
+  for (const server of running.splice(0)) {
+    server.stdin?.end();
+  }
+});
+
+/** Serves the built page by the Python package. */
+async function served(...words: readonly string[]): Promise<Served> {
+  const server = spawn(python, [SCRIPT, 'serve', join(ROOT, 'web/dist'), ...words], {
+    env: ENVIRONMENT,
+    stdio: ['pipe', 'pipe', 'inherit'],
+  });
+  running.push(server);
+  const [line] = await once(server.stdout, 'data');
+  return JSON.parse(String(line));
+}
+
+/** What the objects of an archive say. */
+function read(archive: string): Record<string, Told> {
+  const done = spawnSync(python, [SCRIPT, 'read', archive], { encoding: 'utf-8', env: ENVIRONMENT });
+  expect(done.status, done.stderr).toBe(0);
+  return JSON.parse(done.stdout);
+}
+
+const opened = (browser: Browser, { address }: Served): Promise<Viewer> =>
+  Viewer.open(browser, '?device=cpu', { baseURL: address, viewport: SIZE, acceptDownloads: true });
+
+/** Measures the vessel, and confirms the places that are suggested. */
+async function measured(viewer: Viewer): Promise<void> {
+  await viewer.rest();
+  await viewer.press('m');
+  await button(viewer, 'Confirm the suggested places').click();
+  await expect(viewer.page.getByTestId('stenosis')).toContainText('NASCET');
+}
+
+/** Saves by the menu, with this answer to its question; what is in the archive. */
+async function saved(viewer: Viewer, answer: string): Promise<Record<string, Told>> {
+  await menu(viewer).click();
+  await button(viewer, 'For PACS (DICOM, zip)').click();
+  const [download] = await Promise.all([
+    viewer.page.waitForEvent('download'),
+    button(viewer, answer).click(),
+  ]);
+  await expect(viewer.page.getByTestId('told')).toContainText('Nothing was sent');
+  expect(download.suggestedFilename()).toMatch(/-pacs-.*\.zip$/);
+  return read(await download.path());
+}
+
+const ALL = ['finding-1.dcm', 'report-pdf.dcm', 'report.dcm', 'vessel.dcm', 'view.dcm'];
+
+test('from a folder of DICOM to an archive beside the scan', async ({ browser }) => {
+  const place = await served();
+  const viewer = await opened(browser, place);
+  await expect(button(viewer, 'Choose files')).toBeEnabled();
+  await viewer.page
+    .locator('main input[type=file]')
+    .first()
+    .setInputFiles([...place.files, place.lines]);
+  await measured(viewer);
+  const found = await saved(viewer, 'Save in the study of the scan');
+  expect(Object.keys(found).sort()).toEqual(ALL);
+  for (const told of Object.values(found)) {
+    expect(told.errors).toEqual([]);
+    expect(told.patient).toBe('Doe^Jane');
+    expect(told.description).toContain('(research, not for diagnosis)');
+  }
+  expect(found['view.dcm']?.sources).toBe(place.files.length);
+  expect(found['report.dcm']?.findings).toContain('Site of Lumen Minimum');
+  expect(found['report.dcm']?.findings).toContain('stenosis');
+  expect(found['report.dcm']?.names?.join()).toContain('left renal artery');
+  viewer.expectNoFault();
+  await viewer.close();
+});
+
+test('the scan of the server, anonymous and in its study: the same numbers, and no name', async ({
+  browser,
+}) => {
+  const viewer = await opened(browser, await served('scan'));
+  await measured(viewer);
+  const named = await saved(viewer, 'Save in the study of the scan');
+  const bare = await saved(viewer, 'Anonymous');
+  expect(bare['report.dcm']?.diameters).toEqual(named['report.dcm']?.diameters);
+  expect(Object.values(bare).map(({ patient }) => patient)).toEqual(ALL.map(() => ''));
+  expect(bare['report.dcm']?.names?.join()).not.toContain('renal');
+  viewer.expectNoFault();
+  await viewer.close();
+});
+
+test('a scan that is no DICOM takes the study of a file that is chosen, and refuses one that is none', async ({
+  browser,
+}) => {
+  const place = await served();
+  const viewer = await opened(browser, place);
+  await viewer.page.goto(`${place.address}?phantom=stenosis&device=cpu`);
+  await viewer.rest();
+  const ask = async () => {
+    await menu(viewer).click();
+    await button(viewer, 'For PACS (DICOM, zip)').click();
+    await expect(button(viewer, 'Save in the study of the scan')).toHaveCount(0);
+  };
+  await ask();
+  await viewer.page.getByLabel('DICOM file of the study').setInputFiles(place.lines);
+  await expect(viewer.problem).toContainText('no DICOM');
+  await ask();
+  const [download] = await Promise.all([
+    viewer.page.waitForEvent('download'),
+    viewer.page.getByLabel('DICOM file of the study').setInputFiles(place.files[3] ?? ''),
+  ]);
+  const found = read(await download.path());
+  expect(Object.keys(found).sort()).toEqual(['vessel.dcm', 'view.dcm']);
+  expect(found['view.dcm']?.patient).toBe('Doe^Jane');
+  viewer.expectNoFault();
+  await viewer.close();
+});
+
+test('a page of a server of files says what it needs', async ({ browser }) => {
+  const viewer = await Viewer.open(browser, '?phantom=stenosis&device=cpu', { viewport: SIZE });
+  await viewer.rest();
+  await menu(viewer).click();
+  await button(viewer, 'For PACS (DICOM, zip)').click();
+  await expect(viewer.problem).toContainText('Open the scan by `lumencut view`');
+  viewer.expectNoFault();
+  await viewer.close();
+});

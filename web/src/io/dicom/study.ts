@@ -1,0 +1,35 @@
+/** The study that a series belongs to: the header of one image, and which images there are. */
+import type { ReadScan } from '../../core/scan-study';
+import type { Bytes } from '../payload';
+import type { Source } from '../source';
+import { formatFailure } from '../words';
+import { type LookedInto, pixelsOf } from './headers';
+import type { Plan } from './judging';
+import { isDicom } from './recognising';
+
+/** What of a file stands before its pixels; all of it where it has none, or where it is deflated. */
+export async function headOf(source: Source): Promise<Bytes> {
+  if (!isDicom(await source.slice(0, Math.min(source.size, 256)))) {
+    const advice = "choose a file of the scan's own folder of DICOM";
+    throw formatFailure(source.path, 'no DICOM', 'a DICOM file of the study', advice);
+  }
+  const { pixels, isDeflated } = await pixelsOf(source);
+  return source.slice(0, pixels && !isDeflated ? pixels.at : source.size);
+}
+
+/** The study of the images of a plan. */
+export async function studyOf(plan: Plan, files: readonly LookedInto[]): Promise<ReadScan | null> {
+  const images = [...new Set(plan.slices.map(({ file }) => files[file]?.image))].filter((one) => !!one);
+  const [first] = images;
+  if (!first) {
+    return null;
+  }
+  const instances = images.map(({ header }) => header.attributes.SOPInstanceUID);
+  return {
+    isServed: false,
+    hasStudy: true,
+    header: await headOf(first.source),
+    instances: [...new Set(instances.filter((uid) => typeof uid === 'string'))],
+    studyCount: new Set(images.map(({ study }) => study)).size,
+  };
+}

@@ -1,0 +1,176 @@
+/** What is put beside the scan in a PACS: the server makes DICOM objects of it, which come back as a zip archive. Nothing is sent elsewhere. */
+import { signal } from '@preact/signals';
+import { engine } from '../client/shared';
+import { Failure } from '../core/failure';
+import type { GivenFile } from '../core/messages';
+import { type Finding, markedVessel } from '../measure/findings';
+import { settingOf } from '../state/actions';
+import { isMillimetreAssumed } from '../state/millimetres';
+import { profileOfLine } from '../state/profiles';
+import { reformationKind } from '../state/reformation';
+import * as store from '../state/store';
+import { tell } from '../state/telling';
+import { fileName } from './file-names';
+import { keyImage } from './key-image';
+import { drawnPane } from './pane-picture';
+import { composed, saveAs } from './pictures';
+import { reported, reportOf } from './report';
+import { pngOf, straightenedCanvas } from './report-pictures';
+
+/** The version of what is sent. */
+const VERSION = 1;
+const UPRIGHT =
+  'Straightened CPR. Rows: distance along the vessel, its first point on top. Columns: distance across it.';
+const LYING =
+  'Straightened CPR. Columns: distance along the vessel, its first point on the left. Rows: distance across it.';
+/** The width of the straightened vessel where no pane shows it, and the side of its finest pixels (mm). */
+const [WIDTH, FINEST] = [50, 0.25];
+/** The most columns of it. */
+const MOST_COLUMNS = 2000;
+
+/** Into which study objects are put: that of the scan, one without a patient, or that of a file. */
+export type PacsStudy = 'scan' | 'anonymous' | GivenFile;
+
+/** Whether the page asks into which study objects are put. */
+export const isPacsAsked = signal(false);
+
+/** Asks into which study; refuses where no program serves the page that could make objects. */
+export async function askForPacs(): Promise<void> {
+  objectsAddress();
+  isPacsAsked.value = true;
+}
+
+/** Saves the objects of what is shown. */
+export async function savePacs(study: PacsStudy): Promise<void> {
+  const address = objectsAddress();
+  tell('Making the DICOM objects …');
+  const body = JSON.stringify(await requestOf(study));
+  const response = await fetch(address, {
+    method: 'POST',
+    headers: { 'Content-Type': 'application/json' },
+    body,
+  });
+  if (!response.ok) {
+    throw refusalOf(response.status, await response.text());
+  }
+  const scan = study === 'anonymous' ? null : store.studyName.value;
+  saveAs(await response.blob(), fileName({ scan, content: 'pacs', ending: 'zip' }), 'Nothing was sent');
+}
+
+function objectsAddress(): string {
+  const address = document.querySelector<HTMLMetaElement>('meta[name="lumencut-objects"]')?.content;
+  if (address) {
+    return address;
+  }
+  const advice = 'open the scan by `lumencut view`, of pip install "lumencut[dicom,plot]"';
+  throw new Failure('file', 'Save for PACS', 'a page alone', 'the program that writes DICOM', advice);
+}
+
+function refusalOf(status: number, text: string): Failure {
+  const failure = Failure.of(text);
+  const advice =
+    status === 503 ? 'wait until the objects before are made' : 'look at the program that serves the page';
+  return failure.kind === 'unexpected'
+    ? new Failure('file', 'Save for PACS', `an answer ${status}`, 'DICOM objects', advice)
+    : failure;
+}
+
+async function requestOf(study: PacsStudy): Promise<object> {
+  const isAnonymous = study === 'anonymous';
+  // Readers type names of vessels: without a patient they are left out, of pictures too.
+  const findings = reported().map((one) => (isAnonymous ? { ...one, name: '' } : one));
+  const parts: object[] = [];
+  for (const finding of findings) {
+    parts.push(await partOf(finding));
+  }
+  const vessels = findings.map(markedVessel);
+  return {
+    version: VERSION,
+    study: await studyPart(study),
+    fingerprint: JSON.stringify([
+      store.report.value?.volume?.size,
+      store.report.value?.volume?.world_from_index,
+      store.histogram.value,
+    ]),
+    stated: store.states.value,
+    view: await viewPart(),
+    pane: await panePart(),
+    findings: parts,
+    numbers: await engine.ask('profiles_json', { vessels, is_millimetre_assumed: isMillimetreAssumed.value }),
+    report: findings.length > 0 ? await (isAnonymous ? reportOf(findings, null) : reportOf(findings)) : '',
+  };
+}
+
+async function studyPart(study: PacsStudy): Promise<object> {
+  const known = store.scanStudy.value;
+  const read = known?.isServed === false ? known : null;
+  const header = typeof study === 'string' ? read?.header : await engine.dicomHead(study);
+  return {
+    choice: typeof study === 'string' ? study : 'like',
+    is_served: known?.isServed ?? false,
+    header: header ? await inBase64(header) : null,
+    instances: read?.instances ?? [],
+    study_count: read?.studyCount ?? 1,
+  };
+}
+
+/** The turning view as it is shown. */
+async function viewPart(): Promise<object> {
+  const canvas = await composed('labels');
+  const camera = store.camera.value;
+  const focus = settingOf('focus');
+  return {
+    picture: pngOf(canvas),
+    camera: camera && { ...camera, pixel_spacing: (camera.pixel_spacing * camera.size[1]) / canvas.height },
+    method: store.method.value,
+    settings: store.viewSettings.value,
+    has_cut: store.hasTree.value && !(Array.isArray(focus) && Number(focus[0]) < 0),
+  };
+}
+
+/** The reformation beside it; where none is shown, the picked vessel straightened, and nothing where none is picked. */
+async function panePart(): Promise<object | null> {
+  const axes =
+    reformationKind.value === 'cpr' ? UPRIGHT : document.querySelector<HTMLElement>('.reformed .axes')?.title;
+  const shown = document.querySelector<HTMLCanvasElement>('[data-testid=straightened] canvas.flat');
+  if (axes && shown && shown.width > 1) {
+    return { picture: pngOf(drawnPane(shown, axes)), axes };
+  }
+  const vessel = store.pickedVessel.value;
+  const length = store.report.value?.vessels?.[vessel ?? -1]?.length;
+  if (vessel === null || length === undefined) {
+    return null;
+  }
+  const spacing = Math.max(FINEST, length / MOST_COLUMNS);
+  const lying = await straightenedCanvas(vessel, { width: WIDTH, spacing });
+  return { picture: pngOf(drawnPane(lying, LYING)), axes: LYING };
+}
+
+/** A finding with its key image, and the contours of what is marked on it. */
+async function partOf(finding: Finding): Promise<object> {
+  const { line, marks } = finding;
+  await profileOfLine(engine, line);
+  const { places } = await engine.ask('report_plan', markedVessel(finding));
+  const marked = places.filter((place) => !place.is_suggestion);
+  const sections = marked.map(({ at }) => engine.ask('measured_section', { line, at }));
+  const { stenosis } = await engine.ask('grade', { line, marks });
+  return {
+    picture: pngOf(await keyImage(finding)),
+    points: (await engine.ask('line', { line })).points,
+    contours: (await Promise.all(sections)).map(({ contour }, n) => [marked[n]?.at, contour]),
+    marks: places.map((place) => [
+      place.is_reference ? 'reference' : place.name,
+      place.at,
+      place.is_suggestion,
+    ]),
+    words: stenosis?.words ?? null,
+  };
+}
+
+function inBase64(bytes: Uint8Array<ArrayBuffer>): Promise<string> {
+  return new Promise((resolve) => {
+    const reader = new FileReader();
+    reader.onload = () => resolve(String(reader.result).split(',')[1] ?? '');
+    reader.readAsDataURL(new Blob([bytes]));
+  });
+}

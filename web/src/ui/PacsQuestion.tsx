@@ -1,0 +1,70 @@
+/** Asks into which study the objects of "Save for PACS" are put. */
+import { useRef } from 'preact/hooks';
+import { attempt } from '../output/attempt';
+import { isPacsAsked, type PacsStudy, savePacs } from '../output/pacs';
+import { scanStudy } from '../state/store';
+
+export function PacsQuestion() {
+  const input = useRef<HTMLInputElement>(null);
+  if (!isPacsAsked.value) {
+    return null;
+  }
+  const close = () => {
+    isPacsAsked.value = false;
+  };
+  const save = (study: PacsStudy) => {
+    close();
+    attempt(() => savePacs(study));
+  };
+  const isKnown = scanStudy.value?.hasStudy ?? false;
+  const first = (button: HTMLButtonElement | null) => button?.focus();
+  return (
+    <div
+      class="file-question"
+      role="alertdialog"
+      aria-label="Save for PACS"
+      onKeyDown={(event) => {
+        event.stopPropagation();
+        if (event.key === 'Escape') {
+          close();
+        }
+      }}
+    >
+      <p>
+        The pictures that are shown, the report and the numbers as DICOM, in a zip archive. Nothing is sent.
+        {!isKnown && ' The scan is no DICOM: to which study do they belong?'}
+      </p>
+      {isKnown && (
+        <button type="button" ref={first} onClick={() => save('scan')}>
+          Save in the study of the scan
+        </button>
+      )}
+      <button
+        type="button"
+        title="Without patient, study and names of vessels; that is not the Basic Profile"
+        {...(!isKnown && { ref: first })}
+        onClick={() => save('anonymous')}
+      >
+        Anonymous
+      </button>
+      <button type="button" onClick={() => input.current?.click()}>
+        Choose a DICOM file of the study
+      </button>
+      <input
+        ref={input}
+        hidden
+        type="file"
+        aria-label="DICOM file of the study"
+        onChange={({ currentTarget: { files } }) => {
+          const [file] = files ?? [];
+          if (file) {
+            save({ path: file.name, file });
+          }
+        }}
+      />
+      <button type="button" onClick={close}>
+        Go back
+      </button>
+    </div>
+  );
+}
