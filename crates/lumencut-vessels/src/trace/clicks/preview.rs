@@ -52,11 +52,12 @@ impl Live {
         let [click, _] = sought.between;
         voxels.voxel_at(click)?;
         let surroundings = surroundings.unwrap_or_else(|| Surroundings::of(voxels, &[click]));
-        let model = surroundings.model(voxels, &[click]).ok()?;
+        let taken = surroundings.snapped(voxels, &[click]);
+        let model = surroundings.model(voxels, &taken).ok()?;
         let fits = |region: &&Region| region.model.covers(&model) && region.stoppers == sought.stoppers;
         let made = || Region::new(voxels.size, model, sought.stoppers.to_vec(), Strictness::Lumen);
         let mut region = known.filter(fits).cloned().unwrap_or_else(made);
-        let source = start(voxels, &mut region, click);
+        let source = start(voxels, &mut region, taken[0]);
         let fronts = PULLS.map(|pull| {
             let reach = Reach { longest_gap: Some(LONGEST_GAP), most_voxels: MOST_VOXELS, pull };
             Front::new(voxels, &mut region, source, reach)

@@ -68,6 +68,7 @@ impl Tracer {
     ) -> Result<Vec<Traced>> {
         let voxels = &Voxels::new(volume);
         check(voxels, clicks)?;
+        let clicks = &self.snapped(voxels, clicks);
         self.prepare(voxels, clicks)?;
         let search = Search { voxels, clicks, stop, progress };
         if let Some(progress) = progress {
@@ -110,7 +111,17 @@ impl Tracer {
         let voxels = &Voxels::new(volume);
         check_place(voxels, click, || (format!("point {}", in_words(click)), Clicked::Single))?;
         let surroundings = self.surroundings.unwrap_or_else(|| Surroundings::of(voxels, &[click]));
-        surroundings.check_alone(voxels, click)
+        let taken = surroundings.snapped(voxels, &[click]);
+        surroundings.check_alone(voxels, taken[0])
+    }
+
+    /// The clicks, those beside lumen moved into it.
+    fn snapped(&self, voxels: &Voxels, clicks: &Clicks) -> Clicks {
+        let all: Vec<DVec3> = clicks.vessels.iter().flatten().copied().collect();
+        let surroundings = self.surroundings.unwrap_or_else(|| Surroundings::of(voxels, &all));
+        let mut places = surroundings.snapped(voxels, &all).into_iter();
+        let vessels = clicks.vessels.iter().map(|points| places.by_ref().take(points.len()).collect());
+        Clicks { vessels: vessels.collect(), ..clicks.clone() }
     }
 
     /// Makes the model of the lumen fit the clicks; what was kept under another model is forgotten.

@@ -31,6 +31,10 @@ const LEAST_TISSUE: f64 = 50.0;
 const SURROUNDINGS: f64 = 30.0;
 const MOST_SAMPLES: f64 = 200_000.0;
 
+/// A click that is no lumen means the lumen that is as near as this (mm); its surroundings look like lumen too, so that it lies well
+/// within a vessel.
+const SNAP: f64 = 2.0;
+
 /// Most of what surrounds lumen is darker: at least this share.
 const DARKER: f64 = 0.75;
 
@@ -47,9 +51,10 @@ pub struct Surroundings {
     is_hounsfield: bool,
 }
 
-/// What there is around a click: the median of its lumen and the spread of that, and the noise.
+/// What there is around a click: its own value, the median of its lumen and the spread of that, and the noise.
 #[derive(Clone, Copy, Debug)]
 struct Hit {
+    value: f64,
     lumen: f64,
     spread: f64,
     noise: f64,
@@ -64,13 +69,15 @@ impl Surroundings {
     /// What lies up to `reach` (mm) around the clicks.
     pub fn within(voxels: &Voxels, clicks: &[DVec3], reach: f64) -> Self {
         let samples = samples_around(voxels, clicks, reach);
-        let dark = samples.partition_point(|value| f64::from(*value) < HOUNSFIELD_LIMIT);
-        let is_hounsfield = dark as f64 >= HOUNSFIELD_SHARE * samples.len() as f64;
+        // Within the heart there is neither fat nor air: what the values are is told by all of the scan.
+        let is_hounsfield = are_hounsfield(&samples_around(voxels, clicks, f64::INFINITY));
         let first = if is_hounsfield { samples.partition_point(|v| f64::from(*v) < AIR) } else { 0 };
         let values: Vec<f64> = clicks.iter().map(|click| value_at(voxels, *click)).collect();
-        let level = tissue_level(&samples[first..], &values);
+        let around = &samples[first..];
+        let level =
+            tissue_level(if is_hounsfield { without_blood(around, &values) } else { around }, &values);
         let tissue = if is_hounsfield { level.max(LEAST_TISSUE) } else { level };
-        let [most, bright] = [DARKER, 0.995].map(|share| quantile(&samples[first..], share));
+        let [most, bright] = [DARKER, 0.995].map(|share| quantile(around, share));
         Self { tissue, most, bright, is_hounsfield }
     }
 
@@ -83,15 +90,14 @@ impl Surroundings {
         for click in clicks {
             self.check_alone(voxels, *click)?;
         }
-        let values: Vec<f64> = clicks.iter().map(|click| value_at(voxels, *click)).collect();
-        let hits: Vec<Hit> =
-            clicks.iter().zip(&values).map(|(click, value)| self.hit(voxels, *click, *value)).collect();
+        let hit = |click: &DVec3| self.hit(voxels, *click, value_at(voxels, *click));
+        let hits: Vec<Hit> = clicks.iter().map(hit).collect();
         let usual = lower_median(hits.iter().map(|hit| hit.lumen).collect());
         if hits.iter().any(|hit| self.unlike(hit, usual).is_some()) {
             // Where the usual one is itself no lumen, it is not what the others are blamed by.
             for expected in [self.believed(&hits), usual] {
-                for ((click, value), hit) in clicks.iter().zip(&values).zip(&hits) {
-                    self.check(voxels, *click, *value, self.unlike(hit, expected))?;
+                for (click, hit) in clicks.iter().zip(&hits) {
+                    self.check(voxels, *click, hit.value, self.unlike(hit, expected))?;
                 }
             }
         }
@@ -107,9 +113,28 @@ impl Surroundings {
         self.check(voxels, click, value, self.mistaken(value))
     }
 
+    /// The clicks, each that would be refused moved to the nearest place that looks like lumen where that is next to it: it is
+    /// what the reader meant. Others stay, also those that are refused.
+    pub fn snapped(&self, voxels: &Voxels, clicks: &[DVec3]) -> Vec<DVec3> {
+        let is_taken = |place: DVec3| self.mistaken(value_at(voxels, place)).is_none();
+        let moved = clicks.iter().map(|click| self.taken(voxels, *click, is_taken));
+        let hit = |place: DVec3| self.hit(voxels, place, value_at(voxels, place));
+        let (moved, hits): (Vec<DVec3>, Vec<Hit>) = moved.map(|click| (click, hit(click))).unzip();
+        let lumens: Vec<Hit> = hits.into_iter().filter(|hit| self.mistaken(hit.value).is_none()).collect();
+        let usual = self.believed(&lumens);
+        let is_like = |place: DVec3| self.unlike(&hit(place), usual).is_none();
+        moved.into_iter().map(|click| self.taken(voxels, click, is_like)).collect()
+    }
+
+    /// A click where it is taken, else the nearest place that looks like lumen where that is next to it and taken, else the click.
+    fn taken(&self, voxels: &Voxels, click: DVec3, is_taken: impl Fn(DVec3) -> bool) -> DVec3 {
+        let near = if is_taken(click) { None } else { self.nearest_lumen(voxels, click) };
+        near.filter(|near| near.distance(click) <= SNAP && is_taken(*near)).unwrap_or(click)
+    }
+
     fn hit(&self, voxels: &Voxels, click: DVec3, value: f64) -> Hit {
         let [lumen, spread] = local_lumen(voxels, click, value, self.tissue);
-        Hit { lumen, spread, noise: noise(voxels, click) }
+        Hit { value, lumen, spread, noise: noise(voxels, click) }
     }
 
     /// The lumen to judge clicks by that are unlike each other: of those brighter than most of what is around the one that most
@@ -200,6 +225,21 @@ impl Surroundings {
         };
         near.iter().map(|(place, _)| *place).find(|place| is_lumen(*place))
     }
+}
+
+/// Whether some rising values look like Hounsfield units.
+fn are_hounsfield(samples: &[f32]) -> bool {
+    let dark = samples.partition_point(|value| f64::from(*value) < HOUNSFIELD_LIMIT);
+    dark as f64 >= HOUNSFIELD_SHARE * samples.len() as f64
+}
+
+/// What of some rising values (HU) is no blood with contrast medium: in and beside the heart most of what is around a click is such
+/// blood, whose noise would be taken for the tissue beside it.
+fn without_blood<'a>(around: &'a [f32], clicks: &[f64]) -> &'a [f32] {
+    let lumen = clicks.iter().copied().filter(|value| value.is_finite()).fold(f64::MAX, f64::min);
+    let is_mostly_blood = quantile(around, 0.5) > SOFT_TISSUE && lumen < f64::MAX;
+    let end = around.partition_point(|value| f64::from(*value) < f64::midpoint(SOFT_TISSUE, lumen));
+    if is_mostly_blood && end > 0 { &around[..end] } else { around }
 }
 
 /// Values of voxels within a box around the clicks, rising; it reaches so far (mm).
