@@ -45,8 +45,9 @@ docs: toolchain $(VENV)/.docs ## Build the site of the documentation into ./docs
 test: ## Run every check; the last line is `N passed, N failed`.
 	@$(PYTHON) scripts/check.py
 
-test-long: develop tools page $(VENV)/.docs ## Run what takes minutes by itself: uncertainties in 288 scenes, containers, the site of the documentation, notebooks, and a million damaged files.
+test-long: develop tools page $(VENV)/.docs ## Run what takes minutes by itself: uncertainties in 288 scenes, containers, the site of the documentation, notebooks, long ways through the viewer, and a million damaged files.
 	$(BIN)/python -m pytest --quiet --numprocesses=2 tests/long_calibration.py tests/long_cohort.py tests/long_containers.py tests/long_docs.py tests/long_notebook.py
+	npm run check-long --silent --prefix web
 	@$(PYTHON) scripts/fuzz.py --runs $(or $(RUNS),1000000)
 
 lint: ## Run only format, lint, types and documentation checks.

@@ -1,7 +1,8 @@
-"""Cohorts that take minutes, for ``make test-long``: 200 studies and 20 kills, and SLURM of one node."""
+"""Cohorts at length, for ``make test-long``: 200 studies and 20 kills, shards, a lost worker, and SLURM."""
 
 from __future__ import annotations
 
+import os
 import random
 import shlex
 import signal
@@ -12,6 +13,8 @@ import pytest
 
 from cohort_scenes import command, environment, run, table, wait_for, write_cohort
 from slurm_node import is_there, slurm
+from test_cohort import started
+from test_cohort_cluster import workers
 
 TABLES = ("vessels.csv", "sections.csv")
 
@@ -31,8 +34,49 @@ def test_twenty_kills_of_a_batch_of_two_hundred_studies_change_nothing(tmp_path)
             assert len(list(folder.glob("*_record.json"))) == 1
     assert run(manifest, killed, *words).returncode == 0
     assert [row["state"] for row in table(killed / "studies.csv")] == ["done"] * 200
+    assert list(killed.glob(".lumencut/unfinished/*")) == []
     for name in TABLES:
         assert (killed / name).read_bytes() == (whole / name).read_bytes()
+
+
+def test_shards_share_a_folder(tmp_path):
+    manifest = write_cohort(tmp_path, good=5, bad=False)
+    out, whole = tmp_path / "out", tmp_path / "whole"
+    with started(manifest, out, "--shard", "1/2") as first:
+        second = run(manifest, out, "--shard", "2/2")
+        assert first.wait(60) == 0
+    assert second.returncode == 0
+    assert "2 of them now" in second.stdout
+    assert run(manifest, whole).returncode == 0
+    rows = table(out / "studies.csv")
+    assert [row["state"] for row in rows] == ["done"] * 5
+    assert (out / "sections.csv").read_bytes() == (whole / "sections.csv").read_bytes()
+
+
+def test_a_lost_worker_loses_no_study_and_a_crash_takes_nobody_with_it(tmp_path):
+    manifest = write_cohort(tmp_path, good=5)
+    text = manifest.read_text("utf-8").splitlines()
+    # Of the bad ones those that end by themselves.
+    kept = [line for line in text if not line.startswith(("hanging", "greedy"))]
+    manifest.write_text("\n".join(kept) + "\n", "utf-8")
+    here, there = tmp_path / "here", tmp_path / "there"
+    assert run(manifest, here, "--jobs", "2").returncode == 3
+    with workers(manifest) as (address, processes):
+        assert len(processes) == 2
+        words = command(manifest, there, "--dask", address)
+        with subprocess.Popen(
+            words, env=environment(manifest), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+        ) as batch:
+            wait_for(lambda: len(list(there.glob(".lumencut/unfinished/*"))) == 2, batch)
+            os.kill(processes[0], signal.SIGKILL)
+            told, complaints = batch.communicate(timeout=120)
+    assert batch.returncode == 3, complaints
+    assert "5 done, 3 failed; 8 of them now" in told
+    for name in ("vessels.csv", "sections.csv"):
+        assert (there / name).read_bytes() == (here / name).read_bytes()
+    for name in ("id", "state", "reason", "vessels"):
+        first, second = ([row[name] for row in table(out / "studies.csv")] for out in (here, there))
+        assert first == second
 
 
 @pytest.fixture(scope="module")

@@ -4,11 +4,9 @@ from __future__ import annotations
 
 import json
 import os
-import random
 import signal
 import subprocess
 import sys
-import time
 
 import pytest
 
@@ -188,38 +186,6 @@ def test_studies_are_begun_again_where_the_process_that_forks_them_is_lost(tmp_p
         os.kill(nursery, signal.SIGKILL)
         assert batch.wait(60) == 0
     assert [row["state"] for row in table(out / "studies.csv")] == ["done"] * 3
-
-
-def test_three_kills_at_random_moments_end_with_the_same_tables(tmp_path):
-    manifest = write_cohort(tmp_path, good=5, bad=False)
-    whole, killed = tmp_path / "whole", tmp_path / "killed"
-    assert run(manifest, whole, "--jobs", "2", "--threads", "1").returncode == 0
-    moments = random.Random(7)
-    for _ in range(3):
-        with started(manifest, killed, "--jobs", "2", "--threads", "1") as batch:
-            time.sleep(moments.uniform(0.8, 2.5))
-            batch.send_signal(signal.SIGKILL)
-            batch.wait()
-        for folder in killed.glob("sub-*"):
-            assert len(list(folder.glob("*_record.json"))) == 1
-    assert run(manifest, killed, "--jobs", "2", "--threads", "1").returncode == 0
-    assert list(killed.glob(".lumencut/unfinished/*")) == []
-    for name in ("vessels.csv", "sections.csv"):
-        assert (killed / name).read_bytes() == (whole / name).read_bytes()
-
-
-def test_shards_share_a_folder(tmp_path):
-    manifest = write_cohort(tmp_path, good=5, bad=False)
-    out, whole = tmp_path / "out", tmp_path / "whole"
-    with started(manifest, out, "--shard", "1/2") as first:
-        second = run(manifest, out, "--shard", "2/2")
-        assert first.wait(60) == 0
-    assert second.returncode == 0
-    assert "2 of them now" in second.stdout
-    assert run(manifest, whole).returncode == 0
-    rows = table(out / "studies.csv")
-    assert [row["state"] for row in rows] == ["done"] * 5
-    assert (out / "sections.csv").read_bytes() == (whole / "sections.csv").read_bytes()
 
 
 def test_a_full_disk_ends_the_batch_and_blames_no_study(tmp_path):

@@ -11,6 +11,10 @@ function freePort(): string {
 /** The built site of the documentation, for its own tests, which are left out where there is none. */
 const docs = process.env.LUMENCUT_DOCS_SITE;
 
+/** Tests that take long and seldom break: left out but of `npm run check-long`, which runs nothing else. */
+const LONG = /@long/;
+const isLong = Boolean(process.env.LUMENCUT_LONG);
+
 process.env.LUMENCUT_E2E_PORT ??= freePort();
 const port = process.env.LUMENCUT_E2E_PORT;
 const plain = ['--no-sandbox', '--disable-background-networking', '--no-first-run'];
@@ -28,6 +32,7 @@ const launch = (args: string[]) => ({
 /** The page in a browser, without WebGPU and with one in software; the tests of a file one after the other, none tried twice. */
 export default defineConfig({
   testDir: 'e2e',
+  ...(isLong ? { grep: LONG } : { grepInvert: LONG }),
   outputDir: 'test-results/files',
   // Pages mostly wait for what moves: two of them keep two cores busy.
   workers: 2,

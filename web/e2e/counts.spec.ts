@@ -16,9 +16,9 @@ async function slide(slider: Locator, tenths: number): Promise<void> {
   }
 }
 
-test('from a scan without vessels to a clean tree and a saved finding in at most 20 actions', async ({
-  browser,
-}) => {
+test('from a scan without vessels to a clean tree and a saved finding in at most 20 actions', {
+  tag: '@long',
+}, async ({ browser }) => {
   test.setTimeout(400_000);
   const viewer = await untraced(browser, 'aorta');
   await viewer.press('v');

@@ -162,7 +162,9 @@ async function tracedOn(browser: Browser, device: 'any' | 'cpu'): Promise<[Pixel
   return [before, after, undone];
 }
 
-test('a vessel that two clicks trace is cut open on the GPU as on the CPU', async ({ browser }) => {
+test('a vessel that two clicks trace is cut open on the GPU as on the CPU', { tag: '@long' }, async ({
+  browser,
+}) => {
   test.setTimeout(120_000);
   const onGpu = await tracedOn(browser, 'any');
   const [before, after, undone] = onGpu;

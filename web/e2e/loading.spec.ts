@@ -240,7 +240,7 @@ function openAndClose(page: Page, times: number): Promise<void> {
   }, times);
 }
 
-test('50 opens of a phantom do not grow the memory', async ({ browser }) => {
+test('50 opens of a phantom do not grow the memory', { tag: '@long' }, async ({ browser }) => {
   const viewer = await Viewer.open(browser, '?device=cpu&test=1');
   await expect(viewer.page.getByRole('button', { name: 'Aorta' })).toBeEnabled();
   // What a complete view takes is taken once.

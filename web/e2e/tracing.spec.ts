@@ -245,9 +245,9 @@ test('two vessels that meet are joined, cut, hidden, and saved files are read ag
   await viewer.close();
 });
 
-test('all branches from here are those that hang together with the vessel at the cross-hair', async ({
-  browser,
-}) => {
+test('all branches from here are those that hang together with the vessel at the cross-hair', {
+  tag: '@long',
+}, async ({ browser }) => {
   test.setTimeout(120_000);
   const viewer = await untraced(browser, 'aorta');
   await viewer.press('b');
