@@ -26,6 +26,9 @@ from lumencut.dicomweb.address import Address
 from lumencut.dicomweb.client import Client
 from lumencut.dicomweb.pulling import pull_instances
 from lumencut.dicomweb.queries import find_instances, find_series
+from lumencut.pacs_zip.archive import pacs_zip
+from pacs_requests import dropped, members
+from pacs_requests import sent as sent_as
 
 PLUGIN = "/usr/share/orthanc/plugins/libOrthancDicomWeb.so"
 NAME, PASSWORD = "lumencut", "only-here"
@@ -218,3 +221,21 @@ def test_from_a_scan_to_pictures_and_numbers_beside_it_in_three_commands(stored,
     ]
     # The picture and those of the numbers are of the modality of the scan.
     assert {"CT", "SR", "DOC"} == set(made)
+
+
+def test_what_the_viewer_saves_for_a_pacs_is_read_back_from_it(orthanc, tmp_path):
+    unpacked, got = tmp_path / "unpacked", tmp_path / "got"
+    sent = members(pacs_zip(sent_as(dropped()), None), unpacked)
+    assert len(sent) == 5
+    pushed = run("push", unpacked, orthanc.base, "--yes", "--new-study")
+    assert pushed.exit_code == 0, pushed.output
+    assert "5 of 5 objects are in" in pushed.output
+    every = by_uid(unpacked)
+    (study,) = {data.StudyInstanceUID for data in every.values()}
+    pulled = run("pull", Address(orthanc.base, study), "-o", got)
+    assert pulled.exit_code == 0, pulled.output
+    back = by_uid(got)
+    assert every.keys() <= back.keys()
+    for uid, data in every.items():
+        assert back[uid] == data
+        assert str(back[uid].PatientName) == "Doe^Jane"

@@ -103,14 +103,16 @@ def _pages(
     while most is None or len(seen) < most:
         size = _PAGE if most is None else min(_PAGE, most - len(seen))
         page = client.json(path, {**fields, "limit": str(size), "offset": str(len(seen))})
-        news = [one for one in page if _text(one, key) not in seen]
-        for one in news:
+        before = len(seen)
+        for one in page:
             uid = _text(one, key)
             if not is_uid(uid):
                 raise PacsError(path, f"{uid!r:.80} for a UID", "numbers with points between them")
-            seen.add(uid)
-            yield one
-        if not news:
+            # A series that two patients have, by a mistake of whoever gave its study, is listed twice.
+            if uid not in seen:
+                seen.add(uid)
+                yield one
+        if len(seen) == before:
             return
 
 
