@@ -230,7 +230,7 @@ def test_a_stent_is_metal():
     # A strut blooms: no place within a stent is suggested, and the reason is told.
     assert profile.narrowest() is None
     (reason,) = profile.not_suggested()
-    assert "no section is safe: " in reason
+    assert "no section is safe (metal)" in reason
     assert "metal" in reason
 
 
@@ -305,3 +305,33 @@ def test_cross_sections_lie_across_the_vessel():
     assert inside.sum() * 0.04 == pytest.approx(np.pi * 2.5**2, rel=0.05)
     pixels = section.pixel_from_world(section.position[[3, 10], [50, 7]])
     assert pixels == pytest.approx(np.array([[50.0, 3.0], [7.0, 10.0]]), abs=1e-9)
+
+
+def test_a_line_that_leaves_its_vessel_is_measured_as_far_as_there_is_a_wall():
+    tube = round_tube(6.0)
+    grid = Grid.even((0.8, 0.8, 0.8), (24.0, 24.0, 140.0))
+    volume = tube.volume(grid)
+    voxels = np.array(volume.array)
+    # From 10 mm below the middle of the volume on there is tissue alone.
+    end = voxels.shape[0] // 2 - 12
+    voxels[end:] = np.random.default_rng(5).normal(TISSUE, 26, voxels[end:].shape)
+    cut = Volume(voxels, world_from_index=grid.affine)
+    vessel = tube.vessel(130)
+    profile = measure(cut, vessel, fwhm=FWHM)
+    (words,) = profile.not_measured()
+    assert words.startswith("Not measured from ")
+    assert words.endswith("mm on: the vessel is as bright as its surroundings there.")
+    behind = float(words.split()[3])
+    assert 45 <= behind <= 56
+    is_measured = np.isfinite(profile.area)
+    assert is_measured[profile.arc_length < 45].all()
+    assert not is_measured[profile.arc_length > behind + 1].any()
+    assert np.abs(profile.diameter_equivalent[profile.arc_length < 40] - 6.0).max() < 0.3
+    assert measure(volume, vessel, fwhm=FWHM).not_measured() == ()
+
+
+def test_a_line_without_any_wall_is_refused_in_plain_numbers():
+    flat = Volume(np.random.default_rng(3).normal(341.5264, 20, (60, 30, 30)).astype(np.float32))
+    line = Vessel([[15.0, 15.0, z] for z in range(2, 58)])
+    with pytest.raises(lumencut.MeasuringError, match=r"found 34\d on the vessel and as much around it"):
+        measure(flat, line, fwhm=FWHM)

@@ -81,7 +81,7 @@ def test_a_table_of_several_vessels_says_whose_a_line_is(narrow, marked):
 
 
 def test_flags_are_words_of_all_that_is_set(branched):
-    assert flag_words(int(Flag.NO_EDGE | Flag.BRANCH)) == ["branch", "no edge"]
+    assert flag_words(int(Flag.NO_EDGE | Flag.BRANCH)) == ["branch", "no clear wall"]
     assert flag_words(0) == []
     rows = rows_of(csv_text(branched))
     for row, bits in zip(rows, branched.flags, strict=True):

@@ -204,7 +204,7 @@ def past_a_junction() -> Profile:
 
 def test_a_percentage_tells_what_makes_it_doubtful(past_a_junction, half):
     assert half.stenosis(30, 45).doubts == ()
-    for at, doubts in ((50, (BETWEEN,)), (36, ("At these places: branch, neighbor.", BETWEEN))):
+    for at, doubts in ((50, (BETWEEN,)), (36, ("At these places: branch, vessel beside.", BETWEEN))):
         graded = past_a_junction.stenosis(at, 10)
         assert graded.doubts == doubts
         assert str(graded).endswith(f"mm at 10.0 mm. {' '.join(doubts)}")

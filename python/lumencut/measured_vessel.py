@@ -34,6 +34,8 @@ class Marked:
         The assumed original diameter, and that of a vessel like the normal one (mm).
     group : {"carotid", "coronary"} or None
         Which vessel it is, for the groups of the field.
+    diameters : tuple of float
+        Places whose diameters are noted, whatever is graded (mm).
     """
 
     at: float | None = None
@@ -42,6 +44,7 @@ class Marked:
     original: float | None = None
     comparison: float | None = None
     group: Literal["carotid", "coronary"] | None = None
+    diameters: tuple[float, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -121,9 +124,9 @@ class MeasuredVessel:
     def told(self) -> list[str]:
         """What there is to say of it, in lines: each percentage with its method, its references and mm."""
         lines = [] if self._grade is None else self._grade.lines
-        if self.stenosis is not None:
-            return lines
-        return [*map(str, self.marks), *self._not_suggested, *lines]
+        if self.stenosis is None:
+            lines = [*map(str, self.marks), *self._not_suggested, *lines]
+        return [*self.profile.not_measured(), *lines]
 
 
 def vessels_csv(measured: Sequence[MeasuredVessel]) -> str:

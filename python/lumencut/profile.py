@@ -158,7 +158,8 @@ class Profile(ProfileNumbers, ProfileOutputs):
 
         A section is safe that counts, has no flag `METAL` or `CALCIUM`, whose uncertainty is at most a third
         of its diameter, and that lies more than one diameter from a change of lumen and from a flap. None
-        where no section is safe; :meth:`not_suggested` says why.
+        where no section is safe, and where the vessel only gets thinner towards an end of it;
+        :meth:`not_suggested` says why.
         """
         found = self._core.narrowest()
         return None if found is None else Spot(*found)
@@ -174,12 +175,21 @@ class Profile(ProfileNumbers, ProfileOutputs):
         place = None if at is None else number(MeasuringError, "place on the vessel", at)
         return tuple(_lumencut.not_suggested_places(self._core, place, []))
 
+    def not_measured(self) -> tuple[str, ...]:
+        """Return what of the vessel was not measured, and why, a sentence for each stretch; mostly empty.
+
+        A line that runs on where nothing tells lumen from tissue is measured as far as there is a wall: over
+        its longest stretch of pieces of 10 mm each of which has one. Sections elsewhere are NaN.
+        """
+        return tuple(_lumencut.not_measured_stretches(self._core))
+
     def widest(self) -> Spot | None:
         """Return the place of the longest diameter of all sections that count, and that diameter.
 
-        It is the largest number whatever the flags say: an odd outline, or a branch beside it, may be what
-        makes it so. Files, reports and the viewer leave it out where a section within 1 mm is irregular or
-        lies in a branch.
+        It is the largest number whatever the flags say: an odd outline, a branch beside it, or a spike of the
+        fit may be what makes it so. Files, reports and the viewer leave it out where a section within 1 mm
+        is not round or lies in a branch; and a section that is more than 1.3 times as long as wide counts
+        for them only where its neighbours agree, else that with the largest area does.
         """
         found = self._core.widest()
         return None if found is None else Spot(*found)

@@ -93,7 +93,7 @@ def counts(sections: Sections) -> npt.NDArray[np.bool_]:
 
 
 def flag_words(flags: int) -> list[str]:
-    """Return the names of flags as words, such as ``no edge``."""
+    """Return the names of flags as words, such as ``no clear wall``."""
     return _lumencut.flag_words(flags)
 
 

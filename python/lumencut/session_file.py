@@ -92,7 +92,8 @@ def _marked(marks: dict[str, Any] | None) -> Marked:
         return Marked()
     lengths = (marks[f"{name}_mm"] for name in ("at", "references", "original", "comparison"))
     at, references, original, comparison = lengths
-    return Marked(at, tuple(references), marks["method"], original, comparison, marks["group"])
+    diameters = tuple(marks.get("diameters_mm", ()))
+    return Marked(at, tuple(references), marks["method"], original, comparison, marks["group"], diameters)
 
 
 def _recipe(path: Path, view: dict[str, Any], vessels: int) -> Recipe:

@@ -25,6 +25,8 @@ export class FakeTracing implements Asked {
   notes: readonly string[] = [];
   /** Edits and trees wait for this. */
   gate: Promise<void> = Promise.resolve();
+  /** The windows of what is shown. */
+  windows: Report['windows'] = null;
   private lastId = 100;
 
   /** Questions are answered by the methods of their names. */
@@ -40,6 +42,19 @@ export class FakeTracing implements Asked {
   private straight(points: readonly Vector[]): number {
     this.lines.push({ points, radius: null, confidence: null, bridged: null });
     return this.lines.length - 1;
+  }
+
+  /** Every section lies at its mm along z. */
+  async across({ at }: Message<'across'>): Promise<Answer<'across'>> {
+    return [
+      [0, 0, at],
+      [1, 0, 0],
+      [0, 1, 0],
+    ];
+  }
+
+  async at(point: Vector): Promise<Answer<'at'>> {
+    return { point, value: 7, vessel: null, arc_length: null };
   }
 
   async begin_document(): Promise<VesselDocument> {
@@ -124,7 +139,7 @@ export class FakeTracing implements Asked {
   async show(lines: readonly ListedLine[]): Promise<Report> {
     this.shown.push(lines);
     await this.gate;
-    return reportOf(lines.filter(({ hidden }) => !hidden));
+    return { ...reportOf(lines.filter(({ hidden }) => !hidden)), windows: this.windows };
   }
 
   async write_lines({ lines, kind }: Message<'write_lines'>): Promise<Answer<'write_lines'>> {

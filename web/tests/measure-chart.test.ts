@@ -116,13 +116,15 @@ describe('the words of flags', () => {
   const flagged = { ...profile, flags: profile.flags.map(() => words) };
 
   test('stand beside rows that have room for them', () => {
-    expect(chartLayout(flagged, [900, 500]).hasWords).toBe(true);
+    const { row, wordRow } = chartLayout(flagged, [900, 500]);
+    expect(wordRow).toBe(row);
   });
 
-  test('are left out where they would lie over each other', () => {
-    const { row, hasWords } = chartLayout(flagged, [900, 140]);
+  test('spread beside the curve where rows are lower than letters', () => {
+    const { row, wordRow, bottom, y } = chartLayout(flagged, [900, 140]);
     expect(row).toBeLessThan(9);
-    expect(hasWords).toBe(false);
+    expect(wordRow).toBe(11);
+    expect(bottom - words.length * wordRow).toBeGreaterThan(y.end);
   });
 });
 

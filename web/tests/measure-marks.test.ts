@@ -13,6 +13,7 @@ import {
   removed,
   type Suggested,
   stretchAround,
+  withDiameter,
   withReference,
   withStretch,
 } from '../src/measure/marks';
@@ -38,7 +39,33 @@ function place(given: ReturnType<typeof marks>, kind: string, slot = 0): Place {
   return one;
 }
 
+describe('noted diameters', () => {
+  const given = marks({ diameters: [12, 50] });
+  const diameters = found(given).filter(({ kind }) => kind === 'diameter');
+
+  test('are places of their own, which grade nothing', () => {
+    expect(short(diameters)).toEqual(['diameter 0 12', 'diameter 1 50']);
+    expect(comparedIn(diameters)).toBeNull();
+    expect(diameters.map(placeName)).toEqual(['noted diameter', 'noted diameter']);
+  });
+
+  test('move and go alone, and one place is noted once', () => {
+    const second = place(given, 'diameter', 1);
+    const after = moved(profile, given, second, 40);
+    expect(after).toEqual(marks({ diameters: [12, 40] }));
+    expect(placeAfter(profile, given, second, after).at).toBe(40);
+    expect(removed(given, place(given, 'diameter'))).toEqual(marks({ diameters: [50] }));
+    expect(withDiameter(given, 50)).toBe(given);
+    expect(withDiameter(given, 3)).toEqual(marks({ diameters: [12, 50, 3] }));
+  });
+});
+
 describe('places', () => {
+  test('a reference alone is shown where no narrowest place is known', () => {
+    const alone = placesOf({ ...profile, narrowest: null }, marks({ references: [40] }), NOTHING_SUGGESTED);
+    expect(short(alone)).toEqual(['reference 0 40']);
+  });
+
   test('all are suggestions while nothing is marked', () => {
     expect(short(found(marks({})))).toEqual(['place 0 30?', 'reference 0 15?', 'reference 1 45?']);
   });

@@ -55,6 +55,7 @@ def numbers(profile: Profile) -> dict[str, Any]:
         "narrowest": None if narrowest is None else {"at": narrowest[0], "diameter": narrowest[1]},
         "widest": None if widest is None else {"at": widest[0], "diameter": widest[1]},
         "not_suggested": list(profile.not_suggested()),
+        "not_measured": [],
     }
 
 

@@ -30,6 +30,7 @@ export function madeProfile(length = 60): Profile {
     narrowest: { at: length / 2, diameter: 4 },
     widest: { at: 10, diameter: 8.8 },
     not_suggested: [],
+    not_measured: [],
   };
 }
 

@@ -1,4 +1,5 @@
 import { afterEach, beforeEach, describe, expect, test } from 'vitest';
+import type { Pair, Report } from '../src/core/messages';
 import { contents, followLines, forgetLines, lengthOf } from '../src/edit/lines';
 import { beginStudy, followDocument, listedLines, pickedId, successor, tree } from '../src/edit/shown';
 import { hide, remove } from '../src/edit/vessels';
@@ -66,6 +67,43 @@ test('the volume, its views and the cross-hair stay', async () => {
   expect(store.report.value?.volume).toBe(volume);
   expect(store.crossHair.value).toEqual({ point: [1, 2, 3], value: 4, vessel: 0, arcLength: 5 });
   expect([store.camera.value, store.window_.value]).toEqual([camera, window]);
+});
+
+test('where the vessel of the cross-hair is deleted, all views go on to the one that is picked then', async () => {
+  open(1, 2);
+  store.crossHair.value = { point: [1, 2, 3], value: 4, vessel: 0, arcLength: 5 };
+  const [first] = document_.value.vessels;
+  change('delete', { ...document_.value, vessels: document_.value.vessels.filter((one) => one !== first) });
+  await idle();
+  expect(store.pickedVessel.value).toBe(0);
+  const at = store.pickedPlace.value;
+  expect(at).toBe((store.report.value?.vessels?.[0]?.length ?? 0) / 2);
+  expect(store.crossHair.value).toEqual({ point: [0, 0, at], value: 7, vessel: 0, arcLength: at });
+});
+
+test('the window that the data suggest follows the vessels, one that was chosen stays', async () => {
+  const told = (main: Pair): Report => ({
+    ...reportOf([{ line: 1, name: 'n1' }]),
+    windows: { main, contexts: {}, presets: [] },
+  });
+  for (const [chosen, expected] of [
+    [
+      [723, 604],
+      [1210, 2379],
+    ],
+    [
+      [300, 900],
+      [300, 900],
+    ],
+  ] as [Pair, Pair][]) {
+    open(1);
+    store.report.value = told([723, 604]);
+    store.window_.value = chosen;
+    tracing.windows = told([1210, 2379]).windows;
+    add(2);
+    await idle();
+    expect(store.window_.value).toEqual(expected);
+  }
 });
 
 test('while a tree is made others do not pile up: the latest follows', async () => {

@@ -19,8 +19,8 @@ use crate::write::mrk_json::markups;
 /// The field of the file that holds what markups have no place for.
 pub const FIELD: &str = "LumencutSession";
 
-/// The versions of that field: the first one, and the one that can say that 1 mm is assumed between voxels. A file has the
-/// first one that says all of it, so that older readers refuse what they cannot tell, and nothing else.
+/// The versions of that field: the first one, and the one that can say that 1 mm is assumed between voxels, and which diameters a
+/// reader noted. A file has the first one that says all of it, so that older readers refuse what they cannot tell, and nothing else.
 const FORMATS: [u32; 2] = [1, 2];
 
 /// What every session file says of the software.
@@ -71,7 +71,9 @@ pub struct Session {
 impl Session {
     /// The first version of the structure that says all of it.
     fn least_format(&self) -> u32 {
-        FORMATS[usize::from(self.one_millimetre_assumed)]
+        let has_diameters = |marks: &Marks| !marks.diameters_mm.is_empty();
+        let marks = self.vessels.iter().filter_map(|vessel| vessel.marks.as_ref());
+        FORMATS[usize::from(self.one_millimetre_assumed || marks.into_iter().any(has_diameters))]
     }
 
     /// The whole of it as JSON.
@@ -132,6 +134,9 @@ pub struct Marks {
     pub stretch_mm: Option<[f64; 2]>,
     /// The ends of another stretch.
     pub second_stretch_mm: Option<[f64; 2]>,
+    /// Places whose diameters a reader noted; from format 2 on.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub diameters_mm: Vec<f64>,
 }
 
 /// A branch from a seed that is not sure.
@@ -283,7 +288,8 @@ fn check_format(version: Option<f64>) -> Result<()> {
 /// Checks that all parts go together.
 fn check(lines: &[Line], session: &Session) -> Result<()> {
     if session.format < session.least_format() {
-        let found = format!("an assumed millimetre in version {}", session.format);
+        let what = if session.one_millimetre_assumed { "an assumed millimetre" } else { "noted diameters" };
+        let found = format!("{what} in version {}", session.format);
         return Err(Error::new(FIELD, found, format!("version {}", session.least_format())));
     }
     if lines.len() != session.vessels.len() {

@@ -99,6 +99,7 @@ fn _lumencut(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(profile_files::c_arm_words, module)?)?;
     module.add_function(wrap_pyfunction!(profile_files::flag_words, module)?)?;
     module.add_function(wrap_pyfunction!(profile_files::profile_json, module)?)?;
+    module.add_function(wrap_pyfunction!(profile_files::not_measured_stretches, module)?)?;
     module.add_function(wrap_pyfunction!(profile_files::not_suggested_places, module)?)?;
     module.add_function(wrap_pyfunction!(profile_files::profile_marks, module)?)?;
     module.add_function(wrap_pyfunction!(profile_files::marked_places, module)?)?;

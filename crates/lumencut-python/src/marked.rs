@@ -18,6 +18,7 @@ pub struct MarkedParts {
     original: Option<f64>,
     comparison: Option<f64>,
     group: Option<String>,
+    diameters: Vec<f64>,
 }
 
 impl MarkedParts {
@@ -30,7 +31,8 @@ impl MarkedParts {
             original: self.original,
             comparison: self.comparison,
         };
-        Ok(Marked { at: self.at, method, compared, group: territory.transpose().map_err(to_python)? })
+        let group = territory.transpose().map_err(to_python)?;
+        Ok(Marked { at: self.at, method, compared, group, diameters: self.diameters.clone() })
     }
 }
 

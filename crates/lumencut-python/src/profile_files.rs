@@ -2,11 +2,11 @@
 
 use lumencut::measure::stretch::CArm;
 use lumencut::measure_words;
-use lumencut::not_suggested;
 use lumencut::profile_marks::{Mark, Measured, marks};
 use lumencut::profile_record::{self, Asked, NOTICE};
 use lumencut::profile_table;
 use lumencut::scan_details::ScanDetails;
+use lumencut::{not_measured, not_suggested};
 use pyo3::prelude::*;
 
 use crate::errors::to_python;
@@ -111,6 +111,12 @@ pub fn marked_places(profile: &Profile, marked: MarkedParts) -> PyResult<Vec<Mar
 #[allow(clippy::needless_pass_by_value)]
 pub fn not_suggested_places(profile: &Profile, at: Option<f64>, references: Vec<f64>) -> Vec<String> {
     not_suggested::not_suggested(&profile.0, at, &references)
+}
+
+/// What of a vessel was not measured, and why: a sentence for each stretch.
+#[pyfunction]
+pub fn not_measured_stretches(profile: &Profile) -> Vec<String> {
+    not_measured::not_measured(&profile.0).into_iter().map(|stretch| stretch.words).collect()
 }
 
 /// Places to look at.

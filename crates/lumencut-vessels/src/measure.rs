@@ -19,6 +19,7 @@ pub mod hindrances;
 pub mod least_squares;
 pub mod levels;
 pub mod looked;
+pub mod measured_part;
 pub mod measuring;
 pub mod model;
 pub mod obstacles;

@@ -15,7 +15,7 @@ pub struct FlagLook {
     /// Its bit.
     #[serde(skip)]
     pub bit: u32,
-    /// What tables and reports call it, such as `no edge`.
+    /// What tables and reports call it, such as `no clear wall`.
     pub word: &'static str,
     /// What it means, as a part of a sentence.
     pub meaning: &'static str,
@@ -38,7 +38,10 @@ const fn look(
 pub const FLAGS: [FlagLook; 10] = [
     look(
         ("AT_LIMIT", AT_LIMIT),
-        ["at limit", "the diameter is below 1.5 FWHM: little is left of it in the picture"],
+        [
+            "near the blur",
+            "the lumen is hardly wider than the scanner's blur (1.5 FWHM): little is left of it in the picture",
+        ],
         ["#7b5ea7", "#b59ae0"],
     ),
     look(
@@ -58,23 +61,23 @@ pub const FLAGS: [FlagLook; 10] = [
     ),
     look(
         ("NEIGHBOR", NEIGHBOR),
-        ["neighbor", "another lumen, or bone, is beside the wall"],
+        ["vessel beside", "another vessel, or bone, touches the wall"],
         ["#20808d", "#45b9c8"],
     ),
     look(("OUTSIDE", OUTSIDE), ["outside", "the section reaches beyond the volume"], ["#8c564b", "#c99184"]),
     look(
         ("NO_EDGE", NO_EDGE),
-        ["no edge", "no wall was found, or none that can be believed"],
+        ["no clear wall", "no wall was found, or none that can be believed"],
         ["#d62728", "#ff6f6f"],
     ),
     look(
         ("RECENTERED", RECENTERED),
-        ["recentered", "the centerline lies outside of the lumen that was measured"],
+        ["centre moved", "the centerline lies outside of the lumen that was measured"],
         ["#e377c2", "#f09fd6"],
     ),
     look(
         ("IRREGULAR", IRREGULAR),
-        ["irregular", "the wall is far from an ellipse: shortest and longest diameter say little"],
+        ["not round", "the wall is far from an ellipse: shortest and longest diameter say little"],
         ["#6b8e23", "#a4c957"],
     ),
     look(

@@ -27,6 +27,7 @@ pub mod measure_words;
 pub mod mends;
 pub mod method;
 pub mod misplaced;
+pub mod not_measured;
 pub mod not_suggested;
 pub mod parts;
 pub mod placement;

@@ -113,7 +113,7 @@ pub fn of_bounds([excluded, included]: [f64; 2]) -> Option<String> {
     Some(format!("{} mm if nothing brighter is lumen, {} mm if all of it is", excluded?, included?))
 }
 
-/// The flags that are set, each as words such as `no edge`.
+/// The flags that are set, each as words such as `no clear wall`.
 pub fn of_flags(flags: u32) -> Vec<String> {
     set_in(flags).map(|flag| flag.word.to_owned()).collect()
 }

@@ -2,8 +2,9 @@
 
 use lumencut_vessels::measure::hindrances::{CHANGE_OF_LUMEN, FLAP, UNSURE};
 use lumencut_vessels::measure::profile::Profile;
+use lumencut_vessels::measure::suggestions::Spot;
 
-use crate::measure_words::of_flags;
+use crate::flag_table::FLAGS;
 use crate::profile_marks::{main_place, offered_references};
 
 /// What hinders a suggestion beside the flags, as words.
@@ -14,7 +15,10 @@ pub const HINDRANCES: [(u32, &str); 3] =
 /// none where they are suggested or marked.
 pub fn not_suggested(profile: &Profile, at: Option<f64>, references: &[f64]) -> Vec<String> {
     match main_place(profile, at) {
-        None => profile.none_safe().map(none_safe).into_iter().collect(),
+        None => {
+            let unsafe_ones = profile.none_safe().map(|_| none_safe(profile));
+            unsafe_ones.or_else(|| profile.thin_end().map(only_thinner)).into_iter().collect()
+        }
         Some(_) if !references.is_empty() => Vec::new(),
         Some(main) => {
             let is_none =
@@ -24,9 +28,26 @@ pub fn not_suggested(profile: &Profile, at: Option<f64>, references: &[f64]) -> 
     }
 }
 
-fn none_safe(bits: u32) -> String {
-    let words = of_hindrances(bits).join(", ");
-    format!("No narrowest place is suggested, as no section is safe: {words}. Mark the place yourself.")
+/// So many reasons are told: those of the most sections.
+const MOST_REASONS: usize = 3;
+
+fn none_safe(profile: &Profile) -> String {
+    let hindrances = profile.hindrances();
+    let counted = |bit: u32| hindrances.iter().filter(|found| *found & bit != 0).count();
+    let bits = FLAGS.iter().map(|flag| (flag.bit, flag.word)).chain(HINDRANCES);
+    let mut found: Vec<(usize, &str)> = bits.map(|(bit, word)| (counted(bit), word)).collect();
+    found.retain(|(count, _)| *count > 0);
+    found.sort_by_key(|(count, _)| std::cmp::Reverse(*count));
+    let words: Vec<&str> = found.iter().take(MOST_REASONS).map(|(_, word)| *word).collect();
+    let why = if words.is_empty() { String::new() } else { format!(" ({})", words.join(", ")) };
+    format!("No narrowest place is suggested: no section is safe{why}. Mark it yourself.")
+}
+
+fn only_thinner(end: Spot) -> String {
+    format!(
+        "No narrowest place is suggested: the vessel gets thinner towards its end by itself, to {:.2} mm at {:.1} mm. Mark it yourself.",
+        end.diameter, end.at
+    )
 }
 
 fn no_reference(at: f64) -> String {
@@ -34,12 +55,6 @@ fn no_reference(at: f64) -> String {
         "No reference is suggested for {at:.1} mm: no place within 50 mm has parallel walls, is at least as wide, lies one diameter \
          away, and is safe. Mark it yourself where the vessel is normal."
     )
-}
-
-/// Hindrances as words: those of the flags, then the others.
-pub fn of_hindrances(bits: u32) -> Vec<String> {
-    let others = HINDRANCES.iter().filter(|(bit, _)| bits & bit != 0);
-    of_flags(bits).into_iter().chain(others.map(|(_, word)| (*word).to_owned())).collect()
 }
 
 #[cfg(test)]

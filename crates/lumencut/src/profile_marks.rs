@@ -21,7 +21,12 @@ pub struct Marked {
     pub compared: Compared,
     /// The vessel whose groups of the field are asked for.
     pub group: Option<Territory>,
+    /// Places whose diameters are noted, whatever is graded (arc lengths, mm).
+    pub diameters: Vec<f64>,
 }
+
+/// What a place is called whose diameter a reader noted.
+pub const NOTED: &str = "noted diameter";
 
 /// What is told of a place that a reader marked.
 #[derive(Clone, Debug, PartialEq)]
@@ -128,11 +133,24 @@ impl Marked {
         offered_references(profile, self.at, &self.compared.reference)
     }
 
-    /// The places to look at, as [`marks`] has them, without those where nothing was measured.
+    /// The places to look at, as [`marks`] has them, then those whose diameters are noted; without those where nothing was measured.
     pub fn places(&self, profile: &Profile) -> Vec<Mark> {
         let is_measured = |place: &f64| profile.diameter_at(*place).is_ok();
         let references: Vec<f64> = self.compared.reference.iter().copied().filter(is_measured).collect();
-        marks(profile, self.at.filter(is_measured), &references).unwrap_or_default()
+        let mut found = marks(profile, self.at.filter(is_measured), &references).unwrap_or_default();
+        found.extend(self.noted(profile));
+        found
+    }
+
+    /// The places whose diameters are noted, rising, without those where nothing was measured.
+    fn noted(&self, profile: &Profile) -> Vec<Mark> {
+        let mut places = self.diameters.clone();
+        places.sort_by(f64::total_cmp);
+        let mark = |at: f64| {
+            let (diameter, _) = profile.diameter_at(at).ok()?;
+            Some(Mark { name: NOTED, at, diameter, is_suggestion: false })
+        };
+        places.into_iter().filter_map(mark).collect()
     }
 }
 
@@ -163,7 +181,7 @@ impl Measured<'_> {
 /// A place that somebody should look at.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mark {
-    /// What it is: `marked place`, `narrowest place` or `reference`.
+    /// What it is: `marked place`, `narrowest place`, `reference` or [`NOTED`].
     pub name: &'static str,
     /// Its arc length (mm).
     pub at: f64,

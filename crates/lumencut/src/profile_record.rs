@@ -7,6 +7,7 @@ use serde::ser::{SerializeMap, Serializer};
 use serde_json::ser::PrettyFormatter;
 
 use crate::measure_words::{of_doubts, of_flags, of_source, of_wall};
+use crate::not_measured::{NotMeasured, not_measured};
 use crate::not_suggested::not_suggested;
 use crate::profile_marks::{Grade, Mark, Measured, marks};
 use crate::profile_table::columns;
@@ -105,6 +106,7 @@ struct ProfileRecord {
     wall_source: String,
     noise: f64,
     length_mm: f64,
+    not_measured: Vec<NotMeasured>,
     longest_diameter: Option<Longest>,
     suggestions: Suggestions,
     sections: Sections,
@@ -124,6 +126,7 @@ impl ProfileRecord {
             wall_source: of_wall(&profile.wall_source),
             noise: profile.noise,
             length_mm: profile.length(),
+            not_measured: not_measured(profile),
             longest_diameter: profile.offered_widest().map(longest),
             suggestions: Suggestions::of(profile),
             sections: Sections::of(profile),

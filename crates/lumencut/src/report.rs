@@ -65,9 +65,11 @@ pub struct VesselPage<'a> {
     pub sections: Vec<String>,
 }
 
-/// Lengths that a reader measured beside the diameters.
+/// What a reader measured beside a stenosis.
 #[derive(Clone, Debug, Default)]
 pub struct Lengths {
+    /// Places whose diameters are noted (arc lengths, mm).
+    pub diameters: Vec<f64>,
     /// Stretches of the vessel, from one arc length to another (mm): two at most.
     pub stretches: Vec<[f64; 2]>,
     /// Straight distances (mm).
@@ -141,13 +143,10 @@ fn page(shown: &Shown, vessel: &VesselPage) -> Result<String> {
 fn head(shown: &Shown, vessel: &VesselPage) -> String {
     let length = shown.stated.length(vessel.measured.profile.length(), 1);
     let name = vessel.measured.name.clone().unwrap_or_else(|| format!("Vessel {}", vessel.measured.id));
-    let mut head = format!("<h1>{}, {length}</h1>\n", escaped(&name));
-    for (what, words) in [("Scan: ", &shown.scan), ("Saved on ", &shown.saved)] {
-        if let Some(words) = words {
-            head.push_str(&paragraph("", &format!("{what}{words}")));
-        }
-    }
-    head + &paragraph("notice", NOTICE)
+    let scan = shown.scan.as_ref().map(|scan| format!("{scan} – ")).unwrap_or_default();
+    let saved = shown.saved.as_ref().map(|words| paragraph("", &format!("Saved on {words}")));
+    let head = format!("<h1>{}, {length}</h1>\n", escaped(&format!("{scan}{name}")));
+    head + &saved.unwrap_or_default() + &paragraph("notice", NOTICE)
 }
 
 /// The view beside what was found.

@@ -49,6 +49,9 @@ const DARKEST: f64 = 0.01;
 const BRIGHT: f64 = 0.99;
 const BRIGHTEST: f64 = 0.999;
 
+/// From here on, from black to white, a lumen is too white for anything within it to be seen.
+const TOO_WHITE: f64 = 0.9;
+
 /// The window of volumes without a single number.
 const OF_NOTHING: Window = Window { level: 300.0, width: 900.0 };
 
@@ -164,6 +167,31 @@ fn beside(tree: &VesselTree, beyond: f64) -> Vec<DVec3> {
 /// [`ErrorKind::Volume`] for values beyond all windows.
 pub fn of_volume(volume: &Volume) -> Result<Window> {
     alone(volume, |_, _| 1.0)
+}
+
+/// A window of a volume without centerlines for pictures in which tissue is looked at too, such as slices: the lumen stays at 60 to
+/// 72 % of the range, and black lies as far below it as [`along`] vessels, so that a sac, its thrombus and fat are no black holes.
+/// [`of_volume`] leaves more of them black, as pictures that look through the body must.
+///
+/// # Errors
+/// [`ErrorKind::Volume`] for values beyond all windows.
+pub fn of_slices(volume: &Volume) -> Result<Window> {
+    let mut looked = Looked::at(volume);
+    let Some(found) = Populations::of(&mut looked) else {
+        return Ok(OF_NOTHING);
+    };
+    let (lumen, middle) = (found.lumen, found.tissue);
+    let darkest = darkest_tissue(&mut looked, lumen - BELOW_LUMEN[1] * (lumen - middle));
+    let tissue = Tissue { middle, darkest };
+    let [black, white] = around_lumen(lumen, tissue, 0.0, [found.darkest, found.peak]);
+    within(f64::midpoint(black, white), white - black, || from_to(found.darkest, found.brightest))
+}
+
+/// Whether the lumen along centerlines is not white in a window, by its median; true where there is none.
+pub fn holds_lumen(window: Window, volume: &Volume, tree: &VesselTree) -> bool {
+    let points: Vec<DVec3> = tree.vessels().iter().flat_map(|vessel| vessel.points()).copied().collect();
+    let share = |lumen: f64| (lumen - window.level) / window.width + 0.5;
+    median(&mut finite(&sample(volume, &points))).is_none_or(|lumen| share(lumen) <= TOO_WHITE)
 }
 
 /// The window of [`of_volume`] for a MIP: its white end lies where the brightest voxels are (99.9th percentile), where

@@ -24,6 +24,8 @@ export interface SavedMarks {
   readonly group: string | null;
   readonly stretch_mm: Pair | null;
   readonly second_stretch_mm: Pair | null;
+  /** Left out where there are none. */
+  readonly diameters_mm?: readonly number[];
 }
 
 /** A branch that nobody has accepted yet, without its line. */

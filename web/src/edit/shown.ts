@@ -3,6 +3,7 @@ import { batch, effect, signal } from '@preact/signals';
 import type { Asked } from '../core/asked';
 import { Failure } from '../core/failure';
 import type { DocumentVessel, ListedLine, Report, VesselDocument } from '../core/messages';
+import type { Window } from '../core/plain';
 import { shownVessels } from '../state/changes';
 import { type Document, EMPTY } from '../state/document';
 import { begin, document_ } from '../state/history';
@@ -91,13 +92,17 @@ async function showLatest(engine: Asked): Promise<void> {
       if (text === shownText) {
         break;
       }
+      let isLeft = false;
       const report = await engine.ask('show', listOf(document.vessels));
       if (study === store.report.value?.volume) {
         shownText = text;
         batch(() => {
           listedLines.value = linesOf(document.vessels);
-          take(report, shownVessels(document));
+          isLeft = take(report, shownVessels(document));
         });
+        if (isLeft) {
+          await goOn(engine);
+        }
       }
       study = store.report.value?.volume;
     }
@@ -112,8 +117,11 @@ async function showLatest(engine: Asked): Promise<void> {
   }
 }
 
-/** The store tells the new tree; camera, window and cross-hair stay, and so does the vessel that is picked. */
-function take(report: Report, vessels: readonly DocumentVessel[]): void {
+/**
+ * The store tells the new tree; camera and cross-hair stay, and so does the vessel that is picked. Gives whether the cross-hair was
+ * on a vessel that is gone while another one is picked now.
+ */
+function take(report: Report, vessels: readonly DocumentVessel[]): boolean {
   const picked = store.pickedVessel.value;
   const lengths = (report.vessels ?? []).map((vessel) => vessel.length);
   // Where none was picked the longest is, unless one is being drawn.
@@ -132,12 +140,32 @@ function take(report: Report, vessels: readonly DocumentVessel[]): void {
     const isSame = picked !== null && now !== null && tree.value[picked]?.id === vessels[now]?.id;
     tree.value = vessels;
     // The volume stays the one that it was, so that views of it keep what they look at.
+    followWindow(store.report.value?.windows?.main, report.windows?.main);
     store.report.value = { ...report, volume: store.report.value?.volume ?? report.volume };
     store.pickedVessel.value = now;
     toPick.value = wanted >= 0 ? null : toPick.value;
     const length = lengths[now ?? -1] ?? 0;
     store.pickedPlace.value = isSame ? Math.min(store.pickedPlace.value, length) : length / 2;
   });
+  return (hair?.vessel ?? null) !== null && store.crossHair.value?.vessel === null && now !== null;
+}
+
+/** The cross-hair goes on to the section of the vessel that is picked now, so that all views are of one vessel. */
+async function goOn(engine: Asked): Promise<void> {
+  const [vessel, at] = [store.pickedVessel.value, store.pickedPlace.value];
+  if (vessel !== null) {
+    const [point] = await engine.ask('across', { vessel, at });
+    const { value } = await engine.ask('at', point);
+    store.crossHair.value = { point, value, vessel, arcLength: at };
+  }
+}
+
+/** The window that the data suggest follows the vessels where the reader has chosen no other one. */
+function followWindow(before: Window | undefined, after: Window | undefined): void {
+  const isOwn = before === undefined || before.some((value, n) => value !== store.window_.value[n]);
+  if (after && !isOwn) {
+    store.window_.value = after;
+  }
 }
 
 /** The vessel that is drawn; else the one that was picked, the next one that is still there, or the last one. */

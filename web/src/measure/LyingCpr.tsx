@@ -29,7 +29,7 @@ export function LyingCpr({ x, lying, height }: LyingCprProps) {
     );
     setShown(picture.size);
     return picture;
-  }, [text, window]);
+  }, [text, window, store.pickedLine()]);
   const box = lyingBox(x, lying, shown ?? [1, 1]);
   return (
     <div class="lying" style={{ height: `${height}px` }}>

@@ -1,10 +1,14 @@
 /** The places of the picked vessel as handles over a picture: the same in the profile, the CPR and the turning view. */
-import type { Pair } from '../core/messages';
+import type { Pair, ReportPlace } from '../core/messages';
 import { Handle } from '../pane/Handle';
 import { currentPlaces } from './current';
 import { beginMove, confirm, endMove, isCrossed, move, putBack, remove } from './editing';
 import type { Kind, Place } from './marks';
 import { mm, placeName } from './words';
+
+/** The colour of a place of a report, whose names are the engine's. */
+export const colorOfPlace = ({ is_reference: isReference, name }: ReportPlace): string =>
+  COLORS[isReference ? 'reference' : name === 'noted diameter' ? 'diameter' : 'place'];
 
 /** By what they mark; on the dark ground of pictures. */
 export const COLORS: Readonly<Record<Kind, string>> = {
@@ -12,6 +16,7 @@ export const COLORS: Readonly<Record<Kind, string>> = {
   reference: '#7ee787',
   stretch: '#ffb454',
   secondStretch: '#d2a8ff',
+  diameter: '#79c0ff',
 };
 
 /** The way of one arrow key along the vessel (mm); ten times as far with Shift. */

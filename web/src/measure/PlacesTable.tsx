@@ -1,25 +1,31 @@
 /** The marked and suggested places of a vessel with their numbers, and the widest place. */
 import { engine } from '../client/shared';
 import type { Profile } from '../core/messages';
+import { cut } from '../edit/vessels';
 import { moveTo } from '../link/along';
+import { document_ } from '../state/history';
 import { placeTurn, togglePlaceTurn } from '../state/place-turn';
 import * as store from '../state/store';
-import { currentMarks, currentPlaces } from './current';
+import { currentMarks, currentPlaces, currentVessel } from './current';
 import { confirm, remove } from './editing';
 import { meanings } from './flags';
-import type { Place } from './marks';
+import type { Kind, Place } from './marks';
 import { COLORS } from './PlaceHandles';
 import { sectionNumbers } from './sections';
 import { area, doubtWords, mm, NOTHING, placeName, spread, told } from './words';
 
+/** Places with a diameter of their own; stretches have a part of their own. */
+const LISTED: readonly Kind[] = ['place', 'reference', 'diameter'];
+
 export function PlacesTable({ profile }: { readonly profile: Profile }) {
   const marks = currentMarks.value;
-  const places = currentPlaces.value.filter(({ kind }) => kind === 'place' || kind === 'reference');
+  const places = currentPlaces.value.filter(({ kind }) => LISTED.includes(kind));
   const { widest } = profile;
   const doubts = widest ? sectionNumbers(profile, widest.at).flags : [];
   return (
     <section aria-label="Places">
       <h3>Places</h3>
+      <NotMeasured profile={profile} />
       {places.map((place) => (
         <PlaceRow key={`${place.kind} ${place.slot}`} place={place} profile={profile} />
       ))}
@@ -29,7 +35,7 @@ export function PlacesTable({ profile }: { readonly profile: Profile }) {
             longest diameter
           </button>
           <span>{`${mm(widest.diameter)} at ${mm(widest.at, 1)}`}</span>
-          {doubts.length > 0 && <small>{doubts.join(', ')}</small>}
+          {doubts.length > 0 && <small title={meanings(profile, doubts)}>{doubts.join(', ')}</small>}
         </div>
       )}
       {marks && marks.at === null && marks.references.length === 0 && (
@@ -40,13 +46,28 @@ export function PlacesTable({ profile }: { readonly profile: Profile }) {
   );
 }
 
+/** The stretches of the vessel that were not measured, with what makes the rest of it a vessel of its own. */
+function NotMeasured({ profile }: { readonly profile: Profile }) {
+  const id = document_.value.vessels.find(({ line }) => line === currentVessel.value?.line)?.id;
+  return (
+    <>
+      {profile.not_measured.map(({ cut_mm: at, words }) => (
+        <p key={at} class="refused" data-testid="not-measured">
+          {told(words)}{' '}
+          {id !== undefined && (
+            <button type="button" class="small" onClick={() => void cut(engine, id, at)}>
+              Cut here
+            </button>
+          )}
+        </p>
+      ))}
+    </>
+  );
+}
+
 /** Why no place is suggested. */
 function NotSuggested({ reasons }: { readonly reasons: readonly string[] }) {
-  return reasons.length > 0 ? (
-    <p class="refused" data-testid="not-suggested">
-      {reasons.map(told).join(' ')}
-    </p>
-  ) : null;
+  return reasons.length > 0 ? <p data-testid="not-suggested">{reasons.map(told).join(' ')}</p> : null;
 }
 
 /** Turns the view about the place of the section. */

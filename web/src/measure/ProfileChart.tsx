@@ -137,11 +137,13 @@ function Curves({ profile, layout, hasUnits }: ProfileChartProps) {
 
 /** A row for each flag that is set somewhere, under the line where the diameter is 0. */
 function Flags({ profile, layout }: ProfileChartProps) {
-  const { x, y, row, hasWords } = layout;
+  const { x, y, row, wordRow, bottom } = layout;
+  const flags = flagsIn(profile);
   return (
     <g>
-      {flagsIn(profile).map((flag, n) => {
+      {flags.map((flag, n) => {
         const top = y.start + n * row;
+        const [middle, word] = [top + 0.5 * row, bottom - (flags.length - n - 0.5) * wordRow];
         const color = flag.screen;
         return (
           <g key={flag.word} class="flag">
@@ -161,11 +163,10 @@ function Flags({ profile, layout }: ProfileChartProps) {
               );
             })}
             <title>{`${flag.word}: ${flag.meaning}`}</title>
-            {hasWords && (
-              <text x={x.end + 6} y={top + 0.5 * row + 4} fill={color} font-size={Math.min(11, row)}>
-                {flag.word}
-              </text>
-            )}
+            <path d={`M${x.end + 1} ${middle}L${x.end + 7} ${word}`} stroke={color} fill="none" />
+            <text x={x.end + 9} y={word + 4} fill={color} font-size="11">
+              {flag.word}
+            </text>
           </g>
         );
       })}

@@ -1,15 +1,14 @@
 /** What can be marked at the section that is shown: a small bar at its line, always within reach. */
+import { useLayoutEffect, useRef, useState } from 'preact/hooks';
 import { pickedPlace } from '../state/store';
+import { leftOf } from './chart-layout';
 import { currentMarks } from './current';
-import { beginLength, endLength, lengthFrom, markHere } from './editing';
+import { beginLength, endLength, lengthFrom, markHere, noteDiameter } from './editing';
 import { isFull } from './marks';
 import { mm } from './words';
 
 /** The height of the bar (CSS pixels). */
 export const TOOLS = 28;
-/** Half of the width that it takes at most: so far it stays away from both edges. */
-const HALF = 190;
-
 interface SectionToolsProps {
   /** Where the line of the section is, and how wide the pane is (CSS pixels). */
   readonly column: number;
@@ -19,17 +18,21 @@ interface SectionToolsProps {
 
 export function SectionTools({ column, width, top }: SectionToolsProps) {
   const marks = currentMarks.value;
+  const bar = useRef<HTMLDivElement>(null);
+  const [wide, setWide] = useState(0);
+  // A length that is begun makes the bar wider: so it is asked after every drawing.
+  useLayoutEffect(() => setWide(bar.current?.offsetWidth ?? 0));
   if (!marks) {
     return null;
   }
-  const middle = Math.max(Math.min(column, width - HALF), Math.min(HALF, width / 2));
   const at = mm(pickedPlace.value, 1);
   return (
     <div
       class="section-tools"
       role="toolbar"
       aria-label={`At the section, ${at}`}
-      style={{ top: `${top}px`, left: `${middle}px` }}
+      ref={bar}
+      style={{ top: `${top}px`, left: `${leftOf(column, wide, width)}px` }}
     >
       <button
         type="button"
@@ -46,6 +49,9 @@ export function SectionTools({ column, width, top }: SectionToolsProps) {
         onClick={() => markHere('reference')}
       >
         Reference here
+      </button>
+      <button type="button" class="small" title={`Note the diameter at ${at}`} onClick={noteDiameter}>
+        Diameter here
       </button>
       <LengthButton hasRoom={!isFull(marks)} />
     </div>

@@ -13,8 +13,8 @@ const ABOVE = 38;
 const BELOW = 34;
 /** The height of a row of flags. */
 export const ROW = 12;
-/** Rows that are lower have no word beside them: words would lie over each other. */
-const LEAST_WORDS = 9;
+/** The height of a word beside the rows: where rows are lower, the words spread upwards beside the curve. */
+const WORD = 11;
 /** Rows never take more than this part of the height. */
 const MOST_ROWS = 0.45;
 
@@ -24,8 +24,8 @@ export interface ChartLayout {
   readonly y: Axis;
   /** The height of a row of flags, the first of which begins where the diameter is 0. */
   readonly row: number;
-  /** Whether there is room for a word beside each of these rows. */
-  readonly hasWords: boolean;
+  /** How far the words beside these rows are apart: the last one stands at the last row. */
+  readonly wordRow: number;
   /** Where the plot ends below the rows of flags. */
   readonly bottom: number;
 }
@@ -44,7 +44,14 @@ export function chartLayout(profile: Profile, size: Pair): ChartLayout {
     x: axisAlong(lengthOf(profile), size[0]),
     y: { low: 0, high: topOf(profile), start: bottom - rows * row, end: ABOVE },
     row,
-    hasWords: row >= LEAST_WORDS,
+    wordRow: Math.max(row, WORD),
     bottom,
   };
 }
+
+/** How far a bar over the chart stays away from both edges (CSS pixels). */
+const EDGE = 4;
+
+/** Where a bar of a width begins that stands over a column as long as it has room on both sides (CSS pixels). */
+export const leftOf = (column: number, wide: number, room: number): number =>
+  Math.max(Math.min(column - wide / 2, room - wide - EDGE), EDGE);

@@ -13,6 +13,7 @@ import {
   placeAfter,
   removed,
   taken,
+  withDiameter,
   withReference,
   withStretch,
 } from './marks';
@@ -92,6 +93,14 @@ export function markHere(kind: 'place' | 'reference'): void {
     changeMarks(`mark the ${kind}`, (marks) =>
       kind === 'place' ? { ...marks, at } : withReference(profile, marks, at),
     );
+  }
+}
+
+/** Notes the diameter of the section that is shown. */
+export function noteDiameter(): void {
+  const profile = currentProfile.value;
+  if (profile) {
+    changeMarks('note a diameter', (marks) => withDiameter(marks, snapped(profile, pickedPlace.value)));
   }
 }
 

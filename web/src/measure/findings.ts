@@ -21,8 +21,10 @@ export interface Finding {
 }
 
 /** Whether a reader marked anything on a vessel. */
-export const isMarked = ({ at, references, stretch, secondStretch }: VesselMarks): boolean =>
-  at !== null || references.length > 0 || stretch !== null || secondStretch !== null;
+export const isMarked = ({ at, references, stretch, secondStretch, diameters }: VesselMarks): boolean =>
+  at !== null ||
+  [references, diameters].some((places) => places.length > 0) ||
+  (stretch ?? secondStretch) !== null;
 
 /** A vessel of the tree that is shown, with its marks. */
 export function findingOf(vessel: number): Finding | null {

@@ -3,12 +3,13 @@ import type { Pair, Profile, Spot } from '../core/messages';
 import type { VesselMarks } from '../state/document';
 import { lengthOf } from './sections';
 
-/** `place` is that of a stenosis; slot 0 lies before slot 1 along the vessel. */
-export type Kind = 'place' | 'reference' | 'stretch' | 'secondStretch';
+/** `place` is that of a stenosis, `diameter` one whose diameter is noted. */
+export type Kind = 'place' | 'reference' | 'stretch' | 'secondStretch' | 'diameter';
 
 export interface Place {
   readonly kind: Kind;
-  readonly slot: 0 | 1;
+  /** Slot 0 lies before slot 1 along the vessel; noted diameters are numbered as they were noted. */
+  readonly slot: number;
   readonly at: number;
   /** Offered by Lumencut, and no mark of a reader yet. */
   readonly isSuggestion: boolean;
@@ -37,8 +38,10 @@ export function referenceSlots({ references }: VesselMarks, main: number): [numb
 /** All places of a vessel: those that are marked, and those that the engine offers beside them. */
 export function placesOf(profile: Profile, marks: VesselMarks, suggested: Suggested): Place[] {
   const main = mainPlace(profile, marks);
-  const references = main ? shownReferences(marks, main.at, suggested) : [];
-  return [...(main ? [main] : []), ...references, ...stretchEnds(marks)];
+  const references = main
+    ? shownReferences(marks, main.at, suggested)
+    : marks.references.map((at, slot): Place => ({ kind: 'reference', slot, at, isSuggestion: false }));
+  return [...(main ? [main] : []), ...references, ...stretchEnds(marks), ...noted(marks)];
 }
 
 /** The place of the stenosis, and those that it is compared with (mm). */
@@ -56,8 +59,8 @@ export function comparedIn(places: readonly Place[]): ComparedPlaces | null {
 function shownReferences(marks: VesselMarks, main: number, suggested: Suggested): Place[] {
   const places: Place[] = [];
   referenceSlots(marks, main).forEach((at, n) => {
-    const slot = n as 0 | 1;
-    const offered = suggested[slot]?.at ?? null;
+    const slot = n;
+    const offered = suggested[n]?.at ?? null;
     if (at !== null) {
       places.push({ kind: 'reference', slot, at, isSuggestion: false, isBefore: at < main });
     } else if (offered !== null) {
@@ -68,9 +71,12 @@ function shownReferences(marks: VesselMarks, main: number, suggested: Suggested)
   return places;
 }
 
+const noted = ({ diameters }: VesselMarks): Place[] =>
+  diameters.map((at, slot) => ({ kind: 'diameter', slot, at, isSuggestion: false }));
+
 function stretchEnds(marks: VesselMarks): Place[] {
   return (['stretch', 'secondStretch'] as const).flatMap((kind) =>
-    (marks[kind] ?? []).map((at, n) => ({ kind, slot: n as 0 | 1, at, isSuggestion: false })),
+    (marks[kind] ?? []).map((at, n) => ({ kind, slot: n, at, isSuggestion: false })),
   );
 }
 
@@ -84,6 +90,9 @@ export function moved(profile: Profile, marks: VesselMarks, place: Place, to: nu
   if (place.kind === 'reference') {
     return { ...marks, references: movedReferences(profile, marks, place.slot, at) };
   }
+  if (place.kind === 'diameter') {
+    return { ...marks, diameters: marks.diameters.with(place.slot, at) };
+  }
   const ends = marks[place.kind] ?? [at, at];
   const other = ends[1 - place.slot] ?? at;
   // The ends keep their order, and some length between them.
@@ -95,10 +104,10 @@ export function moved(profile: Profile, marks: VesselMarks, place: Place, to: nu
 }
 
 /** One reference may pass the stenosis; where there is another on that side already, it stops at the stenosis. */
-function movedReferences(profile: Profile, marks: VesselMarks, slot: 0 | 1, at: number): number[] {
+function movedReferences(profile: Profile, marks: VesselMarks, slot: number, at: number): number[] {
   const main = mainPlace(profile, marks)?.at ?? 0;
   const slots = referenceSlots(marks, main);
-  const [before, other] = [slots[slot], slots[1 - slot] ?? null];
+  const [before, other] = [slots[slot] ?? null, slots[1 - slot] ?? null];
   // Two that came from a file on one side stay free.
   const isAstray = before !== null && (slot === 0 ? before > main : before < main);
   const side: Pair = slot === 0 ? [0, main] : [main, lengthOf(profile)];
@@ -112,6 +121,9 @@ export function placeAfter(profile: Profile, marks: VesselMarks, place: Place, a
   if (kind === 'place') {
     return { ...place, at: after.at ?? place.at, isSuggestion: false };
   }
+  if (kind === 'diameter') {
+    return { ...place, at: after.diameters[slot] ?? place.at };
+  }
   if (kind === 'stretch' || kind === 'secondStretch') {
     return { ...place, at: after[kind]?.[slot] ?? place.at };
   }
@@ -119,7 +131,7 @@ export function placeAfter(profile: Profile, marks: VesselMarks, place: Place, a
   const other = referenceSlots(marks, main)[1 - slot] ?? null;
   const slots = referenceSlots(after, main);
   const now = slots[slot] !== null && (slots[slot] !== other || slots[0] === slots[1]) ? slot : 1 - slot;
-  return { ...place, slot: now as 0 | 1, at: slots[now] ?? place.at, isSuggestion: false };
+  return { ...place, slot: now, at: slots[now] ?? place.at, isSuggestion: false };
 }
 
 /** The marks without a place; a suggestion stays one. A stretch goes as a whole. */
@@ -133,6 +145,9 @@ export function removed(marks: VesselMarks, place: Place): VesselMarks {
   if (place.kind === 'reference') {
     return { ...marks, references: marks.references.filter((at) => at !== place.at) };
   }
+  if (place.kind === 'diameter') {
+    return { ...marks, diameters: marks.diameters.toSpliced(place.slot, 1) };
+  }
   return place.kind === 'stretch'
     ? { ...marks, stretch: marks.secondStretch, secondStretch: null }
     : { ...marks, secondStretch: null };
@@ -144,6 +159,10 @@ export function withReference(profile: Profile, marks: VesselMarks, at: number):
   const other = referenceSlots(marks, main)[at < main ? 1 : 0];
   return { ...marks, references: [at, ...(other === null ? [] : [other])].sort((a, b) => a - b) };
 }
+
+/** The marks with a diameter noted; a second time at one place changes nothing. */
+export const withDiameter = (marks: VesselMarks, at: number): VesselMarks =>
+  marks.diameters.includes(at) ? marks : { ...marks, diameters: [...marks.diameters, at] };
 
 /** Whether no further stretch can be marked. */
 export const isFull = ({ stretch, secondStretch }: VesselMarks): boolean => Boolean(stretch && secondStretch);

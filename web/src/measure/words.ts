@@ -51,6 +51,7 @@ export function placeName({ kind, slot, isSuggestion, isBefore }: Place): string
     reference: (isBefore ?? slot === 0) ? 'reference before' : 'reference after',
     stretch: `${end} of the stretch`,
     secondStretch: `${end} of the second stretch`,
+    diameter: 'noted diameter',
   };
   return `${names[kind]}${isSuggestion ? ' (suggestion)' : ''}`;
 }

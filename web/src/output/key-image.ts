@@ -3,11 +3,12 @@ import { engine } from '../client/shared';
 import { Failure } from '../core/failure';
 import type { Pair, Profile, ReportPlace } from '../core/messages';
 import { type Finding, markedVessel } from '../measure/findings';
-import { COLORS } from '../measure/PlaceHandles';
+import { colorOfPlace } from '../measure/PlaceHandles';
 import { nearestSection } from '../measure/sections';
 import { spread } from '../measure/words';
 import { profileOfLine } from '../state/profiles';
 import { canvasOf, SIDE, sectionPair, straightenedCanvas } from './report-pictures';
+import { fittingSize } from './wrapping';
 
 /** So many sections stand side by side (pixels: three times their side). */
 const COLUMNS = 3;
@@ -37,7 +38,7 @@ export async function keyImage(finding: Finding): Promise<HTMLCanvasElement> {
     const pair = await sectionPair({ ...finding, side: plan.side }, profile, place.at);
     const [x, y] = [(number % COLUMNS) * SIDE, LINE + height + Math.floor(number / COLUMNS) * (SIDE + LINE)];
     const told = `${place.name} ${diameterAt(profile, place.at)}`;
-    words(context, told, [x + 8, y + LINE - 11], colorOf(place));
+    words(context, told, [x + 8, y + LINE - 11], colorOfPlace(place), SIDE - 16);
     context.drawImage(pair, 0, 0, SIDE, SIDE, x, y + LINE, SIDE, SIDE);
   }
   return canvas;
@@ -53,18 +54,26 @@ export async function keyPicture(finding: Finding): Promise<Blob> {
   return blob;
 }
 
-const colorOf = ({ is_reference: isReference }: ReportPlace): string =>
-  COLORS[isReference ? 'reference' : 'place'];
-
 function diameterAt(profile: Profile, at: number): string {
   const number = nearestSection(profile, at);
   return spread(profile.diameter[number] ?? null, profile.uncertainty[number] ?? null);
 }
 
-function words(context: CanvasRenderingContext2D, text: string, [x, y]: Pair, color: string): void {
+/** A line of words, drawn narrower where it would be wider than it may be (pixels): beside it stands another one. */
+function words(
+  context: CanvasRenderingContext2D,
+  text: string,
+  [x, y]: Pair,
+  color: string,
+  widest = WIDTH - 16,
+): void {
   context.font = '600 20px system-ui, sans-serif';
+  const wide = context.measureText(text).width;
+  if (wide > widest) {
+    context.font = `600 ${fittingSize(20, wide, widest)}px system-ui, sans-serif`;
+  }
   context.fillStyle = color;
-  context.fillText(text, x, y);
+  context.fillText(text, x, y, widest);
 }
 
 /** Where a place lies along the straightened vessel: at both edges, so that the lumen stays free. */
@@ -72,7 +81,7 @@ function line(
   context: CanvasRenderingContext2D,
   { place, x, height }: { readonly place: ReportPlace; readonly x: number; readonly height: number },
 ): void {
-  context.strokeStyle = colorOf(place);
+  context.strokeStyle = colorOfPlace(place);
   context.lineWidth = 2;
   context.beginPath();
   for (const [from, to] of [

@@ -16,7 +16,7 @@ import type {
 } from '../core/messages';
 import { pixelOn } from '../core/planes';
 import { lyingPicture } from '../measure/lying';
-import { COLORS } from '../measure/PlaceHandles';
+import { colorOfPlace } from '../measure/PlaceHandles';
 import { CONTOUR } from '../measure/SectionMarks';
 import { centerAt, nearestSection } from '../measure/sections';
 import * as store from '../state/store';
@@ -54,7 +54,7 @@ export async function viewPicture(profile: Profile, places: readonly ReportPlace
         context.beginPath();
         context.arc((x + 0.5) * density, (y + 0.5) * density, 7 * density, 0, 2 * Math.PI);
         context.lineWidth = 2 * density;
-        context.strokeStyle = COLORS[place.is_reference ? 'reference' : 'place'];
+        context.strokeStyle = colorOfPlace(place);
         context.setLineDash(place.is_suggestion ? [3 * density, 3 * density] : []);
         context.stroke();
       }

@@ -13,3 +13,7 @@ export function wrapped(text: string, room: number, width: (text: string) => num
   }
   return lines;
 }
+
+/** The size of letters (pixels) with which a line of this width at the first size is no wider than it may be, but never unreadable. */
+export const fittingSize = (size: number, wide: number, widest: number): number =>
+  Math.max(Math.floor((size * widest) / wide), 11);

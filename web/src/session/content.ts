@@ -97,6 +97,7 @@ function savedMarks(marks: VesselMarks | undefined): SavedMarks | null {
         group: marks.group,
         stretch_mm: marks.stretch,
         second_stretch_mm: marks.secondStretch,
+        ...(marks.diameters.length > 0 && { diameters_mm: marks.diameters }),
       }
     : null;
 }
@@ -140,6 +141,7 @@ function marksOf(saved: SavedMarks): VesselMarks {
     group: saved.group as Territory | null,
     stretch: saved.stretch_mm,
     secondStretch: saved.second_stretch_mm,
+    diameters: saved.diameters_mm ?? [],
   };
 }
 

@@ -36,4 +36,5 @@ export const NO_MARKS: VesselMarks = {
   group: null,
   stretch: null,
   secondStretch: null,
+  diameters: [],
 };

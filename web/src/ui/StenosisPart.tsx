@@ -100,12 +100,23 @@ function Doubts() {
 const NOTHING_MARKED =
   'Nothing is marked. Look at the suggested places, drag them where they belong, or confirm them.';
 
+/** A reference alone is no mistake: what a percentage needs beside it is said quietly. */
+const ONLY_REFERENCES = 'A reference is marked. "Narrowest here" adds a percentage.';
+
+function NoPercentage({ marks }: { readonly marks: VesselMarks }) {
+  return marks.at === null ? (
+    <p>{ONLY_REFERENCES}</p>
+  ) : (
+    <p class="refused">{notGradedWords(answers.value)}</p>
+  );
+}
+
 function NotGraded({ marks }: { readonly marks: VesselMarks }) {
   const suggestions = currentPlaces.value.filter((place) => place.isSuggestion);
   const isMarked = marks.at !== null || marks.references.length > 0;
   return (
     <div role="status" data-testid="stenosis">
-      {isMarked ? <p class="refused">{notGradedWords(answers.value)}</p> : <p>{NOTHING_MARKED}</p>}
+      {isMarked ? <NoPercentage marks={marks} /> : <p>{NOTHING_MARKED}</p>}
       {suggestions.length > 0 && (
         <button type="button" onClick={confirmAll}>
           {suggestions.length === 1 ? 'Confirm the suggested place' : 'Confirm the suggested places'}

@@ -97,6 +97,18 @@ fn an_assumed_millimetre_comes_back_and_is_of_format_2() {
 }
 
 #[test]
+fn noted_diameters_come_back_and_are_of_format_2() {
+    let mut file = sample();
+    file.session.vessels[0].marks = Some(Marks { diameters_mm: vec![3.5], ..Marks::default() });
+    file.session.vessels[0].marks.as_mut().expect("marks").method = "nascet".to_owned();
+    let text = written(&file);
+    file.session.format = 2;
+    assert_eq!(read_session(text.as_bytes(), "saved.mrk.json").unwrap(), file);
+    let early = text.replace("\"format\":2", "\"format\":1");
+    assert!(refused(&early).contains("found noted diameters in version 1; expected version 2"));
+}
+
+#[test]
 fn format_1_has_the_fields_that_it_always_had() {
     let mut file = sample();
     file.lines.clear();

@@ -13,6 +13,7 @@ use super::ellipse::Ellipse;
 use super::fit::Fit;
 use super::flags::{BRANCH, NO_EDGE, OUTSIDE};
 use super::levels::lumen_levels;
+use super::measured_part::MeasuredPart;
 use super::place::{Place, Track, known_radius};
 use super::point_spread::{Told, estimated};
 use super::pooled::Level;
@@ -21,7 +22,7 @@ use super::rays::Rays;
 use super::request::MeasureRequest;
 use super::restless::flag_restless;
 use super::rough::Rough;
-use super::scale::Scale;
+use super::scale::{Scale, in_words};
 use super::sections::{Bench, Doubt, Known, LEAST_CONTRAST, Section, center, noise};
 use super::slab::thickness;
 use super::texture::{Pairs, Texture};
@@ -66,6 +67,7 @@ struct FirstFits {
 
 /// A vessel before it is fitted.
 pub struct Looked {
+    part: MeasuredPart,
     scale: Scale,
     wall: Option<KnownWall>,
     wall_source: WallSource,
@@ -84,16 +86,20 @@ impl Looked {
     pub fn new(voxels: &Voxels, vessel: &Vessel, request: &MeasureRequest) -> Result<Self> {
         let first = Track::new(vessel, None)?.places(request.step)?;
         let known = known_radius(vessel);
-        let scale = Scale::of(voxels, &first, known)?;
+        let part = MeasuredPart::of(voxels, &first, known)?;
+        let scale = part.scale;
         let (wall, wall_source) = expected(voxels, &scale, request.wall)?;
         let widest = known.map_or(WIDEST, |radius| (3.0 * radius + 5.0).min(WIDEST));
         let search = known.unwrap_or(0.0).max(SEARCH);
         let bench = bench(voxels, scale, wall, assumed(voxels));
-        let rough = bench.rough(&first, search, widest, request.stop)?;
+        let mut rough = bench.rough(&first, search, widest, request.stop)?;
+        for (rough, place) in rough.iter_mut().zip(&first) {
+            *rough = rough.filter(|_| part.holds(place));
+        }
         let mut radii: Vec<f64> = rough.iter().flatten().map(|rough| rough.radius).collect();
         let radius = median(&mut radii).ok_or_else(|| no_lumen(&scale))?;
         let places = Track::new(vessel, Some(radius))?.places(request.step)?;
-        Ok(Self { scale, wall, wall_source, places, rough: tamed(&rough), first: Default::default() })
+        Ok(Self { part, scale, wall, wall_source, places, rough: tamed(&rough), first: Default::default() })
     }
 
     /// The fits under a point spread (FWHM, mm) of the sections that are fitted by themselves, which are kept.
@@ -269,7 +275,8 @@ impl Looked {
         sharpen(&mut sections, &self.arc_lengths(), &variance);
         flag_restless(&self.places, &mut sections);
         let noise = all.noise * self.scale.contrast.abs();
-        Ok(Profile::new(&self.places, &sections, &self.scale, noise, spread, wall_source))
+        let profile = Profile::new(&self.places, &sections, &self.scale, noise, spread, wall_source);
+        Ok(Profile { without_wall: self.part.left_out(&self.places), ..profile })
     }
 
     /// The wall that other vessels let expect, where they told anything of it.
@@ -344,7 +351,8 @@ pub fn assumed(voxels: &Voxels) -> f64 {
 
 fn no_lumen(scale: &Scale) -> Error {
     let [lumen, outside] = [scale.value(1.0), scale.outside];
-    let found = format!("no wall around it: {lumen:.4} on the vessel and {outside:.4} beside it");
+    let found =
+        format!("no wall around it: {} on the vessel and {} beside it", in_words(lumen), in_words(outside));
     let expected = "a lumen around the points of the vessel";
     let mend = "centerlines must lie in the lumen, or within its radius of it";
     Error::new(ErrorKind::Measuring, "lumen of the vessel", found, expected).mend(mend)

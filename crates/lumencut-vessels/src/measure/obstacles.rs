@@ -18,6 +18,10 @@ const BESIDE: f64 = 1.5;
 const LEAST_RAYS: usize = 3;
 const ALL_AROUND: usize = RAYS * 3 / 5;
 
+/// Struts that stand apart are a stent too where so many rays of all meet something bright, and so many in each quarter of them:
+/// calcium lies to one side, or to two.
+const LATTICE: [usize; 2] = [RAYS * 2 / 5, RAYS / 16];
+
 /// Above this share there is metal: four times the contrast of the lumen above its level.
 const METAL_SHARE: f64 = 5.0;
 
@@ -88,6 +92,15 @@ pub fn is_bright(ray: &Ray, wall: f64, width: f64) -> bool {
     ray.bright_at.is_some_and(|at| at < wall + BESIDE.max(width))
 }
 
+/// Whether bright rays go around as the struts of a stent do.
+fn is_lattice(is_bright: impl Fn(usize) -> bool) -> bool {
+    let quarter = RAYS / 4;
+    let counts: Vec<usize> =
+        (0..4).map(|q| (q * quarter..(q + 1) * quarter).filter(|n| is_bright(*n)).count()).collect();
+    let [all, each] = LATTICE;
+    counts.iter().sum::<usize>() >= all && counts.iter().all(|count| *count >= each)
+}
+
 /// What is said of a section whose rays met this, with the wall so far away in each direction (mm), under a blur of this
 /// width (mm).
 pub fn flags_of(rays: &[Ray], wall: impl Fn(usize) -> f64, width: f64) -> u32 {
@@ -103,7 +116,8 @@ pub fn flags_of(rays: &[Ray], wall: impl Fn(usize) -> f64, width: f64) -> u32 {
     });
     let mut flags = 0;
     if bright >= LEAST_RAYS {
-        flags |= if bright >= ALL_AROUND || count(&is_metal) >= LEAST_RAYS { METAL } else { CALCIUM };
+        let is_stent = bright >= ALL_AROUND || is_lattice(|n| is_bright(n, &rays[n]));
+        flags |= if is_stent || count(&is_metal) >= LEAST_RAYS { METAL } else { CALCIUM };
     }
     if neighbors >= LEAST_RAYS {
         flags |= NEIGHBOR;
@@ -115,4 +129,19 @@ pub fn flags_of(rays: &[Ray], wall: impl Fn(usize) -> f64, width: f64) -> u32 {
         flags |= OUTSIDE;
     }
     flags
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn struts_all_around_are_a_stent_and_calcium_on_one_or_two_sides_is_none() {
+        // Struts of four rays with gaps of five.
+        assert!(is_lattice(|n| n % 9 < 4));
+        // Half of the wall; two quarters that lie across from each other; few struts.
+        assert!(!is_lattice(|n| n < 32));
+        assert!(!is_lattice(|n| n % 32 < 16));
+        assert!(!is_lattice(|n| n % 9 < 3));
+    }
 }

@@ -92,6 +92,9 @@ pub struct Profile {
     pub wall_source: WallSource,
     /// The points of the vessel's places (mm, LPS).
     pub on_vessel: Vec<DVec3>,
+    /// Stretches at the ends of the vessel that were not measured, as nothing tells lumen from its surroundings there (arc lengths,
+    /// mm); none of most vessels. See [`super::measured_part`].
+    pub without_wall: Vec<[f64; 2]>,
 }
 
 impl Profile {
@@ -145,6 +148,7 @@ impl Profile {
             fwhm_deviation: spread.deviation,
             fwhm_source: spread.source,
             wall_source,
+            without_wall: Vec::new(),
             arc_length,
             center,
             contour,

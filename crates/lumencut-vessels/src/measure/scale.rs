@@ -69,7 +69,7 @@ impl Scale {
         let slopes: Vec<f64> = rings.windows(3).map(|three| three[2] - three[0]).collect();
         let steepest = slopes.iter().map(|slope| slope.abs()).fold(0.0, f64::max);
         let none = || {
-            let found = format!("{lumen:.4} on the vessel and as much around it");
+            let found = format!("{} on the vessel and as much around it", in_words(lumen));
             let expected = "a lumen that is brighter or darker than what is around it";
             Error::new(ErrorKind::Measuring, "lumen of the vessel", found, expected)
         };
@@ -95,6 +95,12 @@ impl Scale {
             contrast.abs() >= scatter(voxels, places, lumen) && (is_rim || contrast * slopes[wall] < 0.0);
         if is_one { Ok(Self { outside, contrast }) } else { Err(none()) }
     }
+}
+
+/// A value of the volume as messages have it: no reader needs more than three digits of it.
+pub fn in_words(value: f64) -> String {
+    let decimals = (2.0 - value.abs().log10().floor()).clamp(0.0, 6.0);
+    format!("{value:.*}", if value == 0.0 { 0 } else { decimals as usize })
 }
 
 /// How far the values on a vessel lie from its lumen by and large, as the standard deviation of a normal distribution.

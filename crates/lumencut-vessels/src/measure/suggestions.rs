@@ -1,6 +1,8 @@
 //! What is offered to the reader of a profile: the narrowest and the widest place, and places to compare with. These are
 //! suggestions: nothing of it finds a stenosis.
 
+use std::cmp::Ordering;
+
 use super::flags::{BRANCH, IRREGULAR};
 use super::profile::Profile;
 use super::stenosis::REFERENCE_REACH;
@@ -22,6 +24,19 @@ const CALIBRE_STEP: f64 = 1.25;
 /// A longest diameter is not offered where a section within this distance (mm) of it is irregular or lies in a branch.
 const BESIDE: f64 = 1.0;
 
+/// A section is round where its longest diameter is at most this many times its shortest one. One that is longer is believed, up to
+/// the second factor, where it is like its neighbours: of those within this distance (mm) so many are not shorter by more than this
+/// share.
+const ROUND: [f64; 2] = [1.3, 2.0];
+const NEIGHBOURS: (f64, usize, f64) = (2.5, 4, 0.1);
+
+/// A place is the thin end of a vessel where the vessel is wider than it by the first factor on one side, and on the other one
+/// nowhere by the second: most vessels get thinner along their way.
+const THIN_END: [f64; 2] = [1.25, 1.1];
+
+/// Sections to both sides whose median tells how wide the vessel is about a place: single ones may be spikes.
+const AROUND: usize = 2;
+
 /// A place on a vessel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spot {
@@ -33,15 +48,55 @@ pub struct Spot {
 
 impl Profile {
     /// Where the vessel is narrowest, by the median of three, of the sections that nothing keeps from being suggested
-    /// ([`Profile::hindrances`]). None where none is safe; [`Profile::none_safe`] says why.
+    /// ([`Profile::hindrances`]) and that are no thin end of the vessel. None where none is safe ([`Profile::none_safe`] says why), and
+    /// where the vessel only gets thinner ([`Profile::thin_end`]).
     pub fn narrowest(&self) -> Option<Spot> {
+        let spots = self.safe_spots();
+        let narrowest = spots.iter().copied().min_by(thinner)?;
+        let beside = self.widest_beside();
+        let wider = |(n, spot): &(usize, Spot)| beside[*n].map(|wide| wide / spot.diameter);
+        let [before, after] = wider(&narrowest);
+        if before.max(after) < THIN_END[0] || before.min(after) >= THIN_END[1] {
+            return Some(narrowest.1);
+        }
+        // Of a vessel that gets thinner a narrowing is what is thinner than both of its sides.
+        let is_narrowing = |one: &(usize, Spot)| wider(one).iter().all(|factor| *factor >= THIN_END[1]);
+        spots.into_iter().filter(is_narrowing).min_by(thinner).map(|(_, spot)| spot)
+    }
+
+    /// The narrowest safe place of a vessel that has no narrowing, but gets thinner towards one of its ends; None of others.
+    pub fn thin_end(&self) -> Option<Spot> {
+        let narrowest = self.safe_spots().into_iter().min_by(thinner);
+        narrowest.map(|(_, spot)| spot).filter(|_| self.narrowest().is_none())
+    }
+
+    /// The sections that nothing keeps from being suggested, each with its number and the median diameter of three.
+    fn safe_spots(&self) -> Vec<(usize, Spot)> {
         let hindrances = self.hindrances();
         let spot = |n: usize| {
-            let around = n.saturating_sub(1)..(n + 2).min(self.len());
-            median(&mut self.widths(around)).map(|diameter| Spot { at: self.arc_length[n], diameter })
+            let diameter = median(&mut self.widths(self.around(n, 1)))?;
+            Some((n, Spot { at: self.arc_length[n], diameter }))
         };
-        let safe = (0..self.len()).filter(|n| self.counts(*n) && hindrances[*n] == 0);
-        safe.filter_map(spot).min_by(|a, b| a.diameter.total_cmp(&b.diameter))
+        (0..self.len()).filter(|n| self.counts(*n) && hindrances[*n] == 0).filter_map(spot).collect()
+    }
+
+    /// How wide the vessel is before and behind each section at its widest, by medians of five sections; 0 where none counts.
+    fn widest_beside(&self) -> Vec<[f64; 2]> {
+        let width = |n: usize| median(&mut self.widths(self.around(n, AROUND))).unwrap_or(0.0);
+        let widths: Vec<f64> = (0..self.len()).map(width).collect();
+        let mut found = vec![[0.0_f64; 2]; self.len()];
+        for n in 1..self.len() {
+            found[n][0] = found[n - 1][0].max(widths[n - 1]);
+        }
+        for n in (1..self.len()).rev() {
+            found[n - 1][1] = found[n][1].max(widths[n]);
+        }
+        found
+    }
+
+    /// The numbers of a section and of so many to both sides of it.
+    fn around(&self, n: usize, count: usize) -> std::ops::Range<usize> {
+        n.saturating_sub(count)..(n + count + 1).min(self.len())
     }
 
     /// What keeps all sections from being suggested, as bits of all of their hindrances; None where one is safe.
@@ -59,13 +114,31 @@ impl Profile {
         spots.reduce(|a, b| if b.diameter > a.diameter { b } else { a })
     }
 
-    /// The longest diameter as it is offered to readers: None where an odd outline or a branch, at its place or beside it, may be
-    /// what makes it the longest one. [`Profile::widest`] has it all the same.
+    /// The longest diameter as it is offered to readers. Where the longest one is a spike of the fit, in a section that is neither
+    /// round nor like its neighbours, it is that of the section with the largest area. None where that is such a spike too, and
+    /// where an odd outline or a branch, at its place or beside it, may be what makes it the longest one. [`Profile::widest`] has it
+    /// all the same.
     pub fn offered_widest(&self) -> Option<Spot> {
-        let spot = self.widest()?;
-        let is_beside = |n: &usize| (self.arc_length[*n] - spot.at).abs() <= BESIDE;
+        let largest = (0..self.len())
+            .filter(|n| self.counts(*n))
+            .max_by(|a, b| self.area[*a].total_cmp(&self.area[*b]));
+        let longest = self.widest().map(|spot| self.nearest_section(spot.at));
+        let believed = longest.into_iter().chain(largest).find(|n| self.is_believed(*n))?;
+        let at = self.arc_length[believed];
+        let is_beside = |n: &usize| (self.arc_length[*n] - at).abs() <= BESIDE;
         let is_odd = |n: usize| self.flags[n] & (BRANCH | IRREGULAR) != 0;
-        (!(0..self.len()).filter(is_beside).any(is_odd)).then_some(spot)
+        let is_plain = !(0..self.len()).filter(is_beside).any(is_odd);
+        is_plain.then_some(Spot { at, diameter: self.diameter_max[believed] })
+    }
+
+    /// Whether a section is round, or as long as its neighbours.
+    fn is_believed(&self, n: usize) -> bool {
+        let (reach, least, share) = NEIGHBOURS;
+        let longest = self.diameter_max[n];
+        let is_near = |m: &usize| *m != n && (self.arc_length[*m] - self.arc_length[n]).abs() <= reach;
+        let is_like = |m: &usize| self.counts(*m) && self.diameter_max[*m] >= (1.0 - share) * longest;
+        let agree = (0..self.len()).filter(is_near).filter(is_like).count() >= least;
+        longest <= ROUND[usize::from(agree)] * self.diameter_min[n]
     }
 
     /// Places before and after an arc length (mm) that it could be compared with: the nearest ones, at least their own diameter
@@ -143,6 +216,10 @@ impl Profile {
         let [low, high] = [0.1, 0.9].map(|part| quantile(&mut widths, part).unwrap_or(middle));
         (widths.len() == around.len() && high - low <= share * middle).then_some(middle)
     }
+}
+
+fn thinner(a: &(usize, Spot), b: &(usize, Spot)) -> Ordering {
+    a.1.diameter.total_cmp(&b.1.diameter)
 }
 
 /// How far from a place the calibre of the vessel steps on a side (mm): from one normal place to the next one behind it.

@@ -6,7 +6,8 @@ use serde::Serialize;
 use super::markup::paragraph;
 use super::told::Stated;
 use super::{Lengths, Shown, VesselPage};
-use crate::measure_words::{of_c_arm, of_doubts, of_stenosis};
+use crate::measure_words::{of_c_arm, of_doubts, of_flags, of_stenosis};
+use crate::not_measured::not_measured;
 use crate::not_suggested::not_suggested;
 use crate::profile_marks::{Grade, Measured};
 use crate::text::fixed;
@@ -34,8 +35,8 @@ pub struct Sentence {
     pub words: String,
 }
 
-/// Stenosis with its doubts, or why it is not graded; group and stretches.
-pub fn sentences(stated: Stated, measured: &Measured, stretches: &[[f64; 2]]) -> Vec<Sentence> {
+/// Stenosis with its doubts, or why it is not graded, and its group; then diameters that are noted, and stretches.
+pub fn sentences(stated: Stated, measured: &Measured, lengths: &Lengths) -> Vec<Sentence> {
     let told = |kind, words: &str| Sentence { kind, words: stated.spoken(words) };
     let graded = match measured.grade {
         Some(Grade::NotGraded(reason)) => vec![told(Kind::Finding, &format!("No percentage: {reason}"))],
@@ -44,12 +45,32 @@ pub fn sentences(stated: Stated, measured: &Measured, stretches: &[[f64; 2]]) ->
             let group = group.iter().map(|group| told(Kind::Remark, &format!("Group of the field: {group}")));
             [told(Kind::Finding, &of_stenosis(stenosis))].into_iter().chain(doubts).chain(group).collect()
         }
+        None if !lengths.diameters.is_empty() => Vec::new(),
         None => {
             not_suggested(measured.profile, None, &[]).iter().map(|words| told(Kind::Remark, words)).collect()
         }
     };
-    let lengths = stretch_words(stated, measured.profile, stretches).into_iter();
-    graded.into_iter().chain(lengths.map(|words| Sentence { kind: Kind::Remark, words })).collect()
+    let parts = not_measured(measured.profile).into_iter().map(|part| told(Kind::Doubt, &part.words));
+    let noted = lengths.diameters.iter().filter_map(|at| noted(stated, measured.profile, *at));
+    let noted = noted.map(|words| Sentence { kind: Kind::Finding, words });
+    let stretches = stretch_words(stated, measured.profile, &lengths.stretches).into_iter();
+    let stretches = stretches.map(|words| Sentence { kind: Kind::Remark, words });
+    graded.into_iter().chain(noted).chain(parts).chain(stretches).collect()
+}
+
+/// A diameter that a reader noted, with what its flags say of it; None where nothing was measured.
+fn noted(stated: Stated, profile: &Profile, at: f64) -> Option<String> {
+    let (diameter, uncertainty) = profile.diameter_at(at).ok()?;
+    let n = profile.nearest_section(at);
+    let [short, long] = [profile.diameter_min[n], profile.diameter_max[n]].map(|mm| fixed(mm, 2));
+    let flags = of_flags(profile.flags[n]).join(", ");
+    let flags = if flags.is_empty() { flags } else { format!(" ({flags})") };
+    let [place, unit] = [stated.length(at, 1), stated.unit().to_owned()];
+    Some(format!(
+        "Diameter: {} ± {}{unit} at {place}, {short} to {long}{unit}{flags}",
+        fixed(diameter, 2),
+        fixed(uncertainty, 2)
+    ))
 }
 
 /// Straight distances (mm) that a reader measured anywhere in the scan, a sentence each.
@@ -62,14 +83,13 @@ pub fn distances(stated: Stated, lengths: &[f64]) -> Vec<String> {
 
 /// What was found on a vessel, a paragraph each.
 pub(super) fn findings(shown: &Shown, vessel: &VesselPage) -> String {
-    let Lengths { stretches, distances: straight } = &vessel.lengths;
-    let of_vessel = sentences(shown.stated, &vessel.measured, stretches);
+    let of_vessel = sentences(shown.stated, &vessel.measured, &vessel.lengths);
     let paragraphs = of_vessel.iter().map(|Sentence { kind, words }| match kind {
         Kind::Finding => paragraph("finding", words),
         Kind::Doubt => paragraph("doubt", words),
         Kind::Remark => paragraph("", words),
     });
-    let beside = distances(shown.stated, straight);
+    let beside = distances(shown.stated, &vessel.lengths.distances);
     paragraphs.chain(beside.iter().map(|words| paragraph("", words))).collect()
 }
 

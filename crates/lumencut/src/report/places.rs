@@ -6,14 +6,14 @@ use serde::Serialize;
 use super::Shown;
 use super::markup::escaped;
 use crate::measure_words::{of_bounds, of_flags};
-use crate::profile_marks::Mark;
+use crate::profile_marks::{Mark, NOTED};
 use crate::text::fixed;
 
 /// What the places are called that a stenosis is compared with.
 const REFERENCE: &str = "reference";
 
-/// The colours of the place of a stenosis and of its references, `#rrggbb`: those of the handles over pictures.
-const COLORS: [&str; 2] = ["#ff6b6b", "#7ee787"];
+/// The colours of the place of a stenosis, of its references and of noted diameters, `#rrggbb`: those of the handles over pictures.
+const COLORS: [&str; 3] = ["#ff6b6b", "#7ee787", "#79c0ff"];
 
 /// What stands where there is no number.
 const NOTHING: &str = "–";
@@ -21,7 +21,7 @@ const NOTHING: &str = "–";
 /// A marked or suggested place, as [`crate::profile_marks::marks`] gives it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ReportMark {
-    /// What it is: `marked place`, `narrowest place` or `reference`.
+    /// What it is: `marked place`, `narrowest place`, `reference` or `noted diameter`.
     pub name: String,
     /// Its arc length (mm).
     pub at: f64,
@@ -52,7 +52,12 @@ pub struct Place {
 impl Place {
     /// Its colour, `#rrggbb`.
     pub fn color(&self) -> &'static str {
-        COLORS[usize::from(self.is_reference)]
+        COLORS[self.rank()]
+    }
+
+    /// 0 for the place of a stenosis, 1 for its references, 2 for noted diameters: in this order they are listed.
+    fn rank(&self) -> usize {
+        if self.is_reference { 1 } else { 2 * usize::from(self.name == NOTED) }
     }
 
     /// Its name and where it is.
@@ -63,7 +68,8 @@ impl Place {
 
 /// The places of marks: references say on which side of the first place they lie.
 pub fn places(marks: &[ReportMark]) -> Vec<Place> {
-    let main = marks.iter().find(|mark| mark.name != REFERENCE).map(|mark| mark.at);
+    let is_main = |mark: &&ReportMark| mark.name != REFERENCE && mark.name != NOTED;
+    let main = marks.iter().find(is_main).map(|mark| mark.at);
     let named = |mark: &ReportMark| {
         let is_reference = mark.name == REFERENCE;
         let side = match main {
@@ -75,7 +81,7 @@ pub fn places(marks: &[ReportMark]) -> Vec<Place> {
         Place { name, at: mark.at, is_suggestion: mark.is_suggestion, is_reference }
     };
     // The place of a stenosis first, then its references along the vessel: a few, for which a sort would be more code than they are worth.
-    let order = |place: &Place| (place.is_reference, place.at);
+    let order = |place: &Place| (place.rank(), place.at);
     let mut found: Vec<Place> = Vec::new();
     for place in marks.iter().map(named) {
         found.insert(found.partition_point(|other| order(other) <= order(&place)), place);

@@ -14,6 +14,7 @@ use serde::Serialize;
 use crate::scan_details::ScanDetails;
 use crate::study::failure::Result;
 use crate::study::held_volume::HeldVolume;
+use crate::windows;
 
 /// A tree with the names and the lines of its vessels.
 #[derive(Debug)]
@@ -159,6 +160,22 @@ impl Content {
         self.held.as_ref().map_or(&NONE, |held| &held.scan)
     }
 
+    /// Takes the windows from the data anew where the lumen of the vessels that are shown now is white in the main one.
+    ///
+    /// # Errors
+    /// `volume` for an invalid grid.
+    pub fn hold_lumen(&mut self) -> Result<()> {
+        let (Some(Some(windows)), Some(held), Some(tree)) = (self.windows.get(), &self.held, self.tree())
+        else {
+            return Ok(());
+        };
+        let [level, width] = windows.main;
+        if !windows::holds_lumen(Window { level, width }, &held.volume()?, tree.tree()) {
+            self.forget_windows();
+        }
+        Ok(())
+    }
+
     /// Takes the windows from the data anew when they are asked for.
     pub fn forget_windows(&mut self) {
         self.windows = OnceLock::new();
@@ -188,14 +205,18 @@ impl Content {
         let contexts = ContextName::NAMES
             .iter()
             .map(|(name, context)| (*name, found[DataWindow::of_context(*context, tree.is_some()).name()]));
+        let main = match tree {
+            Some(_) => found[DataWindow::Auto.name()],
+            None => pair(windows::of_slices(volume)?),
+        };
         let presets = WINDOW_PRESETS.map(|preset| {
             let window = match preset.source {
                 PresetSource::Fixed(window) => pair(window),
+                PresetSource::Data(DataWindow::Auto) => main,
                 PresetSource::Data(kind) => found[kind.name()],
             };
             NamedWindow { name: preset.name, words: preset.words, window }
         });
-        let main = found[DataWindow::Auto.name()];
         Ok(Some(Windows { main, contexts: contexts.collect(), presets: presets.to_vec() }))
     }
 

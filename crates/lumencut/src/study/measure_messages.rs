@@ -2,6 +2,7 @@
 
 use crate::flag_table::{FLAGS, FlagLook};
 use crate::measure_words::{of_bounds, of_c_arm, of_doubts, of_flags, of_source, of_stenosis, of_wall};
+use crate::not_measured::{NotMeasured, not_measured};
 use crate::not_suggested::not_suggested;
 use crate::profile_marks::{Grade, Marked};
 use crate::profile_record::Asked;
@@ -57,7 +58,7 @@ pub struct ProfileMessage {
     uncertainty: Vec<f64>,
     /// Whether a section counts for what is narrowest, widest or suggested.
     counts: Vec<bool>,
-    /// Words such as `calcium`, `no edge`.
+    /// Words such as `calcium`, `no clear wall`.
     flags: Vec<Vec<String>>,
     /// What calcium or metal beside the lumen leaves open, in words.
     bounds: Vec<Option<String>>,
@@ -77,6 +78,8 @@ pub struct ProfileMessage {
     widest: Option<SpotMessage>,
     /// Why no narrowest place, or no reference of it, is suggested: a sentence each.
     not_suggested: Vec<String>,
+    /// The stretches that were not measured.
+    not_measured: Vec<NotMeasured>,
 }
 
 impl From<&Profile> for ProfileMessage {
@@ -99,6 +102,7 @@ impl From<&Profile> for ProfileMessage {
             narrowest: profile.narrowest().map(SpotMessage::from),
             widest: profile.offered_widest().map(SpotMessage::from),
             not_suggested: not_suggested(profile, None, &[]),
+            not_measured: not_measured(profile),
         }
     }
 }
@@ -126,12 +130,20 @@ pub struct MarksMessage {
     /// The ends of another stretch: the angle between both.
     #[serde(rename = "secondStretch")]
     second_stretch: Option<[f64; 2]>,
+    /// Places whose diameters are noted.
+    #[serde(default)]
+    diameters: Vec<f64>,
 }
 
 impl MarksMessage {
     /// The stretches that were marked (mm).
     pub fn stretches(&self) -> Vec<[f64; 2]> {
         self.stretch.into_iter().chain(self.second_stretch).collect()
+    }
+
+    /// The places whose diameters are noted (mm).
+    pub fn diameters(&self) -> &[f64] {
+        &self.diameters
     }
 
     /// What was marked.
@@ -146,7 +158,8 @@ impl MarksMessage {
             original: self.original,
             comparison: self.comparison,
         };
-        Ok(Marked { at: self.at, method, compared, group: territory.transpose()? })
+        let diameters = self.diameters.clone();
+        Ok(Marked { at: self.at, method, compared, group: territory.transpose()?, diameters })
     }
 
     /// The same as what the command line is asked for; without a graded stenosis its place alone.

@@ -89,8 +89,14 @@ impl ReportMessage {
     /// What else was measured on a vessel of this number; distances belong to the scan, and stand on the first page.
     fn lengths(&self, number: usize) -> Lengths {
         let distances = if number == 0 { self.distances.clone() } else { Vec::new() };
-        Lengths { stretches: self.vessels[number].vessel.marks.stretches(), distances }
+        Lengths { distances, ..lengths_of(&self.vessels[number].vessel) }
     }
+}
+
+/// What was measured on a vessel beside a stenosis; the scan's distances are no vessel's.
+fn lengths_of(vessel: &VesselMessage) -> Lengths {
+    let marks = &vessel.marks;
+    Lengths { stretches: marks.stretches(), diameters: marks.diameters().to_vec(), distances: Vec::new() }
 }
 
 /// The value of a setting in words.
@@ -118,7 +124,7 @@ impl Study {
         let rows = self.rows(vessels, &graded, false);
         let found = rows.iter().zip(vessels).map(|(measured, one)| Finding {
             line: one.line,
-            sentences: sentences(stated, measured, &one.marks.stretches()),
+            sentences: sentences(stated, measured, &lengths_of(one)),
         });
         Ok(Findings { vessels: found.collect(), distances: distances(stated, straight) })
     }

@@ -195,7 +195,7 @@ impl Study {
     }
 
     /// Shows the lines of a list that are not hidden as the tree, in this order; none shows the volume alone. They are measured among
-    /// all of the list. Windows stay as they were.
+    /// all of the list. Windows stay as they were, unless the lumen of what is shown is white in them.
     ///
     /// # Errors
     /// `vessel tree` for a line that there is not; what was shown stays then.
@@ -215,7 +215,7 @@ impl Study {
         self.laid = None;
         self.reformed = None;
         self.content.named = named;
-        Ok(())
+        self.content.hold_lumen()
     }
 
     /// The bytes of a centerline file of these lines: `vtp` or `mrk.json`.

@@ -3,10 +3,17 @@ use std::collections::HashSet;
 use super::*;
 
 #[test]
-fn words_are_the_names_as_they_are_spoken() {
-    for flag in FLAGS {
-        assert_eq!(flag.word, flag.name.to_lowercase().replace('_', " "));
+fn words_and_meanings_are_those_of_readers_and_not_of_the_code() {
+    for (name, word) in [
+        ("NEIGHBOR", "vessel beside"),
+        ("RECENTERED", "centre moved"),
+        ("IRREGULAR", "not round"),
+        ("NO_EDGE", "no clear wall"),
+    ] {
+        assert_eq!(FLAGS.iter().find(|flag| flag.name == name).map(|flag| flag.word), Some(word));
     }
+    assert_eq!(FLAGS.iter().map(|flag| flag.word).collect::<HashSet<_>>().len(), FLAGS.len());
+    assert!(FLAGS.iter().all(|flag| flag.meaning.split(' ').count() > 4));
 }
 
 #[test]
@@ -21,6 +28,6 @@ fn no_two_flags_share_a_bit_or_a_colour() {
 #[test]
 fn flags_that_are_set_come_in_the_order_of_the_table() {
     let words: Vec<&str> = set_in(NO_EDGE | BRANCH).map(|flag| flag.word).collect();
-    assert_eq!(words, ["branch", "no edge"]);
+    assert_eq!(words, ["branch", "no clear wall"]);
     assert_eq!(set_in(0).count(), 0);
 }

@@ -67,7 +67,7 @@ fn angles_of_a_c_arm_have_no_signs() {
 
 #[test]
 fn flags_and_sources_are_words() {
-    assert_eq!(of_flags(AT_LIMIT | NO_EDGE), ["at limit", "no edge"]);
+    assert_eq!(of_flags(AT_LIMIT | NO_EDGE), ["near the blur", "no clear wall"]);
     assert!(of_flags(0).is_empty());
     assert_eq!(of_source(&Source::Assumed { from: "two sides".to_owned() }), "assumed: two sides");
     assert_eq!(of_source(&Source::Given), "given");

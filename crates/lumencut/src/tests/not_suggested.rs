@@ -1,6 +1,6 @@
 use super::*;
 use crate::tube::tube;
-use lumencut_vessels::measure::flags::{CALCIUM, METAL};
+use lumencut_vessels::measure::flags::{BRANCH, CALCIUM, METAL, OUTSIDE};
 
 #[test]
 fn where_places_are_suggested_or_marked_there_is_no_reason() {
@@ -19,7 +19,7 @@ fn where_nothing_is_safe_the_hindrances_are_told() {
     // A branch is no more there: all flags were written over.
     assert_eq!(
         reason,
-        "No narrowest place is suggested, as no section is safe: calcium, metal, unsure diameter. Mark the place yourself."
+        "No narrowest place is suggested: no section is safe (metal, calcium, unsure diameter). Mark it yourself."
     );
     // A place that is marked has no reference then.
     let [reason] = &not_suggested(&stent, Some(30.0), &[])[..] else { panic!("one reason") };
@@ -27,7 +27,23 @@ fn where_nothing_is_safe_the_hindrances_are_told() {
 }
 
 #[test]
-fn each_hindrance_has_a_word() {
-    assert_eq!(of_hindrances(METAL | CHANGE_OF_LUMEN | FLAP), ["metal", "change of lumen", "flap"]);
-    assert_eq!(of_hindrances(0), Vec::<String>::new());
+fn of_many_reasons_those_of_the_most_sections_are_told() {
+    let mut stent = tube();
+    stent.flags.fill(METAL);
+    stent.flags[..60].fill(METAL | OUTSIDE);
+    stent.flags[..20].fill(METAL | OUTSIDE | BRANCH);
+    stent.flags[..5].fill(METAL | OUTSIDE | BRANCH | CALCIUM);
+    let [reason] = &not_suggested(&stent, None, &[])[..] else { panic!("one reason") };
+    assert!(reason.contains("(metal, outside, branch)"), "{reason}");
+}
+
+#[test]
+fn a_vessel_that_only_gets_thinner_says_so() {
+    let mut taper = tube();
+    for (n, area) in taper.area.iter_mut().enumerate() {
+        *area = (12.0 - 0.05 * n as f64).powi(2);
+    }
+    taper.flags.fill(0);
+    let [reason] = &not_suggested(&taper, None, &[])[..] else { panic!("one reason") };
+    assert!(reason.contains("gets thinner towards its end by itself"), "{reason}");
 }

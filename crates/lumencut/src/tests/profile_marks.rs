@@ -32,10 +32,22 @@ fn beside_two_references_none_is_offered() {
 #[test]
 fn an_offered_reference_is_never_graded_with() {
     let compared = Compared { reference: vec![40.0], ..Compared::default() };
-    let marked = Marked { at: Some(30.0), method: Method::Nascet, compared, group: None };
+    let marked =
+        Marked { at: Some(30.0), method: Method::Nascet, compared, group: None, diameters: Vec::new() };
     let grade = marked.grade(&tube()).expect("a marked place");
     let places: Vec<f64> =
         grade.stenosis().expect("a percentage").references.iter().map(|[at, _]| *at).collect();
     assert_eq!(places, [40.0]);
     assert_eq!(marked.places(&tube()).iter().filter(|mark| mark.is_suggestion).count(), 1);
+}
+
+#[test]
+fn noted_diameters_follow_the_other_places_and_grade_nothing() {
+    let diameters = vec![40.0, 10.0];
+    let marked =
+        Marked { at: None, method: Method::Nascet, compared: Compared::default(), group: None, diameters };
+    let noted: Vec<f64> =
+        marked.places(&tube()).iter().filter(|mark| mark.name == NOTED).map(|mark| mark.at).collect();
+    assert_eq!(noted, [10.0, 40.0]);
+    assert_eq!(marked.grade(&tube()), None);
 }

@@ -11,7 +11,7 @@ use crate::tube::tube;
 
 fn marked(at: Option<f64>, reference: &[f64]) -> Marked {
     let compared = Compared { reference: reference.to_vec(), ..Compared::default() };
-    Marked { at, method: Method::Nascet, compared, group: None }
+    Marked { at, method: Method::Nascet, compared, group: None, diameters: Vec::new() }
 }
 
 fn shown() -> Shown {
@@ -124,10 +124,10 @@ fn what_nobody_confirmed_stands_apart() {
 #[test]
 fn the_scan_and_the_date_stand_in_it_only_where_they_are_given() {
     let none = html_of(&shown(), &marked(None, &[]));
-    assert!(!none.contains("Scan:") && !none.contains("Saved on"));
+    assert!(none.contains("<h1>LAD, 60.0 mm</h1>") && !none.contains("Saved on"));
     let named = Shown { scan: Some("CT 4".to_owned()), saved: Some("2024-05-06".to_owned()), ..shown() };
     let text = html_of(&named, &marked(None, &[]));
-    assert!(text.contains("<p>Scan: CT 4</p>") && text.contains("<p>Saved on 2024-05-06</p>"));
+    assert!(text.contains("<h1>CT 4 – LAD, 60.0 mm</h1>") && text.contains("<p>Saved on 2024-05-06</p>"));
 }
 
 #[test]
@@ -171,13 +171,19 @@ fn lengths_that_a_reader_measured_are_told() {
     let profile = tube();
     let told = |shown: &Shown| {
         let mut page = page_of(&profile, "LAD", &marked(None, &[]), None);
-        page.lengths = Lengths { stretches: vec![[10.0, 30.0], [30.0, 50.0]], distances: vec![12.34] };
+        page.lengths = Lengths {
+            stretches: vec![[10.0, 30.0], [30.0, 50.0]],
+            diameters: vec![10.0],
+            distances: vec![12.34],
+        };
         html(shown, &[page]).expect("a report")
     };
     let text = told(&shown());
     assert!(text.contains("<p>Stretch: length 20.0 mm, straight 20.0 mm, tortuosity 1.000, C-arm "));
     assert!(text.contains("<p>Angle between both stretches: 0°</p>"));
     assert!(text.contains("<p>Straight distance 1: 12.3 mm</p>"));
+    assert!(text.contains(">Diameter: 8.00 ± 0.10 mm at 10.0 mm, 7.20 to 8.80 mm</p>"));
+    assert!(!text.contains("No percentage") && !text.contains("No reference is suggested"));
     assert!(
         !told(&Shown { stated: Stated { has_units: true, has_orientation: false }, ..shown() })
             .contains("C-arm")

@@ -40,6 +40,7 @@ pub fn tube() -> Profile {
         fwhm_source: Source::Given,
         wall_source: WallSource::NotAsked,
         on_vessel: at.iter().map(|at| DVec3::Z * *at).collect(),
+        without_wall: Vec::new(),
         arc_length: at,
     }
 }

@@ -231,3 +231,34 @@ fn the_window_of_a_mip_reaches_to_the_brightest_and_is_at_most_so_much_wider() {
     let found = of_mip(&volume(&voxels, [40; 3])).unwrap();
     assert!((found.level + found.width / 2.0 - 390.0).abs() < 1e-9, "{found:?}");
 }
+
+/// Air, fat and muscle with noise; in it a sac of 40 and, along i, a lumen of 350.
+fn sac() -> Vec<f32> {
+    grid([40, 40, 40], |[i, j, k]| {
+        let noise = ((i * 7919 + j * 104_729 + k * 1_299_709) % 97) as f32 / 97.0 - 0.5;
+        let value = match (j.abs_diff(20), k.abs_diff(20), k) {
+            (0..4, 0..4, _) => 350.0,
+            (0..10, 0..10, _) => 40.0,
+            (_, _, 0..4) => -1000.0,
+            (_, _, 4..8) => -100.0,
+            _ => 60.0,
+        };
+        value + 40.0 * noise
+    })
+}
+
+#[test]
+fn slices_without_vessels_show_a_sac_around_the_lumen() {
+    let voxels = sac();
+    let found = of_slices(&volume(&voxels, [40; 3])).unwrap();
+    let [sac, lumen] = [40.0, 350.0].map(|value| share(found, value));
+    assert!((0.12..0.35).contains(&sac), "{sac}");
+    assert!((0.55..=0.75).contains(&lumen), "{lumen}");
+}
+
+#[test]
+fn a_lumen_that_is_white_is_not_held() {
+    let voxels = rod();
+    let held = |level, width| holds_lumen(Window { level, width }, &volume(&voxels, [40; 3]), &tree(None));
+    assert_eq!([held(300.0, 900.0), held(200.0, 200.0), held(1000.0, 100.0)], [true, false, true]);
+}

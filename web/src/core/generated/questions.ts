@@ -228,7 +228,7 @@ export type Findings = {
 
 /** A flag of a section. */
 export type FlagLook = {
-  /** What tables and reports call it, such as `no edge`. */
+  /** What tables and reports call it, such as `no clear wall`. */
   readonly word: string;
   /** What it means, as a part of a sentence. */
   readonly meaning: string;
@@ -351,6 +351,8 @@ export type Marks = {
   readonly stretch: Pair | null;
   /** The ends of another stretch: the angle between both. */
   readonly secondStretch: Pair | null;
+  /** Places whose diameters are noted. */
+  readonly diameters: ReadonlyArray<number>;
 };
 
 /** A section: its number, its wall, and the ends of its shortest and longest diameter (mm, LPS). */
@@ -393,6 +395,18 @@ export type NamedWindow = {
   readonly words: string;
   /** Level and width. */
   readonly window: Pair;
+};
+
+/** A stretch of a vessel that was not measured. */
+export type NotMeasured = {
+  /** Where it begins (arc length, mm). */
+  readonly from_mm: number;
+  /** Where it ends (arc length, mm). */
+  readonly to_mm: number;
+  /** Where the vessel can be cut so that this stretch is off it (arc length, mm). */
+  readonly cut_mm: number;
+  /** That it was not measured, and why. */
+  readonly words: string;
 };
 
 /** A way to where the pointer is. */
@@ -473,7 +487,7 @@ export type Profile = {
   readonly uncertainty: ReadonlyArray<number | null>;
   /** Whether a section counts for what is narrowest, widest or suggested. */
   readonly counts: ReadonlyArray<boolean>;
-  /** Words such as `calcium`, `no edge`. */
+  /** Words such as `calcium`, `no clear wall`. */
   readonly flags: ReadonlyArray<ReadonlyArray<string>>;
   /** What calcium or metal beside the lumen leaves open, in words. */
   readonly bounds: ReadonlyArray<string | null>;
@@ -493,6 +507,8 @@ export type Profile = {
   readonly widest: Spot | null;
   /** Why no narrowest place, or no reference of it, is suggested: a sentence each. */
   readonly not_suggested: ReadonlyArray<string>;
+  /** The stretches that were not measured. */
+  readonly not_measured: ReadonlyArray<NotMeasured>;
 };
 
 /** A reformation as the page asks for it. */

@@ -40,5 +40,6 @@ pub fn profile(sections: &[[f64; 2]]) -> Profile {
         fwhm_source: Source::Given,
         wall_source: WallSource::NotAsked,
         on_vessel: vec![DVec3::ZERO; count],
+        without_wall: Vec::new(),
     }
 }

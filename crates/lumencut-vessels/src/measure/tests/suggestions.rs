@@ -148,3 +148,49 @@ fn the_longest_diameter_that_is_not_offered_is_known_all_the_same() {
     assert_eq!((odd.widest().map(|spot| spot.at), odd.offered_widest()), (Some(0.0), None));
     assert_eq!(profile(&[[f64::NAN; 2]; 4]).offered_widest(), None);
 }
+
+/// A vessel of 24 mm with one longest diameter and, in the same section, one shortest diameter that are made otherwise.
+fn spiked(longest: f64, shortest: f64, sections: std::ops::Range<usize>) -> Profile {
+    let mut profile = profile(&[[24.0, 0.2]; 60]);
+    for n in sections {
+        profile.diameter_max[n] = longest;
+        profile.diameter_min[n] = shortest;
+        profile.area[n] = std::f64::consts::PI * longest * shortest / 4.0;
+    }
+    profile
+}
+
+#[test]
+fn a_spike_of_the_fit_is_not_offered_as_the_longest_diameter() {
+    let spike = spiked(37.43, 24.1, 30..31);
+    assert_eq!(spike.widest().map(|spot| spot.diameter), Some(37.43));
+    assert_eq!(spike.offered_widest(), None, "the spike has the largest area too");
+    let mut beside_wider = spike;
+    beside_wider.diameter_max[50] = 33.0;
+    beside_wider.diameter_min[50] = 31.0;
+    beside_wider.area[50] = 900.0;
+    assert_eq!(beside_wider.offered_widest(), Some(Spot { at: 25.0, diameter: 33.0 }));
+}
+
+#[test]
+fn a_long_lumen_is_offered_where_its_neighbours_agree() {
+    assert_eq!(spiked(36.0, 24.0, 25..35).offered_widest().map(|spot| spot.diameter), Some(36.0));
+    assert_eq!(spiked(60.0, 24.0, 25..35).offered_widest(), None, "no lumen is so long");
+    // A round section needs no neighbours.
+    assert_eq!(spiked(30.0, 24.0, 30..31).offered_widest().map(|spot| spot.diameter), Some(30.0));
+}
+
+#[test]
+fn the_thin_end_of_a_vessel_is_no_narrowing() {
+    let taper: Vec<[f64; 2]> = (0..100).map(|n| [20.0 - 0.13 * f64::from(n), 0.1]).collect();
+    let only_thinner = profile(&taper);
+    assert_eq!((only_thinner.narrowest(), only_thinner.none_safe()), (None, None));
+    assert_eq!(only_thinner.thin_end().map(|spot| spot.at), Some(49.5));
+    let mut narrowed = profile(&taper);
+    for n in 40..45 {
+        narrowed.area[n] = 12.0_f64.powi(2) * std::f64::consts::PI / 4.0;
+    }
+    let spot = narrowed.narrowest().expect("a narrowing");
+    assert_eq!((spot.diameter, narrowed.thin_end()), (12.0, None));
+    assert!((20.0..=22.0).contains(&spot.at));
+}

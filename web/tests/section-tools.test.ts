@@ -1,0 +1,16 @@
+/** Where the buttons at the section stand, and how large the words of a key image are. */
+import { expect, test } from 'vitest';
+import { leftOf } from '../src/measure/chart-layout';
+import { fittingSize } from '../src/output/wrapping';
+
+test('the bar stands over its column and never runs off an edge', () => {
+  expect(leftOf(500, 400, 1000)).toBe(300);
+  expect(leftOf(990, 400, 1000)).toBe(596);
+  expect(leftOf(5, 400, 1000)).toBe(4);
+  expect(leftOf(100, 400, 300)).toBe(4);
+});
+
+test('words of a key image never reach into those beside them', () => {
+  expect(fittingSize(20, 400, 284)).toBe(14);
+  expect(fittingSize(20, 4000, 284)).toBe(11);
+});
