@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any, Literal, NamedTuple, TypeAlias
 
 MendName: TypeAlias = Literal[
-    "bridge", "every_second", "cpu", "windows", "threshold", "fewer_pixels",
+    "bridge", "every_second", "cpu", "windows", "threshold", "fewer_pixels", "doubtful", "smaller_radius",
     "coordinates", "unit", "place",
     "series", "phase", "fill_gaps", "resample_slices", "resample_and_fill",
 ]  # fmt: skip
@@ -68,8 +68,8 @@ class Mend:
     Attributes
     ----------
     name : str
-        The same on every host: "bridge", "every_second", "cpu", "windows", "threshold" and "fewer_pixels" of
-        tracing, devices and volumes; "coordinates", "unit" and "place" of centerlines; "series", "phase",
+        The same on every host: "bridge", "every_second", "cpu", "windows", "threshold", "fewer_pixels",
+        "doubtful" and "smaller_radius" of tracing, devices and volumes; "coordinates", "unit" and "place" of centerlines; "series", "phase",
         "fill_gaps", "resample_slices" and "resample_and_fill" of DICOM.
     values : tuple of str
         What can be chosen among, such as units or phases; empty where there is nothing to choose.
@@ -122,6 +122,8 @@ WORDS: dict[MendName, Callable[[Sequence[str]], _Parts]] = {
     "windows": _windows,
     "threshold": lambda _: (_THRESHOLD,),
     "fewer_pixels": _fewer_pixels,
+    "doubtful": lambda _: ("look at the doubtful ones in the viewer, `lumencut view`",),
+    "smaller_radius": lambda _: ("ask for a smaller radius",),
     "coordinates": lambda values: _one_of("coordinates", values),
     "unit": lambda values: _one_of("unit", values),
     "place": _place,

@@ -5,6 +5,12 @@ import { Viewer } from './page';
 
 export const rows = (viewer: Viewer): Locator => viewer.page.locator('aside > .vessel-rows > li');
 export const nameOf = (viewer: Viewer, n: number): Locator => rows(viewer).nth(n).locator('input.name');
+/** Gives a vessel of the list another name, by keys. */
+export async function rename(viewer: Viewer, n: number, name: string): Promise<void> {
+  await nameOf(viewer, n).press('F2');
+  await nameOf(viewer, n).fill(name);
+  await nameOf(viewer, n).press('Tab');
+}
 export const button = (viewer: Viewer, words: string): Locator =>
   viewer.page.getByRole('button', { name: words, exact: true });
 /** The size of a window in which the list lies beside the views. */

@@ -82,8 +82,9 @@ test('a tree is cleaned in a few actions: short vessels by a slider, doubtful br
   await viewer.page.getByText('Clean up', { exact: true }).click();
   const marked = viewer.page.locator('.vessel-rows .marked');
   await expect(marked).toHaveCount(0);
-  await expect(button(viewer, 'Remove 0 vessels')).toBeDisabled();
-  await viewer.page.getByLabel('Shorter than').fill('40');
+  await expect(button(viewer, 'Remove marked vessels')).toBeDisabled();
+  await viewer.page.getByRole('spinbutton', { name: 'Shorter than' }).fill('40');
+  await expect(viewer.page.getByRole('slider', { name: 'Shorter than' })).toHaveValue('40');
   const short = await marked.count();
   expect(short).toBeGreaterThan(0);
   expect(short).toBeLessThan(sure);

@@ -9,7 +9,7 @@ import {
   choose,
   drop,
   fileOf,
-  nameOf,
+  rename,
   rows,
   SESSION,
   saved,
@@ -76,8 +76,7 @@ async function work(): Promise<void> {
     await button(viewer, 'End this vessel').click();
   }
   await button(viewer, 'Done').click();
-  await nameOf(viewer, 0).fill('narrowed “A” – ä');
-  await nameOf(viewer, 0).press('Tab');
+  await rename(viewer, 0, 'narrowed “A” – ä');
   await viewer.page.getByLabel(/^Colour of narrowed/).selectOption({ index: 5 });
   await rows(viewer).nth(0).getByRole('radio').check();
   await button(viewer, 'Hide Vessel 2').click();

@@ -1,7 +1,7 @@
 /** Vessels are traced by clicks and by keys, edited, undone, saved and read again. */
 import { readFileSync } from 'node:fs';
 import { expect, type Locator, test } from '@playwright/test';
-import { button, nameOf, rows, SIZE, untraced } from './controls';
+import { button, nameOf, rename, rows, SIZE, untraced } from './controls';
 import { type PaneName, Viewer } from './page';
 
 const lengthOf = async (viewer: Viewer, n: number): Promise<number> =>
@@ -163,7 +163,7 @@ test('by keyboard alone: a vessel is traced, edited and saved', async ({ browser
   await expect(button(viewer, 'Undo')).toHaveAttribute('title', /begin a vessel/);
   await viewer.press('Escape');
   await nameOf(viewer, 0).focus();
-  await page.keyboard.press('Control+a');
+  await viewer.press('F2');
   await page.keyboard.type('by keys');
   await viewer.press('Tab');
   await expect(nameOf(viewer, 0)).toHaveValue('by keys');
@@ -211,8 +211,7 @@ test('two vessels that meet are joined, cut, hidden, and saved files are read ag
   await rows(viewer).nth(0).getByRole('radio').check();
   await expect(nameOf(viewer, 0)).toHaveAttribute('list', 'names-to-offer');
   await expect(page.locator('#names-to-offer option[value="Left renal artery"]')).toHaveCount(1);
-  await nameOf(viewer, 0).fill('to the right');
-  await nameOf(viewer, 0).press('Tab');
+  await rename(viewer, 0, 'to the right');
   const lengths = [await lengthOf(viewer, 0), await lengthOf(viewer, 1)];
   for (const kind of ['vtp', 'mrk.json']) {
     const [download] = await Promise.all([

@@ -1,6 +1,6 @@
 /** Every edit can be undone and done again, and nothing of a study is left in the next one. */
 import { expect, test } from '@playwright/test';
-import { button, choose, nameOf, rows, SESSION, saved, startTracing, stenosis } from './controls';
+import { button, choose, nameOf, rename, rows, SESSION, saved, startTracing, stenosis } from './controls';
 import { Viewer } from './page';
 import { NARROWED, openScan, STRAIGHT, traceTube, tubes } from './scans';
 
@@ -55,8 +55,7 @@ async function editVessels(): Promise<number> {
   await step(/bridge gaps/, () => page.getByLabel('Bridge gaps without lumen').check());
   await step(/leave gaps/, () => page.getByLabel('Bridge gaps without lumen').uncheck());
   await button(viewer, 'Done').click();
-  const name = nameOf(viewer, 0);
-  await step(/rename a vessel/, () => name.fill('narrowed').then(() => name.press('Tab')));
+  await step(/rename a vessel/, () => rename(viewer, 0, 'narrowed'));
   await step(/colour a vessel/, () => page.getByLabel('Colour of narrowed').selectOption({ index: 4 }));
   await rows(viewer).nth(1).getByRole('radio').check();
   await step(/cut a vessel/, () => button(viewer, 'Cut here').click());

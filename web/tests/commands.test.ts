@@ -164,7 +164,7 @@ test('what was odd about a mask is told once', async () => {
 test('all vessels of a scan are one step, and what is told of the scan is told once', async () => {
   tracing.notes = ['vessels have about 330, 322 above their surroundings'];
   expect(await findVessels(tracing)).toBe(true);
-  expect(tracing.edits.at(-1)?.edit).toEqual({ kind: 'find_vessels' });
+  expect(tracing.edits.at(-1)?.edit).toEqual({ kind: 'find_vessels', doubtful: false });
   expect(await findVessels(tracing)).toBe(true);
   expect(store.notes.value).toEqual(tracing.notes);
 });

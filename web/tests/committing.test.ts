@@ -30,7 +30,9 @@ afterEach(() => {
   vi.useRealTimers();
 });
 
-async function begun(edit: Edit = { kind: 'find_vessels' }): Promise<{ slow: Slow; done: Promise<unknown> }> {
+async function begun(
+  edit: Edit = { kind: 'find_vessels', doubtful: false },
+): Promise<{ slow: Slow; done: Promise<unknown> }> {
   const slow = new Slow();
   const done = commit(slow.asked, edit);
   await vi.advanceTimersByTimeAsync(0);

@@ -1,15 +1,26 @@
 import { afterEach, beforeEach, expect, test } from 'vitest';
-import type { LookRow, Report, SettingRow, Settings, Started } from '../src/core/messages';
+import type {
+  LookRow,
+  RegionRow,
+  Report,
+  SettingRow,
+  Settings,
+  Started,
+  Windows,
+} from '../src/core/messages';
 import { setSetting } from '../src/state/actions';
 import { undo } from '../src/state/history';
 import {
   chooseLines,
   chooseLook,
+  chooseRegion,
   chooseStent,
   chosenLook,
+  chosenRegion,
   isOffered,
   isStentShown,
   lines,
+  mayHoldStents,
 } from '../src/state/looks';
 import * as store from '../src/state/store';
 
@@ -30,6 +41,15 @@ const [LUMEN, FOCUS, BODY, MIP, SLAB] = [
 const LOOKS = [LUMEN, FOCUS, BODY, MIP, SLAB];
 const row = (name: string, value: SettingRow['default']) => ({ name, default: value }) as SettingRow;
 
+const windowsOf = (presets: Windows['presets'], known: Partial<Windows>): Windows => ({
+  main: [200, 600],
+  contexts: {},
+  presets,
+  is_hounsfield: false,
+  may_hold_stents: false,
+  ...known,
+});
+
 function open(vessels: number): void {
   store.report.value = {
     volume: null,
@@ -44,7 +64,7 @@ beforeEach(() => {
     row('silhouettes', true),
     row('silhouette_reach', 10),
   ];
-  store.started.value = { table, looks: LOOKS } as unknown as Started;
+  store.started.value = { table, looks: LOOKS, regions: [] } as unknown as Started;
   open(1);
 });
 
@@ -106,7 +126,8 @@ test('stents are read in the cut of the lumen and a window of their own, which u
     { name: 'stent', words: 'Stent', window: [400, 1500] },
   ] as const;
   const report = store.report.value as Report;
-  store.report.value = { ...report, windows: { main: [200, 600], contexts: {}, presets } };
+  store.report.value = { ...report, windows: windowsOf(presets, { may_hold_stents: true }) };
+  expect(mayHoldStents.value).toBe(true);
   store.window_.value = [200, 600];
   chooseLook(MIP);
   expect(isStentShown.value).toBe(false);
@@ -118,4 +139,40 @@ test('stents are read in the cut of the lumen and a window of their own, which u
   chooseStent();
   chooseLook(MIP);
   expect(isStentShown.value).toBe(false);
+  store.report.value = { ...report, windows: windowsOf(presets, {}) };
+  expect(mayHoldStents.value, 'an MRA holds nothing as bright as metal').toBe(false);
+});
+
+test('a region chooses look, slab and window, the latter by what the values stand for', () => {
+  const presets = [
+    { name: 'cta', words: 'CT angiography', window: [300, 900] },
+    { name: 'mra', words: 'MR angiography', window: [2037, 1039] },
+  ] as const;
+  const region = (name: string, settings: Settings): RegionRow => ({
+    name,
+    words: name,
+    sentence: name,
+    settings: { ...NONE, ...settings },
+    preset: 'cta',
+    preset_of_other_units: 'mra',
+  });
+  const regions = [region('carotid', {}), region('coronary', { slab: [5, 'max'] })];
+  store.started.value = { ...(store.started.value as Started), regions };
+  const report = store.report.value as Report;
+  store.report.value = { ...report, windows: windowsOf(presets, { is_hounsfield: true }) };
+  store.window_.value = [1, 2];
+  expect(chosenRegion.value).toBeNull();
+  chooseRegion('coronary');
+  expect([store.window_.value, chosenRegion.value]).toEqual([[300, 900], 'coronary']);
+  expect(store.settings.value).toMatchObject({ slab: [5, 'max'] });
+  expect(chosenLook.value, 'its slab is thinner than that of the look').toBeNull();
+  undo();
+  expect([store.window_.value, chosenRegion.value]).toEqual([[1, 2], null]);
+  store.report.value = { ...report, windows: windowsOf(presets, {}) };
+  chooseRegion('carotid');
+  expect([store.window_.value, chosenRegion.value, chosenLook.value]).toEqual([
+    [2037, 1039],
+    'carotid',
+    'lumen',
+  ]);
 });

@@ -1,18 +1,18 @@
 /** Cleaning a tree and walking through doubtful branches, with an engine that answers at once. */
 import { afterEach, beforeEach, expect, test, vi } from 'vitest';
 import type { Asked } from '../src/core/asked';
-import type { DocumentVessel, EditRequest, LineFacts } from '../src/core/messages';
+import type { DocumentVessel, EditRequest, LineFacts, Started } from '../src/core/messages';
 import { dropEdits } from '../src/edit/committing';
-import { answerDoubt, placeOfDoubt, showDoubt, stepDoubt } from '../src/edit/doubts';
+import { answerDoubt, countedDoubts, placeOfDoubt, reasonOf, showDoubt, stepDoubt } from '../src/edit/doubts';
 import { isListOpen } from '../src/edit/list-open';
 import { chosenDoubt } from '../src/edit/mode';
 import { tree } from '../src/edit/shown';
-import { apart, followFacts, keepPart, marked, removeMarked } from '../src/edit/tidying';
-import { listedVessels } from '../src/edit/vessel-order';
+import { apart, followFacts, keepPart, marked, reachOf, removeMarked } from '../src/edit/tidying';
+import { isTreeShown, listedVessels } from '../src/edit/vessel-order';
 import { EMPTY } from '../src/state/document';
 import { begin, document_, undo } from '../src/state/history';
-import { pickedVessel } from '../src/state/store';
-import { isTreeShown, markNone, shorterThan, thinnerThan } from '../src/state/tidy';
+import { pickedVessel, started } from '../src/state/store';
+import { markNone, shorterThan, thinnerThan, treeChosen } from '../src/state/tidy';
 
 // The page's own engine runs in a worker, which there is none of here.
 vi.mock('../src/client/shared', () => ({ engine: {} }));
@@ -103,6 +103,15 @@ test('short and thin vessels are marked while the limits move, and one step remo
   expect(ids()).toEqual([1, 2, 3, 4, 5, 6, 7, 8]);
 });
 
+test('a slider of limits reaches to what most vessels lie below, and no farther than is usual', () => {
+  const to = (last: number) => Array.from({ length: last + 1 }, (_, n) => n);
+  expect(reachOf(to(40), 60)).toBe(38);
+  expect(reachOf(to(100), 60), 'a pixel of a slider to 95 would be too much').toBe(60);
+  expect(reachOf(to(300), 60), 'a slider to 60 would leave most vessels').toBe(150);
+  expect(reachOf([5], 60)).toBe(5);
+  expect(reachOf([], 60), 'nothing is known yet').toBe(0);
+});
+
 test('only what hangs together with the picked vessel is kept; doubtful branches stay to be judged', async () => {
   expect(apart.value, 'none is picked').toEqual([]);
   pickedVessel.value = 3;
@@ -113,10 +122,12 @@ test('only what hangs together with the picked vessel is kept; doubtful branches
   expect(ids()).toEqual([1, 2, 3, 6, 7, 8]);
 });
 
-test('the list is a tree where that is chosen: branches under what they hang on, the widest first', () => {
+test('the list is a tree where vessels join, unless the reader wants none: branches under what they hang on, the widest first', () => {
   const rows = () => listedVessels.value.map(({ vessel, depth }) => [vessel.id, depth]);
+  treeChosen.value = false;
   expect(rows()).toEqual([1, 2, 3, 4, 5].map((id) => [id, 0]));
-  isTreeShown.value = true;
+  treeChosen.value = null;
+  expect(isTreeShown.value).toBe(true);
   expect(rows()).toEqual([
     [1, 0],
     [3, 1],
@@ -124,7 +135,26 @@ test('the list is a tree where that is chosen: branches under what they hang on,
     [5, 1],
     [4, 0],
   ]);
-  isTreeShown.value = false;
+  begin({ ...EMPTY, vessels: [SURE[0], SURE[3]] as DocumentVessel[] });
+  expect(isTreeShown.value, 'two that do not join').toBe(false);
+  treeChosen.value = true;
+  expect(isTreeShown.value).toBe(true);
+  begin({ ...EMPTY, vessels: [SURE[0]] as DocumentVessel[] });
+  expect(isTreeShown.value, 'one vessel is no tree').toBe(false);
+  treeChosen.value = null;
+});
+
+test('doubtful branches are counted by their reasons in a word, the most frequent one first', () => {
+  const doubts = [
+    { words: 'it is short', short: 'short' },
+    { words: 'it is bright on most sides: bone?', short: 'beside bone' },
+  ];
+  started.value = { doubts } as unknown as Started;
+  const [bone, short, other] = ['it is bright on most sides: bone?', 'it is short', 'as a session says'];
+  const all = [bone, short, short, other].map((doubt, n) => vessel(n, doubt ?? null));
+  expect(countedDoubts(all)).toBe('4 doubtful: 2 short, 1 beside bone, 1 as a session says');
+  expect(all.map(reasonOf)).toEqual(['beside bone', 'short', 'short', 'as a session says']);
+  started.value = null;
 });
 
 test('one walks through doubtful branches in a circle', async () => {

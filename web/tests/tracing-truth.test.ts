@@ -95,7 +95,7 @@ describe.skipIf(every.length === 0)('as Python', () => {
 
   test.each(every)('finds all vessels of $phantom', async ({ phantom, found: truths, told }) => {
     const { engine } = await opened(phantom);
-    const found = await edited(engine, { kind: 'find_vessels' });
+    const found = await edited(engine, { kind: 'find_vessels', doubtful: false });
     expect(found.notes).toEqual(told);
     expect(found.document.vessels.map(({ name }) => name)).toEqual(truths.map((_, n) => `Vessel ${n + 1}`));
     for (const [n, truth] of truths.entries()) {

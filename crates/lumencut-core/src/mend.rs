@@ -18,12 +18,24 @@ pub enum Mend {
     Threshold,
     /// Ask for fewer pixels: larger ones, or a narrower picture.
     FewerPixels,
+    /// Look at the vessels that were found but are doubtful.
+    Doubtful,
+    /// Look for thinner vessels too.
+    SmallerRadius,
 }
 
 impl Mend {
     /// Every mend of this crate.
-    pub const ALL: [Self; 6] =
-        [Self::Bridge, Self::EverySecond, Self::Cpu, Self::Windows, Self::Threshold, Self::FewerPixels];
+    pub const ALL: [Self; 8] = [
+        Self::Bridge,
+        Self::EverySecond,
+        Self::Cpu,
+        Self::Windows,
+        Self::Threshold,
+        Self::FewerPixels,
+        Self::Doubtful,
+        Self::SmallerRadius,
+    ];
 
     /// The name by which every host knows it.
     pub const fn name(self) -> &'static str {
@@ -34,6 +46,8 @@ impl Mend {
             Self::Windows => "windows",
             Self::Threshold => "threshold",
             Self::FewerPixels => "fewer_pixels",
+            Self::Doubtful => "doubtful",
+            Self::SmallerRadius => "smaller_radius",
         }
     }
 }
@@ -47,6 +61,8 @@ impl fmt::Display for Mend {
             Self::Windows => "state the windows where they stand for nothing",
             Self::Threshold => "compare the values with a threshold first",
             Self::FewerPixels => "larger pixels or a smaller width make fewer",
+            Self::Doubtful => "look at the doubtful ones",
+            Self::SmallerRadius => "ask for a smaller radius",
         })
     }
 }

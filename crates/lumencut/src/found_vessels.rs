@@ -55,6 +55,17 @@ pub fn told(trees: &Trees, smallest_radius: f64) -> Result<FoundTree> {
     Err(refusals::no_vessel(trees.vessels.len(), smallest_radius))
 }
 
+/// What is told of all vessels of a scan, also where none of them is sure, as a reader who looks at each of them wants it.
+///
+/// # Errors
+/// [`lumencut_core::error::ErrorKind::Tracing`] where not even a doubtful one was found.
+pub fn told_with_doubtful(trees: &Trees, smallest_radius: f64) -> Result<FoundTree> {
+    if trees.vessels.is_empty() {
+        return Err(refusals::no_vessel(0, smallest_radius));
+    }
+    Ok(found(trees.clone()))
+}
+
 /// The vessels that hang together with the one that a seed (mm, LPS) lies in.
 ///
 /// # Errors

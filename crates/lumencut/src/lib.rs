@@ -51,6 +51,7 @@ mod tube;
 pub mod turn;
 pub mod uncurling;
 pub mod value_colours;
+mod value_unit;
 pub mod vessel_views;
 pub mod views;
 pub mod window_presets;

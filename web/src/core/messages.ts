@@ -1,5 +1,5 @@
 /** What the page and its worker tell each other. What the engine is asked and answers is written of its own table of questions. */
-import type { LookRow, Picture, SettingRow } from './generated/questions';
+import type { DoubtRow, LookRow, Picture, RegionRow, SettingRow } from './generated/questions';
 
 export type * from './generated/questions';
 export type * from './plain';
@@ -55,6 +55,9 @@ export interface Started {
   readonly isIsolated: boolean;
   readonly table: readonly SettingRow[];
   readonly looks: readonly LookRow[];
+  readonly regions: readonly RegionRow[];
+  /** The reasons for which vessels are doubtful. */
+  readonly doubts: readonly DoubtRow[];
   /** Where the page says stop to work under way, where it shares the worker's memory. */
   readonly stop: { readonly buffer: SharedArrayBuffer; readonly address: number } | null;
 }

@@ -2,8 +2,8 @@
 import type { Asked } from '../core/asked';
 import type { Edit, Edited, GivenFile, Vector } from '../core/messages';
 import { notes } from '../state/store';
-import { isTreeShown } from '../state/tidy';
 import { commit, isDone } from './committing';
+import { openList } from './list-open';
 
 /** Adds all branches that a seed reaches; doubtful ones wait until they are accepted. */
 export const addBranches = (engine: Asked, seed: Vector): Promise<boolean> =>
@@ -17,12 +17,19 @@ export const accept = (engine: Asked, ids: readonly number[]): Promise<boolean> 
 export const leaveOut = (engine: Asked, ids: readonly number[]): Promise<boolean> =>
   isDone(commit(engine, { kind: 'leave_out', ids }));
 
-/** Adds all vessels of the scan, listed as a tree; doubtful ones wait until they are accepted. */
-export async function findVessels(engine: Asked): Promise<boolean> {
-  const isFound = await addMany(engine, { kind: 'find_vessels' });
-  // Of many vessels the widest one is looked for first, and then what hangs on it.
-  isTreeShown.value ||= isFound;
-  return isFound;
+/**
+ * Adds all vessels of the scan, listed as a tree; doubtful ones wait until they are accepted. Where none is sure that is refused,
+ * unless `doubtful` ones are wanted all the same.
+ */
+export async function findVessels(engine: Asked, doubtful = false): Promise<boolean> {
+  return await addMany(engine, { kind: 'find_vessels', doubtful });
+}
+
+/** Finds all vessels; what was found, and what of it is doubtful, is told in the list. */
+export async function findAndList(engine: Asked, doubtful = false): Promise<void> {
+  if (await findVessels(engine, doubtful)) {
+    openList();
+  }
 }
 
 /** Adds the vessels of a mask. */

@@ -5,11 +5,26 @@ import { placeCrossHair } from '../link/cross-hair';
 import { doubtful, vesselOf } from '../state/changes';
 import { flyToAnswer } from '../state/flight';
 import { document_ } from '../state/history';
-import { camera } from '../state/store';
+import { camera, started } from '../state/store';
 import { tellFailure } from '../state/telling';
 import { accept, leaveOut } from './branches';
 import { contents } from './lines';
 import { chosenDoubt } from './mode';
+
+/** Why a vessel is doubtful, in a word or two where the engine has them. */
+export function reasonOf({ doubt }: DocumentVessel): string {
+  return started.value?.doubts.find(({ words }) => words === doubt)?.short ?? doubt ?? '';
+}
+
+/** How many vessels are doubtful, and for which reasons, the most frequent one first. */
+export function countedDoubts(vessels: readonly DocumentVessel[]): string {
+  const counts = new Map<string, number>();
+  for (const reason of vessels.map(reasonOf)) {
+    counts.set(reason, (counts.get(reason) ?? 0) + 1);
+  }
+  const counted = [...counts].sort(([, a], [, b]) => b - a).map(([reason, count]) => `${count} ${reason}`);
+  return `${vessels.length} doubtful: ${counted.join(', ')}`;
+}
 
 /** The place of the doubtful branch that is chosen among them, from 0, and how many there are. */
 export function placeOfDoubt(): readonly [number, number] {

@@ -43,6 +43,19 @@ async function ask(engine: Asked, lines: readonly LineId[]): Promise<void> {
   }
 }
 
+/** Which part of the values a slider of limits reaches: nobody removes all vessels by one. */
+const MOST = 0.95;
+
+/**
+ * How far a slider of limits reaches: to what most of the values lie below, but no farther than `usual`, so that a pixel of it is
+ * little; where most of them lie beyond that, to their middle.
+ */
+export function reachOf(values: readonly number[], usual: number): number {
+  const ordered = [...values].sort((a, b) => a - b);
+  const below = (part: number) => ordered[Math.round(part * (ordered.length - 1))] ?? 0;
+  return Math.min(below(MOST), Math.max(usual, below(0.5)));
+}
+
 function isMarked(vessel: DocumentVessel): boolean {
   const { length = Number.POSITIVE_INFINITY, calibre = null } = factsOf(vessel) ?? {};
   return length < shorterThan.value || (calibre !== null && calibre < thinnerThan.value);

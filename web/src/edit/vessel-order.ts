@@ -1,7 +1,7 @@
 /** The order of the list of vessels: as they came, or as a tree in which branches stand under what they hang on, the widest first. */
 import { computed } from '@preact/signals';
 import type { DocumentVessel, LineFacts } from '../core/messages';
-import { isTreeShown } from '../state/tidy';
+import { treeChosen } from '../state/tidy';
 import { factsOf, sure } from './tidying';
 
 /** A row of the list. */
@@ -10,6 +10,13 @@ export interface ListedVessel {
   /** How many others it hangs on, one on the other. */
   readonly depth: number;
 }
+
+/** Whether the list shows the vessels as a tree: by itself where some of them join. */
+export const isTreeShown = computed<boolean>(
+  () =>
+    sure.value.length > 1 &&
+    (treeChosen.value ?? sure.value.some((vessel) => (factsOf(vessel)?.parent ?? null) !== null)),
+);
 
 /** The rows of the list. */
 export const listedVessels = computed<readonly ListedVessel[]>(() =>

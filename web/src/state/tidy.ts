@@ -5,8 +5,8 @@ import { signal } from '@preact/signals';
 export const shorterThan = signal(0);
 export const thinnerThan = signal(0);
 
-/** Whether the list shows the vessels as a tree. */
-export const isTreeShown = signal(false);
+/** Whether the reader wants the list to show the vessels as a tree; null as long as that was not chosen. */
+export const treeChosen = signal<boolean | null>(null);
 
 /** The vessel of the document whose row the pointer is over. */
 export const lit = signal<number | null>(null);

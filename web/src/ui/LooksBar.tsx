@@ -5,12 +5,15 @@ import { setSetting, settingOf } from '../state/actions';
 import {
   chooseLines,
   chooseLook,
+  chooseRegion,
   chooseStent,
   chosenLook,
+  chosenRegion,
   isOffered,
   isStentShown,
   type Lines,
   lines,
+  mayHoldStents,
   STENT_LOOK,
 } from '../state/looks';
 import { hasTree, hasVolume, started } from '../state/store';
@@ -19,7 +22,7 @@ import { hasTree, hasVolume, started } from '../state/store';
 const WIDEST = 30;
 const LINES: readonly (readonly [Lines, string])[] = [
   ['none', 'No lines'],
-  ['near', 'Lines near vessels'],
+  ['near', 'Lines near'],
   ['all', 'All lines'],
 ];
 
@@ -35,8 +38,9 @@ export function LooksBar() {
         {(started.value?.looks ?? []).map((look) => (
           <LookButton key={look.name} look={look} />
         ))}
-        {hasTree.value && <StentButton />}
+        {mayHoldStents.value && <StentButton />}
       </fieldset>
+      {hasTree.value && <RegionChoice />}
       <Reach />
       {hasTree.value && <LinesChoice />}
     </div>
@@ -54,6 +58,24 @@ function StentButton() {
     >
       Stent
     </button>
+  );
+}
+
+/** A look, a window and a slab at once, by the region of the body that is read. */
+function RegionChoice() {
+  const regions = started.value?.regions ?? [];
+  return (
+    <label title="Look, window and slab as a region of the body is mostly read">
+      <span class="hidden-words">Look by region</span>
+      <select value={chosenRegion.value ?? ''} onChange={(event) => chooseRegion(event.currentTarget.value)}>
+        <option value="">By region</option>
+        {regions.map(({ name, words, sentence }) => (
+          <option key={name} value={name} title={`Shows ${sentence}`}>
+            {words}
+          </option>
+        ))}
+      </select>
+    </label>
   );
 }
 

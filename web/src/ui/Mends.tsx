@@ -19,6 +19,8 @@ const BUTTONS: Record<MendName, (mend: Mend) => readonly Button[]> = {
   windows: NONE,
   threshold: NONE,
   fewer_pixels: NONE,
+  doubtful: NONE,
+  smaller_radius: NONE,
   coordinates: spaces,
   unit: ({ values }) => values.map((unit) => [`Read in ${unit}`, { unit }]),
   place: spaces,

@@ -2,6 +2,7 @@
 
 import { engine } from '../client/shared';
 import { CRASH, type Failure } from '../core/failure';
+import { findAndList } from '../edit/branches';
 import { isLong, refusal } from '../edit/committing';
 import { performAny } from '../edit/performing';
 import { saveSession } from '../output/session';
@@ -15,7 +16,7 @@ export function Messages() {
       {progress.value && <Loading />}
       {problem.value && <Problem />}
       {told.value && (
-        <div class="message" role="status" data-testid="told">
+        <div class="message told" role="status" data-testid="told">
           {told.value}
         </div>
       )}
@@ -73,6 +74,7 @@ function Problem() {
       )}
       <Mends failure={failure} />
       <Bridging failure={failure} />
+      {failure.isMendedBy('doubtful') && <DoubtfulOnes />}
       {failure.kind === CRASH && (
         <button type="button" onClick={() => void saveSession().catch(tellFailure)}>
           Save the session
@@ -108,6 +110,15 @@ function Bridging({ failure }: { readonly failure: Failure }) {
       </button>
     </>
   ) : null;
+}
+
+/** Where no vessel is sure the doubtful ones can be looked at. */
+function DoubtfulOnes() {
+  return (
+    <button type="button" onClick={() => void findAndList(engine, true)}>
+      Show the doubtful ones
+    </button>
+  );
 }
 
 function Sentences({ failure }: { readonly failure: Failure }) {

@@ -1,29 +1,33 @@
-/** Cleaning a tree: sliders mark what is short or thin, one button removes it, another one all that is not connected. */
+/** Cleaning a tree: limits mark what is short or thin, one button removes it, another one all that is not connected. */
 import type { Signal } from '@preact/signals';
 import { engine } from '../client/shared';
-import { apart, factsOf, keepPart, marked, removeMarked, sure } from '../edit/tidying';
+import { apart, factsOf, keepPart, marked, reachOf, removeMarked, sure } from '../edit/tidying';
 import { hasMillimetres } from '../state/millimetres';
 import { shorterThan, thinnerThan } from '../state/tidy';
 
-/** Fewer vessels are tidied by hand. */
-const FEW = 4;
+/** Below these (mm) lies what most readers remove; the numbers beside the sliders take larger ones. */
+const USUAL_LENGTH = 60;
+const USUAL_CALIBRE = 10;
 
 export function TidyPart() {
-  if (sure.value.length < FEW) {
+  // One vessel alone has nothing to be told apart from.
+  if (sure.value.length < 2) {
     return null;
   }
   const count = marked.value.size;
   const known = sure.value.map(factsOf);
-  const longest = Math.max(...known.map((facts) => facts?.length ?? 0));
-  const widest = Math.max(...known.map((facts) => facts?.calibre ?? 0));
+  const lengths = known.flatMap((facts) => facts?.length ?? []);
+  const calibres = known.flatMap((facts) => facts?.calibre ?? []);
   return (
     <details class="tidy">
       <summary>Clean up</summary>
-      <Limit words="Shorter than" limit={shorterThan} most={longest} step={1} />
-      {widest > 0 && <Limit words="Thinner than" limit={thinnerThan} most={widest} step={0.1} />}
+      <Limit words="Shorter than" limit={shorterThan} most={reachOf(lengths, USUAL_LENGTH)} step={1} />
+      {calibres.length > 0 && (
+        <Limit words="Thinner than" limit={thinnerThan} most={reachOf(calibres, USUAL_CALIBRE)} step={0.1} />
+      )}
       <div class="buttons">
         <button type="button" disabled={count === 0} onClick={() => void removeMarked(engine)}>
-          {count === 1 ? 'Remove 1 vessel' : `Remove ${count} vessels`}
+          {removeWords(count)}
         </button>
         <button
           type="button"
@@ -40,6 +44,13 @@ export function TidyPart() {
   );
 }
 
+function removeWords(count: number): string {
+  if (count === 0) {
+    return 'Remove marked vessels';
+  }
+  return count === 1 ? 'Remove 1 vessel' : `Remove ${count} vessels`;
+}
+
 interface LimitProps {
   readonly words: string;
   readonly limit: Signal<number>;
@@ -47,22 +58,34 @@ interface LimitProps {
   readonly step: number;
 }
 
-/** A limit (mm) from 0 to beyond the largest of all vessels. */
+/** A limit (mm), by a slider or as a number, which may lie beyond the end of the slider. */
 function Limit({ words, limit, most, step }: LimitProps) {
+  const take = (event: { readonly currentTarget: HTMLInputElement }) => {
+    // A field that is being emptied is no number: it marks nothing.
+    limit.value = Math.max(Number(event.currentTarget.value), 0);
+  };
+  const unit = hasMillimetres.value ? ' (mm)' : '';
   return (
-    <label>
+    <div class="tidy-limit">
       <span>{words}</span>
       <input
         type="range"
+        aria-label={words}
         min="0"
-        max={Math.ceil(most / step + 1) * step}
+        max={Math.max(Math.ceil(most / step) * step, step)}
         step={step}
         value={limit.value}
-        onInput={(event) => {
-          limit.value = Number(event.currentTarget.value);
-        }}
+        onInput={take}
       />
-      <span class="length">{`${limit.value.toFixed(step < 1 ? 1 : 0)}${hasMillimetres.value ? ' mm' : ''}`}</span>
-    </label>
+      <input
+        type="number"
+        aria-label={`${words}${unit}`}
+        min="0"
+        step={step}
+        value={limit.value}
+        onInput={take}
+      />
+      <span>{hasMillimetres.value ? 'mm' : ''}</span>
+    </div>
   );
 }

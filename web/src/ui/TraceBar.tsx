@@ -1,11 +1,10 @@
 /** What can be done next about vessels, over the views: the offer to trace, what a click does now, and a doubtful branch. */
 import { useSignal } from '@preact/signals';
 import { engine } from '../client/shared';
-import { findVessels } from '../edit/branches';
+import { findAndList } from '../edit/branches';
 import { waiting } from '../edit/committing';
 import { answerDoubt, placeOfDoubt, stepDoubt } from '../edit/doubts';
 import { candidate, coming, drawn, isDrawing } from '../edit/drawing';
-import { openList } from '../edit/list-open';
 import { chosenDoubt } from '../edit/mode';
 import { performAny } from '../edit/performing';
 import { acceptCandidate, endVessel } from '../edit/pointing';
@@ -38,13 +37,6 @@ export function TraceBar() {
   ) : null;
 }
 
-/** Finds all vessels; what was found, and what of it is doubtful, is told in the list. */
-async function findAll(): Promise<void> {
-  if (await findVessels(engine)) {
-    openList();
-  }
-}
-
 /** Without centerlines the page offers to find and to trace them. */
 function Offer() {
   const isClosed = useSignal(false);
@@ -58,7 +50,7 @@ function Offer() {
         type="button"
         disabled={waiting.value > 0}
         title="All vessels that are brighter than the tissue around them"
-        onClick={() => void findAll()}
+        onClick={() => void findAndList(engine)}
       >
         Find all vessels
       </button>

@@ -1,25 +1,23 @@
 /** The list of vessels: their names, colours and lengths, and what can be done with all of them. */
 
 import { engine } from '../client/shared';
-import type { DocumentVessel } from '../core/messages';
 import { namesToOffer } from '../edit/anatomy';
-import { accept, findVessels, leaveOut } from '../edit/branches';
+import { findVessels } from '../edit/branches';
 import { setBridge } from '../edit/clicks';
-import { showDoubt, stepDoubt } from '../edit/doubts';
-import { lengthOf } from '../edit/lines';
 import { isListOpen } from '../edit/list-open';
-import { chosenDoubt, isTracing, toggleTool } from '../edit/mode';
+import { isTracing, toggleTool } from '../edit/mode';
 import { performAny } from '../edit/performing';
 import { STOPPER } from '../edit/stoppers';
-import { listedVessels } from '../edit/vessel-order';
+import { isTreeShown, listedVessels } from '../edit/vessel-order';
 import { remove } from '../edit/vessels';
-import { doubtful, nameOf } from '../state/changes';
+import { doubtful } from '../state/changes';
 import { document_ } from '../state/history';
 import { hasMillimetres } from '../state/millimetres';
-import { isTreeShown } from '../state/tidy';
+import { treeChosen } from '../state/tidy';
 import { CenterlineFiles } from './CenterlineFiles';
+import { DoubtfulPart } from './DoubtfulPart';
 import { TidyPart } from './TidyPart';
-import { lighting, NAMES_TO_OFFER, VesselRow } from './VesselRow';
+import { NAMES_TO_OFFER, VesselRow } from './VesselRow';
 
 export function VesselList() {
   if (!isListOpen.value) {
@@ -30,9 +28,9 @@ export function VesselList() {
     <aside class="vessels" aria-label="List of vessels">
       <Closing />
       <Means />
-      <Doubtful vessels={doubtful(document_.value)} />
+      <DoubtfulPart vessels={doubtful(document_.value)} />
       <TidyPart />
-      {vessels.length === 0 ? <p class="notice">No vessels yet.</p> : null}
+      {document_.value.vessels.length === 0 ? <p class="notice">No vessels yet.</p> : null}
       {vessels.length > 1 && <TreeChoice />}
       <ul class="vessel-rows">
         {listedVessels.value.map(({ vessel, depth }) => (
@@ -73,7 +71,7 @@ function TreeChoice() {
           type="checkbox"
           checked={isTreeShown.value}
           onChange={(event) => {
-            isTreeShown.value = event.currentTarget.checked;
+            treeChosen.value = event.currentTarget.checked;
           }}
         />
         {`As a tree, the widest first${hasMillimetres.value ? ' (diameter × length, mm)' : ''}`}
@@ -130,65 +128,3 @@ function Means() {
     </div>
   );
 }
-
-/** Branches that are to be accepted or left out. */
-function Doubtful({ vessels }: { readonly vessels: readonly DocumentVessel[] }) {
-  const ids = vessels.map((vessel) => vessel.id);
-  if (ids.length === 0) {
-    return null;
-  }
-  return (
-    <section class="doubtful-rows" aria-label="Doubtful branches">
-      <h3>{ids.length === 1 ? '1 doubtful branch' : `${ids.length} doubtful branches`}</h3>
-      {[...new Set(vessels.map((vessel) => vessel.doubt))].map((doubt) => (
-        <p key={doubt} class="notice">
-          {`${doubt?.[0]?.toUpperCase() ?? ''}${doubt?.slice(1) ?? ''}.`}
-        </p>
-      ))}
-      <div class="buttons">
-        <button type="button" title="Each in turn (.), with its reason" onClick={() => stepDoubt(engine, 1)}>
-          Look at each
-        </button>
-        <button type="button" onClick={() => void accept(engine, ids)}>
-          Accept all
-        </button>
-        <button type="button" onClick={() => void leaveOut(engine, ids)}>
-          Leave all out
-        </button>
-      </div>
-      <ul class="vessel-rows">
-        {vessels.map((vessel) => (
-          <li key={vessel.id} class={vessel.id === chosenDoubt.value ? 'picked' : ''} {...lighting(vessel)}>
-            <button
-              type="button"
-              class="name"
-              title={vessel.doubt ?? ''}
-              aria-label={`Show ${nameOf(vessel)}`}
-              onClick={() => void showDoubt(engine, vessel)}
-            >
-              {nameOf(vessel)}
-            </button>
-            <span class="length">{lengthText(vessel)}</span>
-            <button
-              type="button"
-              aria-label={`Accept ${nameOf(vessel)}`}
-              onClick={() => void accept(engine, [vessel.id])}
-            >
-              ✓
-            </button>
-            <button
-              type="button"
-              aria-label={`Leave ${nameOf(vessel)} out`}
-              onClick={() => void leaveOut(engine, [vessel.id])}
-            >
-              ✕
-            </button>
-          </li>
-        ))}
-      </ul>
-    </section>
-  );
-}
-
-const lengthText = (vessel: DocumentVessel): string =>
-  `${lengthOf(vessel.line).toFixed(1)}${hasMillimetres.value ? ' mm' : ''}`;

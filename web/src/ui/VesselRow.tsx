@@ -1,11 +1,12 @@
 /** A vessel of the list; the one that is picked shows what can be done with it. */
 import { batch } from '@preact/signals';
-import { useState } from 'preact/hooks';
+import { useEffect, useRef, useState } from 'preact/hooks';
 import { engine } from '../client/shared';
 import type { DocumentVessel } from '../core/messages';
 import { lengthOf } from '../edit/lines';
 import { pickedId, tree } from '../edit/shown';
 import { factsOf, marked, sure } from '../edit/tidying';
+import { isTreeShown } from '../edit/vessel-order';
 import { cut, hide, join, recolor, remove, rename } from '../edit/vessels';
 import { placeCrossHair } from '../link/cross-hair';
 import { nameOf } from '../state/changes';
@@ -14,7 +15,7 @@ import { document_ } from '../state/history';
 import { hasMillimetres } from '../state/millimetres';
 import { PALETTE } from '../state/palette';
 import { pickedPlace, pickedVessel, report } from '../state/store';
-import { isTreeShown, lit } from '../state/tidy';
+import { lit } from '../state/tidy';
 import { active, tool } from '../state/tool';
 import { BestViewButton } from './BestViewButton';
 
@@ -31,8 +32,16 @@ const DEEPEST = 4;
 export function VesselRow({ vessel, depth }: RowProps & { readonly depth: number }) {
   const isPicked = vessel.id === pickedId();
   const name = nameOf(vessel);
+  const row = useRef<HTMLLIElement>(null);
+  // In a long list the picked vessel may be far below, as after a click in a view.
+  useEffect(() => {
+    if (isPicked) {
+      row.current?.scrollIntoView({ block: 'nearest' });
+    }
+  }, [isPicked]);
   return (
     <li
+      ref={row}
       class={rowClass(isPicked, marked.value.has(vessel.id))}
       data-vessel={vessel.id}
       data-depth={depth}
@@ -48,7 +57,7 @@ export function VesselRow({ vessel, depth }: RowProps & { readonly depth: number
         onChange={() => void pick(vessel)}
       />
       <ColorChoice vessel={vessel} />
-      <NameField vessel={vessel} />
+      <NameField vessel={vessel} isPicked={isPicked} />
       <span class="length" title={calibreWords(vessel)}>
         {isTreeShown.value ? sizeText(vessel) : `${lengthText(vessel)}${hasMillimetres.value ? ' mm' : ''}`}
       </span>
@@ -80,24 +89,46 @@ export const lighting = ({ id }: DocumentVessel) => ({
   },
 });
 
-/** The name of a vessel, as it is typed until that is done. */
-function NameField({ vessel }: RowProps) {
+/**
+ * The name of a vessel: a click picks its vessel; a click on that of the picked one, a double click, Enter and F2 begin to change it,
+ * and what is typed counts when that is done.
+ */
+function NameField({ vessel, isPicked }: RowProps & { readonly isPicked: boolean }) {
   const [typed, setTyped] = useState<string | null>(null);
-  const done = (text: string) => {
-    setTyped(null);
-    void rename(vessel.id, text.trim());
+  const begin = (field: HTMLInputElement) => {
+    if (typed === null) {
+      setTyped(vessel.name);
+      field.select();
+    }
   };
   return (
     <input
       class="name"
+      readOnly={typed === null}
+      title={typed === null ? nameOf(vessel) : ''}
       list={NAMES_TO_OFFER}
       value={typed ?? vessel.name}
       placeholder={nameOf(vessel)}
       aria-label={`Name of ${nameOf(vessel)}`}
+      onClick={(event) => (isPicked ? begin(event.currentTarget) : pickShown(vessel))}
+      onDblClick={(event) => begin(event.currentTarget)}
+      onKeyDown={(event) => {
+        if (event.key === 'F2' || (event.key === 'Enter' && typed === null)) {
+          begin(event.currentTarget);
+        }
+      }}
       onInput={(event) => setTyped(event.currentTarget.value)}
-      onChange={(event) => done(event.currentTarget.value)}
+      onChange={(event) => void rename(vessel.id, event.currentTarget.value.trim())}
+      onBlur={() => setTyped(null)}
     />
   );
+}
+
+/** A vessel that is hidden has no place in the views that could be shown. */
+function pickShown(vessel: DocumentVessel): void {
+  if (!vessel.isHidden) {
+    void pick(vessel);
+  }
 }
 
 /** The length of a vessel; as long as it is traced anew, what it was, and where that is not known yet, no number. */

@@ -45,8 +45,10 @@ function isPress(target: EventTarget | null, key: string): boolean {
   return isPressed && (key === ' ' || key === 'Enter');
 }
 
-/** Whether keys are typed into what has the focus: it is no box that is only checked. */
+/** Whether keys are typed into what has the focus: it is no box that is only checked, and no name before it is changed. */
 function isField(target: EventTarget | null): boolean {
   const isBox = target instanceof HTMLInputElement && ['checkbox', 'radio'].includes(target.type);
-  return (target instanceof HTMLInputElement && !isBox) || target instanceof HTMLSelectElement;
+  return (
+    (target instanceof HTMLInputElement && !isBox && !target.readOnly) || target instanceof HTMLSelectElement
+  );
 }

@@ -54,6 +54,8 @@ export class EngineHost {
         isIsolated: self.crossOriginIsolated,
         table: askAtOnce('settings_table', null),
         looks: askAtOnce('looks', null),
+        regions: askAtOnce('regions', null),
+        doubts: askAtOnce('doubt_rows', null),
         stop: isShared ? { buffer, address: Engine.stop_address() } : null,
       };
     });

@@ -14,6 +14,7 @@ use serde::Serialize;
 use crate::scan_details::ScanDetails;
 use crate::study::failure::Result;
 use crate::study::held_volume::HeldVolume;
+use crate::value_unit::ValueUnit;
 use crate::windows;
 
 /// A tree with the names and the lines of its vessels.
@@ -125,6 +126,10 @@ pub struct Windows {
     contexts: BTreeMap<&'static str, LevelWidth>,
     /// Those that have a name, in the order to show them.
     presets: Vec<NamedWindow>,
+    /// Whether the values are Hounsfield units by what they are: the windows for CT hold for them.
+    is_hounsfield: bool,
+    /// Whether the window for stents shows something: in Hounsfield units, and where values are as bright as metal.
+    may_hold_stents: bool,
 }
 
 /// A window that has a name, with its numbers for what is open.
@@ -217,7 +222,15 @@ impl Content {
             };
             NamedWindow { name: preset.name, words: preset.words, window }
         });
-        Ok(Some(Windows { main, contexts: contexts.collect(), presets: presets.to_vec() }))
+        let [level, width] = found[DataWindow::Auto.name()];
+        let unit = ValueUnit::of(volume, Window { level, width });
+        Ok(Some(Windows {
+            main,
+            contexts: contexts.collect(),
+            presets: presets.to_vec(),
+            is_hounsfield: unit.is_hounsfield,
+            may_hold_stents: unit.is_hounsfield || unit.has_metal,
+        }))
     }
 
     /// What a view of all of it must show: the corners of the volume, or the points of the tree.

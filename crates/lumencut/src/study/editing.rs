@@ -37,7 +37,9 @@ impl Study {
             Edit::AddWholeVessel { click } => {
                 self.add_whole_vessel(&mut draft, *click, watch).map(|()| false)
             }
-            Edit::FindVessels => self.add_found(&mut draft, &mut notes, watch).map(|()| false),
+            Edit::FindVessels { doubtful } => {
+                self.add_found(&mut draft, *doubtful, watch).map(|told| notes = told).map(|()| false)
+            }
             Edit::AddMask => self.add_mask(&mut draft, &mut notes, watch).map(|()| false),
             Edit::Cut { id, at } => self.cut_vessel(&mut draft, *id, *at).map(|()| false),
             Edit::Join { id, other } => self.join_vessels(&mut draft, *id, *other).map(|()| false),
@@ -84,13 +86,13 @@ impl Study {
         Ok(())
     }
 
-    fn add_found(&mut self, draft: &mut Draft, notes: &mut Vec<String>, watch: Watch) -> Result<()> {
-        let (found, told) = self.find_vessels(watch)?;
-        *notes = told;
+    /// Adds all vessels of the scan; gives what is to be told of it.
+    fn add_found(&mut self, draft: &mut Draft, doubtful: bool, watch: Watch) -> Result<Vec<String>> {
+        let (found, notes) = self.find_vessels(doubtful, watch)?;
         for vessel in found {
             draft.add_named(vessel.line, "", "Vessel").doubt = vessel.doubt.map(str::to_owned);
         }
-        Ok(())
+        Ok(notes)
     }
 
     fn add_mask(&mut self, draft: &mut Draft, notes: &mut Vec<String>, watch: Watch) -> Result<()> {

@@ -102,7 +102,10 @@ pub enum Edit {
         click: Place,
     },
     /// All vessels of the scan; doubtful ones wait until they are accepted.
-    FindVessels,
+    FindVessels {
+        /// Whether doubtful ones are wanted also where none is sure; else that is refused.
+        doubtful: bool,
+    },
     /// Doubtful branches are vessels as others from now on.
     Accept {
         /// Which of them.
@@ -157,7 +160,7 @@ impl Edit {
             Self::Remove { ids } => count(ids, "delete a vessel", "delete vessels"),
             Self::AddBranches { .. } => "add all branches from here",
             Self::AddWholeVessel { .. } => "add a whole vessel",
-            Self::FindVessels => "find all vessels",
+            Self::FindVessels { .. } => "find all vessels",
             Self::Accept { ids } => count(ids, "accept a branch", "accept branches"),
             Self::LeaveOut { ids } => count(ids, "leave a branch out", "leave branches out"),
             Self::AddMask => "add the vessels of a mask",

@@ -8,6 +8,7 @@ use crate::study::asking::{Answer, Answering, Asking, Turn, WrittenFile, questio
 use crate::study::centerline_files::AskedMessage;
 use crate::study::content::Report;
 use crate::study::document::Document;
+use crate::study::doubts::{DoubtRow, doubt_rows};
 use crate::study::edits::{EditMessage, Edited};
 use crate::study::failure::{Failure, Result};
 use crate::study::histogram::Histogram;
@@ -24,6 +25,7 @@ use crate::study::place_turn::PlaceTurn;
 use crate::study::planes::Plane;
 use crate::study::reformations::ReformationMessage;
 use crate::study::reformed::ReformedPicture;
+use crate::study::regions::{RegionRow, regions};
 use crate::study::report_messages::{Findings, ReportMessage};
 use crate::study::session_files::SessionContent;
 use crate::study::settings::{LookRow, SettingRow, looks, rows};
@@ -215,6 +217,12 @@ at_once {
 
     /// The looks: several settings under one name each.
     looks(_nothing: ()) -> Vec<LookRow> = looks();
+
+    /// Looks by region of the body: a look, a window and a slab under one name.
+    regions(_nothing: ()) -> Vec<RegionRow> = regions();
+
+    /// The reasons for which a vessel that was found is doubtful.
+    doubt_rows(_nothing: ()) -> Vec<DoubtRow> = doubt_rows();
 }
 }
 

@@ -58,29 +58,33 @@ pub fn rows() -> Vec<SettingRow> {
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub struct LookRow {
     /// Its name on the command line and in Python.
-    name: &'static str,
+    pub name: &'static str,
     /// What its button is called.
     words: &'static str,
     /// What it shows.
     sentence: &'static str,
     /// The values of all settings that some look chooses: of those that this one leaves alone, the defaults.
     #[cfg_attr(test, ts(type = "Settings"))]
-    settings: Map<String, Json>,
+    pub settings: Map<String, Json>,
 }
 
 /// All looks, in the order to show them.
 pub fn looks() -> Vec<LookRow> {
-    let chosen_by_some: Vec<&Setting> = table().filter(|setting| is_chosen_by_a_look(setting.name)).collect();
     let row = |look: &Look| {
-        let chosen = (look.values)();
-        let value = |setting: &Setting| {
-            let own = chosen.iter().find(|(name, _)| *name == setting.name);
-            json_of(own.map_or_else(|| setting.default(), |(_, value)| value.clone()))
-        };
-        let settings = chosen_by_some.iter().map(|setting| (setting.name.to_owned(), value(setting)));
-        LookRow { name: look.name, words: look.words, sentence: look.sentence, settings: settings.collect() }
+        let settings = settings_of_a_look(&(look.values)());
+        LookRow { name: look.name, words: look.words, sentence: look.sentence, settings }
     };
     LOOKS.iter().map(row).collect()
+}
+
+/// The values of all settings that some look chooses: those that are given, and else the defaults.
+pub fn settings_of_a_look(chosen: &[(&'static str, Value)]) -> Map<String, Json> {
+    let value = |setting: &Setting| {
+        let own = chosen.iter().find(|(name, _)| *name == setting.name);
+        json_of(own.map_or_else(|| setting.default(), |(_, value)| value.clone()))
+    };
+    let chosen_by_some = table().filter(|setting| is_chosen_by_a_look(setting.name));
+    chosen_by_some.map(|setting| (setting.name.to_owned(), value(setting))).collect()
 }
 
 fn is_chosen_by_a_look(name: &str) -> bool {

@@ -140,12 +140,18 @@ impl Study {
         self.held_lines(tree.vessels)
     }
 
-    /// All vessels of the scan, down to the radius of Python, the doubtful ones last; and what is to be told of the scan.
+    /// All vessels of the scan, down to the radius of Python, the doubtful ones last; and what is to be told of the scan. Where none
+    /// is sure `doubtful` says whether the others are wanted.
     ///
     /// # Errors
-    /// `tracing` as [`found_vessels::told`], `volume` where none is open, `interrupted`.
-    pub(crate) fn find_vessels(&mut self, watch: Watch) -> Result<(Vec<HeldLine>, Vec<String>)> {
-        let tree = found_vessels::told(self.trees(watch)?, SMALLEST_RADIUS)?;
+    /// `tracing` as [`found_vessels::told`] and [`found_vessels::told_with_doubtful`], `volume` where none is open, `interrupted`.
+    pub(crate) fn find_vessels(
+        &mut self,
+        doubtful: bool,
+        watch: Watch,
+    ) -> Result<(Vec<HeldLine>, Vec<String>)> {
+        let told = if doubtful { found_vessels::told_with_doubtful } else { found_vessels::told };
+        let tree = told(self.trees(watch)?, SMALLEST_RADIUS)?;
         Ok((self.held_lines(tree.vessels)?, tree.notes))
     }
 

@@ -80,6 +80,14 @@ export type DocumentVessel = {
   readonly doubt: string | null;
 };
 
+/** A reason for doubt. */
+export type DoubtRow = {
+  /** What a vessel of a document and a session file say, as a part of a sentence. */
+  readonly words: string;
+  /** The same in a word or two. */
+  readonly short: string;
+};
+
 /** The letters at the four edges of a picture. */
 export type EdgeLetters = {
   /** At the left edge. */
@@ -166,7 +174,9 @@ export type Edit = {
   /** A place in the vessel. */
   readonly click: Vector;
 } | {
-  readonly "kind": "find_vessels"
+  readonly "kind": "find_vessels";
+  /** Whether doubtful ones are wanted also where none is sure; else that is refused. */
+  readonly doubtful: boolean;
 } | {
   readonly "kind": "accept";
   /** Which of them. */
@@ -552,6 +562,22 @@ export type ReformedPicture = {
   readonly marks: ReadonlyArray<Mark>;
 };
 
+/** A region for viewers. */
+export type RegionRow = {
+  /** Its name. */
+  readonly name: string;
+  /** What it is called. */
+  readonly words: string;
+  /** What it shows. */
+  readonly sentence: string;
+  /** The values of all settings that some look chooses. */
+  readonly settings: Settings;
+  /** The name of its window where the values are Hounsfield units. */
+  readonly preset: string;
+  /** The name of its window where they are not. */
+  readonly preset_of_other_units: string;
+};
+
 /** What is open. */
 export type Report = {
   /** The volume; none where vessels alone are open. */
@@ -838,6 +864,10 @@ export type Windows = {
   readonly contexts: Readonly<Record<string, Pair>>;
   /** Those that have a name, in the order to show them. */
   readonly presets: ReadonlyArray<NamedWindow>;
+  /** Whether the values are Hounsfield units by what they are: the windows for CT hold for them. */
+  readonly is_hounsfield: boolean;
+  /** Whether the window for stents shows something: in Hounsfield units, and where values are as bright as metal. */
+  readonly may_hold_stents: boolean;
 };
 
 /** The bytes of a file that is written. */
@@ -1172,6 +1202,16 @@ export type Questions = {
     readonly message: null;
     readonly answer: ReadonlyArray<LookRow>;
   };
+  /** Looks by region of the body: a look, a window and a slab under one name. */
+  readonly regions: {
+    readonly message: null;
+    readonly answer: ReadonlyArray<RegionRow>;
+  };
+  /** The reasons for which a vessel that was found is doubtful. */
+  readonly doubt_rows: {
+    readonly message: null;
+    readonly answer: ReadonlyArray<DoubtRow>;
+  };
 };
 
 /** When each question is answered, and what its progress is called. */
@@ -1223,4 +1263,6 @@ export const TURNS = {
   flight: { when: 'at once', words: null },
   settings_table: { when: 'at once', words: null },
   looks: { when: 'at once', words: null },
+  regions: { when: 'at once', words: null },
+  doubt_rows: { when: 'at once', words: null },
 } as const satisfies Record<keyof Questions, Turn>;

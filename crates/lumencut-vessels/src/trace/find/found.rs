@@ -44,6 +44,20 @@ pub enum NoVessel {
 pub const SURE: f64 = 0.7;
 
 impl TrackDoubt {
+    /// Every reason.
+    pub const ALL: [Self; 10] = [
+        Self::BrightSides,
+        Self::Flat,
+        Self::Uneven,
+        Self::PaleAndWide,
+        Self::Short,
+        Self::Rough,
+        Self::Faint,
+        Self::Open,
+        Self::Gap,
+        Self::Scarce,
+    ];
+
     /// The doubt in words.
     pub fn words(self) -> &'static str {
         match self {
@@ -59,6 +73,22 @@ impl TrackDoubt {
             Self::Faint => "its contrast is low",
             Self::Open => "few of its walls are seen",
             Self::Gap => "it bridges a gap",
+        }
+    }
+
+    /// The doubt in a word or two, for a row of a list and for counts.
+    pub fn short(self) -> &'static str {
+        match self {
+            Self::Scarce => "no contrast?",
+            Self::BrightSides => "beside bone",
+            Self::Flat => "flat",
+            Self::Uneven => "uneven inside",
+            Self::PaleAndWide => "like an organ",
+            Self::Short => "short",
+            Self::Rough => "uneven width",
+            Self::Faint => "faint",
+            Self::Open => "few walls",
+            Self::Gap => "across a gap",
         }
     }
 }

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use crate::trace::find::found::NoVessel;
 use crate::trace::lumen::lumen_model::in_words;
-use lumencut_core::error::{Error, ErrorKind};
+use lumencut_core::error::{Error, ErrorKind, Mend};
 
 /// The error for a scan in which no vessel is sure; `doubtful` of them were found that are not, `smallest_radius` is in mm.
 pub fn no_vessel(doubtful: usize, smallest_radius: f64) -> Error {
@@ -15,7 +15,8 @@ pub fn no_vessel(doubtful: usize, smallest_radius: f64) -> Error {
     };
     let expected = "an angiography, whose vessels are brighter than the tissue around them";
     let error = Error::new(ErrorKind::Tracing, "no vessel found", found, expected);
-    error.mend("trace between two points along a vessel, or ask for a smaller radius")
+    let mend = if doubtful > 0 { Mend::Doubtful } else { Mend::SmallerRadius };
+    error.mend("trace between two points along a vessel").mended_by(mend)
 }
 
 /// The error for a seed outside the volume.

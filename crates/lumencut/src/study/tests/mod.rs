@@ -1,6 +1,7 @@
 //! What viewers rely on.
 
 mod edits;
+mod finding;
 mod lines;
 mod masks;
 mod planes;

@@ -1,0 +1,34 @@
+//! What makes a vessel that was found doubtful, in a sentence and in a word or two, for lists and counts.
+
+use lumencut_vessels::trace::find::track::TrackDoubt;
+use serde::Serialize;
+
+/// A reason for doubt.
+#[derive(Clone, Copy, Debug, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub struct DoubtRow {
+    /// What a vessel of a document and a session file say, as a part of a sentence.
+    pub words: &'static str,
+    /// The same in a word or two.
+    pub short: &'static str,
+}
+
+/// All reasons.
+pub fn doubt_rows() -> Vec<DoubtRow> {
+    TrackDoubt::ALL.iter().map(|doubt| DoubtRow { words: doubt.words(), short: doubt.short() }).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn reasons_differ_and_are_shorter_in_a_word() {
+        let rows = doubt_rows();
+        for (n, row) in rows.iter().enumerate() {
+            assert!(row.short.len() < row.words.len(), "{row:?}");
+            assert!(row.short.len() < 20, "it stands in a row of a narrow list: {row:?}");
+            assert!(rows[..n].iter().all(|other| other.short != row.short && other.words != row.words));
+        }
+    }
+}

@@ -1,0 +1,138 @@
+//! Looks by region of the body: a look, a window and the thickness of a slab under one name, as that region is mostly read.
+
+use lumencut_core::settings::{LOOKS, Slab, SlabMode, Value};
+use serde::Serialize;
+use serde_json::{Map, Value as Json};
+
+use crate::study::settings::settings_of_a_look;
+
+/// What is chosen for a region.
+struct Region {
+    name: &'static str,
+    words: &'static str,
+    sentence: &'static str,
+    /// The name of its look.
+    look: &'static str,
+    /// How thick its slab of largest values is (mm), where that differs from the look's.
+    slab: Option<f64>,
+    /// The name of its window in Hounsfield units, and in another unit.
+    presets: [&'static str; 2],
+}
+
+/// All regions. The window for vessels with much calcium is wide, at least 1500 HU, so that calcium does not cover the lumen
+/// (Fleischmann et al. 2006, doi:10.1097/01.RVI.0000191361.02857.DE, of the arteries of the leg); a slab of 5 mm is usual for coronary
+/// arteries (SCCT, Leipsic et al. 2014, doi:10.1016/j.jcct.2014.07.003). The rest is ours.
+const REGIONS: [Region; 5] = [
+    Region {
+        name: "aorta",
+        words: "Aorta",
+        sentence: "the cut around the vessels amid the shaded body, in the window for CT angiography",
+        look: "focus",
+        slab: None,
+        presets: ["cta", "mra"],
+    },
+    Region {
+        name: "carotid",
+        words: "Carotid",
+        sentence: "the cut through the middle of every vessel, in the window for CT angiography",
+        look: "lumen",
+        slab: None,
+        presets: ["cta", "mra"],
+    },
+    Region {
+        name: "runoff",
+        words: "Run-off",
+        sentence: "the largest value of 10 mm around the cut, in a wide window, so that calcium does not cover the lumen",
+        look: "slab",
+        slab: None,
+        presets: ["stent", "mra"],
+    },
+    Region {
+        name: "coronary",
+        words: "Coronary",
+        sentence: "the largest value of 5 mm around the cut, in the window for CT angiography",
+        look: "slab",
+        slab: Some(5.0),
+        presets: ["cta", "mra"],
+    },
+    Region {
+        name: "tof",
+        words: "TOF",
+        sentence: "the largest value along each ray, in the window for MR angiography",
+        look: "mip",
+        slab: None,
+        presets: ["mra", "mra"],
+    },
+];
+
+/// A region for viewers.
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub struct RegionRow {
+    /// Its name.
+    pub name: &'static str,
+    /// What it is called.
+    pub words: &'static str,
+    /// What it shows.
+    pub sentence: &'static str,
+    /// The values of all settings that some look chooses.
+    #[cfg_attr(test, ts(type = "Settings"))]
+    pub settings: Map<String, Json>,
+    /// The name of its window where the values are Hounsfield units.
+    pub preset: &'static str,
+    /// The name of its window where they are not.
+    pub preset_of_other_units: &'static str,
+}
+
+/// All regions, in the order to show them.
+pub fn regions() -> Vec<RegionRow> {
+    REGIONS.iter().map(row).collect()
+}
+
+fn row(region: &Region) -> RegionRow {
+    let look = LOOKS.iter().find(|look| look.name == region.look);
+    let mut chosen = look.map_or_else(Vec::new, |look| (look.values)());
+    if let Some(thickness) = region.slab {
+        chosen.retain(|(name, _)| *name != "slab");
+        chosen.push(("slab", Value::Slab(Slab { thickness, mode: SlabMode::Max })));
+    }
+    let [preset, preset_of_other_units] = region.presets;
+    RegionRow {
+        name: region.name,
+        words: region.words,
+        sentence: region.sentence,
+        settings: settings_of_a_look(&chosen),
+        preset,
+        preset_of_other_units,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::json;
+
+    use super::*;
+    use crate::study::settings::looks;
+    use crate::window_presets::WINDOW_PRESETS;
+
+    #[test]
+    fn every_region_has_a_look_and_windows_that_there_are() {
+        for region in &REGIONS {
+            assert!(LOOKS.iter().any(|look| look.name == region.look), "{}", region.look);
+            assert!(
+                region.presets.iter().all(|name| WINDOW_PRESETS.iter().any(|preset| preset.name == *name))
+            );
+        }
+    }
+
+    #[test]
+    fn a_region_chooses_what_its_look_chooses_and_a_slab_of_its_own() {
+        let (regions, looks) = (regions(), looks());
+        let settings = |name: &str| &regions.iter().find(|one| one.name == name).expect("a region").settings;
+        assert!(regions.iter().all(|one| one.settings.keys().eq(looks[0].settings.keys())));
+        assert_eq!(settings("aorta"), &looks.iter().find(|look| look.name == "focus").expect("one").settings);
+        assert_eq!(settings("coronary")["slab"], json!([5.0, "max"]));
+        assert_eq!(settings("runoff")["slab"], json!([10.0, "max"]));
+        assert_eq!(settings("tof")["context"], json!("mip"));
+    }
+}

@@ -1,0 +1,72 @@
+/** The doubtful branches of the list: how many for which reason, and each with its own, to be accepted or left out. */
+import { engine } from '../client/shared';
+import type { DocumentVessel } from '../core/messages';
+import { accept, leaveOut } from '../edit/branches';
+import { countedDoubts, reasonOf, showDoubt, stepDoubt } from '../edit/doubts';
+import { lengthOf } from '../edit/lines';
+import { chosenDoubt } from '../edit/mode';
+import { nameOf } from '../state/changes';
+import { hasMillimetres } from '../state/millimetres';
+import { lighting } from './VesselRow';
+
+export function DoubtfulPart({ vessels }: { readonly vessels: readonly DocumentVessel[] }) {
+  const ids = vessels.map((vessel) => vessel.id);
+  if (ids.length === 0) {
+    return null;
+  }
+  return (
+    <section class="doubtful-rows" aria-label="Doubtful branches">
+      <h3>{countedDoubts(vessels)}</h3>
+      <div class="buttons">
+        <button type="button" title="Each in turn (.), with its reason" onClick={() => stepDoubt(engine, 1)}>
+          Look at each
+        </button>
+        <button type="button" onClick={() => void accept(engine, ids)}>
+          Accept all
+        </button>
+        <button type="button" onClick={() => void leaveOut(engine, ids)}>
+          Leave all out
+        </button>
+      </div>
+      <ul class="vessel-rows">
+        {vessels.map((vessel) => (
+          <DoubtfulRow key={vessel.id} vessel={vessel} />
+        ))}
+      </ul>
+    </section>
+  );
+}
+
+/** A doubtful branch: the pointer over it lights it in the views, and a click turns the view to it. */
+function DoubtfulRow({ vessel }: { readonly vessel: DocumentVessel }) {
+  const name = nameOf(vessel);
+  return (
+    <li class={vessel.id === chosenDoubt.value ? 'picked' : ''} {...lighting(vessel)}>
+      <button
+        type="button"
+        class="name"
+        title={`${vessel.doubt}: turn the view to it`}
+        aria-label={`Show ${name}, ${reasonOf(vessel)}`}
+        onClick={() => void showDoubt(engine, vessel)}
+      >
+        <span>{name}</span> <span class="doubt-reason">{reasonOf(vessel)}</span>
+      </button>
+      <span class="length" title={hasMillimetres.value ? 'Length (mm)' : 'Length'}>
+        {lengthText(vessel)}
+      </span>
+      <button type="button" aria-label={`Accept ${name}`} onClick={() => void accept(engine, [vessel.id])}>
+        ✓
+      </button>
+      <button
+        type="button"
+        aria-label={`Leave ${name} out`}
+        onClick={() => void leaveOut(engine, [vessel.id])}
+      >
+        ✕
+      </button>
+    </li>
+  );
+}
+
+/** The length without its unit, which the title says: the reason needs the room. */
+const lengthText = (vessel: DocumentVessel): string => lengthOf(vessel.line).toFixed(1);
