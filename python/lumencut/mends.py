@@ -69,8 +69,8 @@ class Mend:
     ----------
     name : str
         The same on every host: "bridge", "every_second", "cpu", "windows", "threshold", "fewer_pixels",
-        "doubtful" and "smaller_radius" of tracing, devices and volumes; "coordinates", "unit" and "place" of centerlines; "series", "phase",
-        "fill_gaps", "resample_slices" and "resample_and_fill" of DICOM.
+        "doubtful" and "smaller_radius" of tracing, devices and volumes; "coordinates", "unit" and "place" of
+        centerlines; "series", "phase", "fill_gaps", "resample_slices" and "resample_and_fill" of DICOM.
     values : tuple of str
         What can be chosen among, such as units or phases; empty where there is nothing to choose.
     """

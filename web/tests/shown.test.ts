@@ -84,7 +84,7 @@ test('where the vessel of the cross-hair is deleted, all views go on to the one 
 test('the window that the data suggest follows the vessels, one that was chosen stays', async () => {
   const told = (main: Pair): Report => ({
     ...reportOf([{ line: 1, name: 'n1' }]),
-    windows: { main, contexts: {}, presets: [] },
+    windows: { main, contexts: {}, presets: [], is_hounsfield: false, may_hold_stents: false },
   });
   for (const [chosen, expected] of [
     [
