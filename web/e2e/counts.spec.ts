@@ -19,7 +19,7 @@ async function slide(slider: Locator, tenths: number): Promise<void> {
 test('from a scan without vessels to a clean tree and a saved finding in at most 20 actions', {
   tag: '@long',
 }, async ({ browser }) => {
-  test.setTimeout(400_000);
+  test.setTimeout(800_000);
   const viewer = await untraced(browser, 'aorta');
   await viewer.press('v');
   await expect(viewer.page.locator('aside.vessels')).toHaveCount(0);
@@ -28,7 +28,7 @@ test('from a scan without vessels to a clean tree and a saved finding in at most
   // Finding: one press, and the list of what was found.
   await button(viewer, 'Find all vessels').last().click();
   await viewer.press('v');
-  await expect(viewer.page.locator('.doubtful-rows li').first()).toBeVisible({ timeout: 120_000 });
+  await expect(viewer.page.locator('.doubtful-rows li').first()).toBeVisible({ timeout: 300_000 });
   const found = await rows(viewer).count();
 
   // Cleaning: what is doubtful, what is short, and what hangs together with nothing.

@@ -247,10 +247,10 @@ test('two vessels that meet are joined, cut, hidden, and saved files are read ag
 test('all branches from here are those that hang together with the vessel at the cross-hair', {
   tag: '@long',
 }, async ({ browser }) => {
-  test.setTimeout(120_000);
+  test.setTimeout(400_000);
   const viewer = await untraced(browser, 'aorta');
   await viewer.press('b');
-  await expect.poll(() => rows(viewer).count(), { timeout: 90_000 }).toBeGreaterThan(20);
+  await expect.poll(() => rows(viewer).count(), { timeout: 300_000 }).toBeGreaterThan(20);
   await viewer.screenshot('trace-branches');
   await viewer.press('Control+z');
   await expect(rows(viewer)).toHaveCount(0);
