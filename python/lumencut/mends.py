@@ -122,7 +122,7 @@ WORDS: dict[MendName, Callable[[Sequence[str]], _Parts]] = {
     "windows": _windows,
     "threshold": lambda _: (_THRESHOLD,),
     "fewer_pixels": _fewer_pixels,
-    "doubtful": lambda _: ("look at the doubtful ones in the viewer, `lumencut view`",),
+    "doubtful": lambda _: ("look at the doubtful ones in the viewer",),
     "smaller_radius": lambda _: ("ask for a smaller radius",),
     "coordinates": lambda values: _one_of("coordinates", values),
     "unit": lambda values: _one_of("unit", values),

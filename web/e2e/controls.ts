@@ -5,6 +5,10 @@ import { Viewer } from './page';
 
 export const rows = (viewer: Viewer): Locator => viewer.page.locator('aside > .vessel-rows > li');
 export const nameOf = (viewer: Viewer, n: number): Locator => rows(viewer).nth(n).locator('input.name');
+/** Lists the vessels as they came, also where they join. */
+export const listAsTheyCame = (viewer: Viewer): Promise<void> =>
+  viewer.page.getByLabel(/^As a tree/).uncheck();
+
 /** Gives a vessel of the list another name, by keys. */
 export async function rename(viewer: Viewer, n: number, name: string): Promise<void> {
   await nameOf(viewer, n).press('F2');

@@ -22,11 +22,12 @@ const mode = (viewer: Viewer, words: string): Locator =>
 /** Marks a place on a vessel of the list, and a reference where none of a pair is wanted. */
 async function mark(viewer: Viewer, vessel: number): Promise<void> {
   await rows(viewer).nth(vessel).getByRole('radio').check();
-  await mode(viewer, 'Measure').click();
+  // A hasty hand presses twice: the mode stays on.
+  await mode(viewer, 'Measure').dblclick();
   await expect(viewer.page.getByTestId('row-place-0')).toBeVisible();
   await button(viewer, 'Narrowest here').click();
   await expect(viewer.page.getByTestId('row-place-0')).toContainText('marked place');
-  await mode(viewer, 'Measure').click();
+  await mode(viewer, 'Look').click();
 }
 
 /** What the page copies, where a browser is asked for it. */
@@ -39,7 +40,7 @@ test('findings of all vessels stand in one list, are copied, and are saved as on
   const before = await viewer.camera();
   await mode(viewer, 'Report').click();
   await expect(panel(viewer)).toContainText('Nothing is marked yet.');
-  await mode(viewer, 'Report').click();
+  await mode(viewer, 'Look').click();
   await mark(viewer, 0);
   await mark(viewer, 2);
   await mode(viewer, 'Report').click();

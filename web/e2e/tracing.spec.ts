@@ -1,7 +1,7 @@
 /** Vessels are traced by clicks and by keys, edited, undone, saved and read again. */
 import { readFileSync } from 'node:fs';
 import { expect, type Locator, test } from '@playwright/test';
-import { button, nameOf, rename, rows, SIZE, untraced } from './controls';
+import { button, listAsTheyCame, nameOf, rename, rows, SIZE, untraced } from './controls';
 import { type PaneName, Viewer } from './page';
 
 const lengthOf = async (viewer: Viewer, n: number): Promise<number> =>
@@ -208,6 +208,7 @@ test('two vessels that meet are joined, cut, hidden, and saved files are read ag
   await traceTo(viewer, RIGHT, 1);
   await traceTo(viewer, LEFT, 2);
   await button(viewer, 'Done').click();
+  await listAsTheyCame(viewer);
   await rows(viewer).nth(0).getByRole('radio').check();
   await expect(nameOf(viewer, 0)).toHaveAttribute('list', 'names-to-offer');
   await expect(page.locator('#names-to-offer option[value="Left renal artery"]')).toHaveCount(1);
@@ -249,7 +250,11 @@ test('all branches from here are those that hang together with the vessel at the
 }, async ({ browser }) => {
   test.setTimeout(400_000);
   const viewer = await untraced(browser, 'aorta');
+  // The cross-hair stands where the page put it: a tree begins where the reader says.
   await viewer.press('b');
+  await expect(viewer.page.getByRole('status').first()).toContainText('Click where the tree begins');
+  await expect(rows(viewer)).toHaveCount(0);
+  await viewer.press('Enter');
   await expect.poll(() => rows(viewer).count(), { timeout: 300_000 }).toBeGreaterThan(20);
   await viewer.screenshot('trace-branches');
   await viewer.press('Control+z');

@@ -3,9 +3,12 @@ import { render } from 'preact';
 import { engine } from './client/shared';
 import { followEdits } from './edit/following';
 import { followGuide } from './guide/steps';
+import { followKeeping } from './session/keeping';
+import { savedSession } from './session/saving';
 import { start } from './state/device';
 import { followPlaceTurn } from './state/place-turn';
 import { report } from './state/store';
+import { guardLeaving } from './study/leaving';
 import { openAddresses, openPhantom } from './study/study';
 import { listenToKeys } from './ui/keys';
 import './style/page.css';
@@ -55,6 +58,8 @@ if (root) {
   render(<App />, root);
 }
 listenToKeys();
+guardLeaving(window);
+followKeeping(sessionStorage, async () => new TextDecoder().decode(await savedSession()));
 followEdits(engine);
 followPlaceTurn();
 if (asked.has('test')) {

@@ -2,7 +2,7 @@
 import { beforeEach, expect, test } from 'vitest';
 import { EMPTY } from '../src/state/document';
 import { begin, change, document_, markSaved, undo } from '../src/state/history';
-import { leave, leaving, lossWords } from '../src/study/leaving';
+import { guardLeaving, leave, leaving, lossWords } from '../src/study/leaving';
 import { withLines } from './fake-tracing';
 
 const more = (...lines: number[]) => withLines(document_.value, ...lines);
@@ -46,4 +46,19 @@ test('other changes are told of, as those since it was saved', async () => {
   await leave(go);
   expect([gone, leaving.value?.words]).toEqual([1, 'Discard changes that were not saved?']);
   expect(lossWords(EMPTY, document_.value)).toBe('Discard changes that were not saved?');
+});
+
+test('the browser asks before a page goes with what was not saved, and not where all is saved', () => {
+  const page = new EventTarget();
+  guardLeaving(page as Window);
+  const isAsked = () => {
+    const event = new Event('beforeunload', { cancelable: true });
+    page.dispatchEvent(event);
+    return event.defaultPrevented;
+  };
+  expect(isAsked()).toBe(false);
+  change('add', more(1));
+  expect(isAsked()).toBe(true);
+  markSaved(document_.value);
+  expect(isAsked()).toBe(false);
 });

@@ -1,9 +1,13 @@
 /** Many vessels at once: all of the scan, all branches from a seed, and the vessels of a mask. */
 import type { Asked } from '../core/asked';
-import type { Edit, Edited, GivenFile, Vector } from '../core/messages';
-import { notes } from '../state/store';
+import type { Edit, Edited, GivenFile, LineFacts, Vector } from '../core/messages';
+import { flyToAnswer } from '../state/flight';
+import { document_ } from '../state/history';
+import { camera, notes } from '../state/store';
+import { tellFailure } from '../state/telling';
 import { commit, isDone } from './committing';
 import { openList } from './list-open';
+import { pickOnceShown } from './shown';
 
 /** Adds all branches that a seed reaches; doubtful ones wait until they are accepted. */
 export const addBranches = (engine: Asked, seed: Vector): Promise<boolean> =>
@@ -22,7 +26,35 @@ export const leaveOut = (engine: Asked, ids: readonly number[]): Promise<boolean
  * unless `doubtful` ones are wanted all the same.
  */
 export async function findVessels(engine: Asked, doubtful = false): Promise<boolean> {
-  return await addMany(engine, { kind: 'find_vessels', doubtful });
+  const isFirst = sure().length === 0;
+  const isFound = await addMany(engine, { kind: 'find_vessels', doubtful });
+  if (isFound && isFirst) {
+    await showMain(engine);
+  }
+  return isFound;
+}
+
+const sure = () => document_.value.vessels.filter((vessel) => vessel.doubt === null);
+
+/** Picks the widest vessel, and turns the view to where most of it is seen. */
+async function showMain(engine: Asked): Promise<void> {
+  try {
+    const facts = await engine.ask('line_facts', { lines: sure().map((vessel) => vessel.line) });
+    const main = widest(facts);
+    const vessel = sure().find(({ line }) => line === main?.line);
+    if (vessel && camera.value) {
+      pickOnceShown(vessel.id);
+      await flyToAnswer(engine, engine.ask('best_view', { camera: camera.value, line: vessel.line }));
+    }
+  } catch (error) {
+    tellFailure(error);
+  }
+}
+
+/** The widest of some lines, the longest where no width is known. */
+function widest(facts: readonly LineFacts[]): LineFacts | null {
+  const isLess = (a: LineFacts, b: LineFacts) => (a.calibre ?? 0) - (b.calibre ?? 0) || a.length - b.length;
+  return [...facts].sort(isLess).at(-1) ?? null;
 }
 
 /** Finds all vessels; what was found, and what of it is doubtful, is told in the list. */

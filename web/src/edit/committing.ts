@@ -22,6 +22,10 @@ export interface Refusal {
 export const waiting = signal(0);
 export const refusal = signal<Refusal | null>(null);
 
+/** How many edits under way look for many vessels: clicks meanwhile are no points of others. */
+export const searches = signal(0);
+const SEARCHES: readonly Edit['kind'][] = ['add_branches', 'find_vessels', 'add_mask'];
+
 /** Work is shown as progress only where it takes longer than this (ms). */
 const SHOWN_AFTER = 250;
 
@@ -173,11 +177,24 @@ export async function commit(engine: Asked, edit: Edit, beside: Beside = {}): Pr
     return { words: edited.words, after: afterEdit(document_.value, edited), result: edited };
   };
   const again = () => void commit(engine, edit, { ...beside, bridging: true });
-  const edited = await inTurn(edit.kind === 'add_branches' ? askedAbout(work) : work, again);
+  const found = SEARCHES.includes(edit.kind) ? counted(work) : work;
+  const edited = await inTurn(edit.kind === 'add_branches' ? askedAbout(found) : found, again);
   if (edited) {
     then?.(edited);
   }
   return edited;
+}
+
+/** Work that counts among the searches while it is under way. */
+function counted<T>(work: Work<T>): Work<T> {
+  return async (told) => {
+    searches.value += 1;
+    try {
+      return await work(told);
+    } finally {
+      searches.value -= 1;
+    }
+  };
 }
 
 /** Work about which the reader is asked where it takes long. */

@@ -12,9 +12,9 @@ import { endVessel } from './pointing';
 /** The doubtful branch that was clicked, which is to be accepted or left out. */
 export const chosenDoubt = signal<number | null>(null);
 
-const TRACING: readonly Tool[] = ['trace', 'stopper'];
+const TRACING: readonly Tool[] = ['trace', 'stopper', 'seed'];
 
-/** Whether clicks set points or stoppers now. */
+/** Whether clicks set points, stoppers or the begin of a tree now. */
 export const isTracing = (): boolean => TRACING.includes(tool.value);
 
 interface Kept {

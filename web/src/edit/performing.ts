@@ -3,7 +3,7 @@ import type { EngineClient } from '../client/engine';
 import type { Action } from '../input/bindings';
 import { perform } from '../state/actions';
 import { redo, undo } from '../state/history';
-import { crossHair, hasVolume, isHelpOpen, layout, problem, progress } from '../state/store';
+import { crossHair, firstPlace, hasVolume, isHelpOpen, layout, problem, progress } from '../state/store';
 import { tool } from '../state/tool';
 import { addBranches } from './branches';
 import { dropEdits, waiting } from './committing';
@@ -11,7 +11,7 @@ import { answerDoubt, stepDoubt } from './doubts';
 import { candidate, first, target } from './drawing';
 import { isListOpen } from './list-open';
 import { chosenDoubt, isTracing, toggleTool } from './mode';
-import { enter, isAtCrossHair, leave, removeLast } from './pointing';
+import { endVessel, enter, isAtCrossHair, leave, removeLast } from './pointing';
 import { pickedId } from './shown';
 import { remove } from './vessels';
 import { takeWhole } from './whole';
@@ -91,10 +91,13 @@ function removePicked(engine: EngineClient): boolean {
   return true;
 }
 
-/** All branches that the cross-hair's place reaches. */
+/** All branches that the cross-hair's place reaches; where the reader did not put it there, a click says where the tree begins. */
 export function branchesFromHere(engine: EngineClient): void {
   const seed = crossHair.value?.point;
-  if (seed) {
+  if (tool.value === 'seed' || !seed || seed === firstPlace.value) {
+    toggleTool('seed');
+  } else {
+    endVessel();
     void addBranches(engine, seed);
   }
 }

@@ -5,9 +5,11 @@ import { Failure } from '../core/failure';
 import type { Vector } from '../core/messages';
 import { length, subtract } from '../core/vectors';
 import { crossHair } from '../state/store';
+import { tell } from '../state/telling';
 import { active, tool } from '../state/tool';
+import { addBranches } from './branches';
 import { addClick, beginVessel, removeClick } from './clicks';
-import { forgetRefusal, refusal, tellRefusal } from './committing';
+import { forgetRefusal, refusal, searches, tellRefusal } from './committing';
 import { anchor, candidate, coming, drawing, drawn, first, forgetDrawing, isDrawing } from './drawing';
 import { addStopper } from './stoppers';
 
@@ -17,11 +19,15 @@ const SAME = 0.05;
 /** The vessel that is being begun, as long as it is traced for the first time. */
 let beginning: Promise<number | null> | null = null;
 
-/** Sets a point of a vessel, or a stopper. */
+/** Sets a point of a vessel, a stopper, or where a tree begins; nothing while vessels are looked for. */
 export async function setPoint(engine: Asked, point: Vector): Promise<void> {
   candidate.value = null;
-  if (tool.value === 'stopper') {
+  if (searches.value > 0) {
+    tell('No point was set: vessels are being looked for. Escape stops that.');
+  } else if (tool.value === 'stopper') {
     await addStopper(engine, point);
+  } else if (tool.value === 'seed') {
+    await beginTree(engine, point);
   } else if (anchor.value === null) {
     forgetRefusal();
     first.value = point;
@@ -31,6 +37,13 @@ export async function setPoint(engine: Asked, point: Vector): Promise<void> {
     coming.value = [...coming.value, own];
     await goOn(engine, point);
     coming.value = coming.value.filter((one) => one !== own);
+  }
+}
+
+/** Looks for all branches from a place; where none are found another place can be clicked. */
+async function beginTree(engine: Asked, point: Vector): Promise<void> {
+  if ((await addBranches(engine, point)) && tool.value === 'seed') {
+    tool.value = 'look';
   }
 }
 

@@ -24,6 +24,18 @@ const linesOf = (vessels: readonly DocumentVessel[]): string =>
 /** A vessel that is picked as soon as it is shown. */
 export const toPick = signal<number | null>(null);
 
+/** Picks a vessel of the document, at half its length: now where it is shown, else as soon as it is. */
+export function pickOnceShown(id: number): void {
+  const vessel = tree.value.findIndex((one) => one.id === id);
+  batch(() => {
+    toPick.value = vessel < 0 ? id : null;
+    if (vessel >= 0) {
+      store.pickedVessel.value = vessel;
+      store.pickedPlace.value = (store.report.value?.vessels?.[vessel]?.length ?? 0) / 2;
+    }
+  });
+}
+
 /** The vessel of the document that is picked. */
 export const pickedId = (): number | null => tree.value[store.pickedVessel.value ?? -1]?.id ?? null;
 

@@ -74,6 +74,8 @@ export const isInverted = signal(false);
 export const isTurning = signal(false);
 
 export const crossHair = signal<CrossHair | null>(null);
+/** Where the cross-hair stood as the study began: a reader who did not move it means nothing by it. */
+export const firstPlace = signal<Vector | null>(null);
 /** The vessel of the CPR, and the place of the section on it (mm). */
 export const pickedVessel = signal<number | null>(null);
 export const pickedPlace = signal(0);

@@ -1,7 +1,7 @@
-/** What a click does now: it looks, sets a point of a vessel, a stopper, a ruler, or the places of a measurement. */
+/** What a click does now: it looks, sets a point of a vessel, a stopper, where a tree begins, a ruler, or the places of a measurement. */
 import { signal } from '@preact/signals';
 
-export type Tool = 'look' | 'trace' | 'stopper' | 'ruler';
+export type Tool = 'look' | 'trace' | 'stopper' | 'seed' | 'ruler';
 
 export const tool = signal<Tool>('look');
 

@@ -20,6 +20,15 @@ export async function leave(go: () => Promise<unknown>): Promise<void> {
   }
 }
 
+/** Lets the browser ask before the page goes with what was not saved, as by a reload. */
+export function guardLeaving(page: Pick<Window, 'addEventListener'>): void {
+  page.addEventListener('beforeunload', (event) => {
+    if (document_.value !== saved.value) {
+      event.preventDefault();
+    }
+  });
+}
+
 /** What would be lost, as a question. */
 export function lossWords(document: Document, kept: Document): string {
   const count = document.vessels.filter((vessel) => !kept.vessels.includes(vessel)).length;

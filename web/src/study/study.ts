@@ -116,6 +116,7 @@ async function showStudy(
     store.window_.value = report.windows?.main ?? store.window_.value;
     store.camera.value = camera;
     store.crossHair.value = hair;
+    store.firstPlace.value = hair?.point ?? null;
     store.pickedVessel.value = hair?.vessel ?? null;
     store.pickedPlace.value = hair?.arcLength ?? 0;
     beginStudy(vessels);

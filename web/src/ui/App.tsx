@@ -4,6 +4,7 @@ import { report } from '../state/store';
 import { DropZone } from './DropZone';
 import { FileQuestion } from './FileQuestion';
 import { Help } from './Help';
+import { KeptQuestion } from './KeptQuestion';
 import { Layout } from './Layout';
 import { LeaveQuestion } from './LeaveQuestion';
 import { Messages } from './Messages';
@@ -23,6 +24,7 @@ export function App() {
       <FileQuestion />
       <LeaveQuestion />
       <PacsQuestion />
+      <KeptQuestion />
       <Messages />
       <DropZone />
       <StatusBar />

@@ -1,13 +1,8 @@
 /** Vessels as files, and files as vessels. */
 
-import { engine } from '../client/shared';
-import { Failure } from '../core/failure';
 import type { CenterlineKind } from '../core/messages';
-import { centerlineFile } from '../edit/files';
-import { saveAs } from '../output/pictures';
-import { studyFileName } from '../output/study-file-names';
-import { document_, markSaved } from '../state/history';
-import { problem } from '../state/store';
+import { attempt } from '../output/attempt';
+import { hasCenterlines, saveCenterlines } from '../output/centerlines';
 import { OpenMore } from './OpenButtons';
 
 const KINDS: readonly (readonly [CenterlineKind, string])[] = [
@@ -16,16 +11,15 @@ const KINDS: readonly (readonly [CenterlineKind, string])[] = [
 ];
 
 export function CenterlineFiles() {
-  const isEmpty = document_.value.vessels.every((vessel) => vessel.doubt !== null);
   return (
     <div class="buttons">
       {KINDS.map(([kind, words]) => (
         <button
           key={kind}
           type="button"
-          disabled={isEmpty}
+          disabled={!hasCenterlines()}
           title="All vessels of the list, without the doubtful ones"
-          onClick={() => void save(kind)}
+          onClick={() => attempt(() => saveCenterlines(kind))}
         >
           {words}
         </button>
@@ -33,14 +27,4 @@ export function CenterlineFiles() {
       <OpenMore words="Open centerlines" />
     </div>
   );
-}
-
-async function save(kind: CenterlineKind): Promise<void> {
-  const document = document_.value;
-  try {
-    saveAs(await centerlineFile(engine, kind), studyFileName({ content: 'centerlines', ending: kind }));
-    markSaved(document);
-  } catch (error) {
-    problem.value = Failure.of(error);
-  }
 }

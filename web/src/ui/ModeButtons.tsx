@@ -15,10 +15,15 @@ function mode(): Mode {
   return shown === 'measure' || shown === 'report' ? shown : 'look';
 }
 
-/** Goes to a mode, and from it back to looking where it is on already; each mode lays down what it took up. */
-function change(wanted: Mode): void {
+/**
+ * Goes to a mode; each one lays down what it took up. A second press, as of a reader who has not yet seen the first one's
+ * answer, leaves it on: "Look" is the way out.
+ */
+function change(to: Mode): void {
   const from = mode();
-  const to = from === wanted ? 'look' : wanted;
+  if (from === to) {
+    return;
+  }
   if (to === 'trace') {
     tool.value = 'trace';
   } else if (to === 'measure' || to === 'report') {

@@ -2,12 +2,14 @@
 import { currentProfile } from '../measure/current';
 import { listedFindings } from '../measure/findings';
 import { attempt } from '../output/attempt';
+import { hasCenterlines, saveCenterlines } from '../output/centerlines';
 import { askForPacs } from '../output/pacs';
 import { savePng } from '../output/pictures';
 import { saveReport } from '../output/report';
 import { saveSession } from '../output/session';
 import { saveNumbers } from '../output/tables';
 import { saveFilm, savePictures } from '../output/turntable';
+import { isKeeping } from '../session/keeping';
 import { useClosing } from './closing-menu';
 import { ScanNamed } from './ScanNamed';
 import { keepWithin } from './within-window';
@@ -29,6 +31,13 @@ export function SaveMenu() {
           title="Vessels, marks and views, to go on later: open it after its scan"
           save={saveSession}
         />
+        <Keeping />
+        {hasCenterlines() && (
+          <>
+            <Choice words="Centerlines (.vtp)" save={() => saveCenterlines('vtp')} />
+            <Choice words="Centerlines (.mrk.json)" save={() => saveCenterlines('mrk.json')} />
+          </>
+        )}
         {isMeasured && (
           <>
             <Choice words="Numbers of measured vessels (CSV)" save={() => saveNumbers('csv')} />
@@ -56,6 +65,22 @@ function Choice({ words, title, save }: ChoiceProps) {
     <button type="button" {...(title && { title })} onClick={() => attempt(save)}>
       {words}
     </button>
+  );
+}
+
+/** Whether the session is kept over a reload. */
+function Keeping() {
+  return (
+    <label title="On this machine, until the tab is closed: vessels, marks and views, no pixels">
+      <input
+        type="checkbox"
+        checked={isKeeping.value}
+        onChange={(event) => {
+          isKeeping.value = event.currentTarget.checked;
+        }}
+      />
+      Keep it in this tab over a reload
+    </label>
   );
 }
 

@@ -2,10 +2,10 @@
 import { useSignal } from '@preact/signals';
 import { engine } from '../client/shared';
 import { findAndList } from '../edit/branches';
-import { waiting } from '../edit/committing';
+import { searches, waiting } from '../edit/committing';
 import { answerDoubt, placeOfDoubt, stepDoubt } from '../edit/doubts';
 import { candidate, coming, drawn, isDrawing } from '../edit/drawing';
-import { chosenDoubt } from '../edit/mode';
+import { chosenDoubt, isTracing } from '../edit/mode';
 import { performAny } from '../edit/performing';
 import { acceptCandidate, endVessel } from '../edit/pointing';
 import { STOPPER } from '../edit/stoppers';
@@ -18,7 +18,7 @@ import { OpenMore } from './OpenButtons';
 
 export function TraceBar() {
   const doubt = vesselOf(document_.value, chosenDoubt.value);
-  if (tool.value === 'trace' || tool.value === 'stopper') {
+  if (isTracing()) {
     return <Hint />;
   }
   // A vessel that was ended is not there yet as long as its points are traced.
@@ -113,10 +113,13 @@ function Hint() {
 
 function hintWords(): string {
   if (waiting.value > 0) {
-    return 'Tracing …';
+    return searches.value > 0 ? 'Looking for vessels …' : 'Tracing …';
   }
   if (candidate.value) {
     return 'The brightest place under the pointer. Is it right in the slices? Then click it again. If it is not the vessel, click it in a slice.';
+  }
+  if (tool.value === 'seed') {
+    return 'Click where the tree begins, or press Enter at the cross-hair: all branches from there are looked for.';
   }
   if (tool.value === 'stopper') {
     return 'Click, or press Enter at the cross-hair, where no vessel may pass.';

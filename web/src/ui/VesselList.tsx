@@ -109,7 +109,11 @@ function Means() {
       >
         Find all vessels
       </button>
-      <button type="button" title="From the cross-hair (b)" onClick={() => performAny(engine, 'branches')}>
+      <button
+        type="button"
+        title="From the cross-hair where you put it, else from a click (b)"
+        onClick={() => performAny(engine, 'branches')}
+      >
         All branches from here
       </button>
       {!isTracing() && (

@@ -26,8 +26,12 @@ interface RowProps {
   readonly vessel: DocumentVessel;
 }
 
-/** The indents of a tree that the narrow list has room for. */
+/** The indents of a tree that the narrow list has room for beside a name and its number, and how wide one is (CSS pixels). */
 const DEEPEST = 4;
+const INDENT = 7;
+
+/** From here on (mm) the parts of a diameter are left out in the list. */
+const WIDE = 9.95;
 
 export function VesselRow({ vessel, depth }: RowProps & { readonly depth: number }) {
   const isPicked = vessel.id === pickedId();
@@ -45,7 +49,7 @@ export function VesselRow({ vessel, depth }: RowProps & { readonly depth: number
       class={rowClass(isPicked, marked.value.has(vessel.id))}
       data-vessel={vessel.id}
       data-depth={depth}
-      style={{ marginLeft: `${10 * Math.min(depth, DEEPEST)}px` }}
+      style={{ marginLeft: `${INDENT * Math.min(depth, DEEPEST)}px` }}
       {...lighting(vessel)}
     >
       <input
@@ -145,7 +149,7 @@ function sizeText(vessel: DocumentVessel): string {
   const { calibre = null, length } = factsOf(vessel) ?? {};
   return calibre === null || length === undefined
     ? lengthText(vessel)
-    : `${calibre.toFixed(1)} × ${length.toFixed(0)}`;
+    : `${calibre.toFixed(calibre < WIDE ? 1 : 0)} × ${length.toFixed(0)}`;
 }
 
 function calibreWords(vessel: DocumentVessel): string {

@@ -1,0 +1,39 @@
+/** Asks whether to go on with the session that was kept when the page was loaded anew. */
+import { Failure } from '../core/failure';
+import { openList } from '../edit/list-open';
+import { kept } from '../session/keeping';
+import { openSession } from '../session/saving';
+import { hasVolume, problem } from '../state/store';
+
+export function KeptQuestion() {
+  const text = kept.value;
+  if (text === null || !hasVolume.value) {
+    return null;
+  }
+  const goOn = async () => {
+    kept.value = null;
+    try {
+      await openSession({ path: 'kept.mrk.json', file: new File([text], 'kept.mrk.json') });
+      openList();
+    } catch (error) {
+      problem.value = Failure.of(error);
+    }
+  };
+  const words = 'Vessels that were not saved were kept in this tab.';
+  return (
+    <div class="file-question" role="alertdialog" aria-label={words}>
+      <p>{words}</p>
+      <button type="button" ref={(button) => button?.focus()} onClick={() => void goOn()}>
+        Go on with them
+      </button>
+      <button
+        type="button"
+        onClick={() => {
+          kept.value = null;
+        }}
+      >
+        Discard them
+      </button>
+    </div>
+  );
+}

@@ -1,0 +1,65 @@
+/** The session is kept over a reload only where the reader allows it. */
+import { afterEach, beforeEach, expect, test, vi } from 'vitest';
+import { followKeeping, isKeeping, kept } from '../src/session/keeping';
+import { EMPTY } from '../src/state/document';
+import { begin, change, document_, markSaved } from '../src/state/history';
+import { report } from '../src/state/store';
+import { reportOf, withLines } from './fake-tracing';
+
+let held = new Map<string, string>();
+const tab = {
+  getItem: (key: string) => held.get(key) ?? null,
+  setItem: (key: string, text: string) => void held.set(key, text),
+  removeItem: (key: string) => void held.delete(key),
+};
+let end = () => {};
+const sessions = () => [...held.values()].filter((text) => text.startsWith('session'));
+const follow = () => {
+  end();
+  end = followKeeping(tab, async () => `session of ${document_.value.vessels.length}`);
+};
+
+beforeEach(() => {
+  vi.useFakeTimers();
+  held = new Map();
+  report.value = reportOf([]);
+  begin(EMPTY);
+  follow();
+});
+
+afterEach(() => {
+  end();
+  vi.useRealTimers();
+  report.value = null;
+});
+
+const later = () => vi.advanceTimersByTimeAsync(1500);
+
+test('without leave nothing is kept', async () => {
+  change('add', withLines(document_.value, 1));
+  await later();
+  expect(held.size).toBe(0);
+});
+
+test('with leave a change is kept, and is offered after a reload; what is saved or discarded is kept no longer', async () => {
+  isKeeping.value = true;
+  change('add', withLines(document_.value, 1));
+  await later();
+  expect(sessions()).toEqual(['session of 1']);
+  // The page is loaded anew, and the scan is opened again.
+  begin(EMPTY);
+  end();
+  held.set('lumencut-session', 'session of 1');
+  follow();
+  expect([isKeeping.value, kept.value]).toEqual([true, 'session of 1']);
+  change('add', withLines(document_.value, 1, 2));
+  await later();
+  expect(sessions(), 'nothing takes its place before the reader has answered').toEqual(['session of 1']);
+  kept.value = null;
+  await later();
+  expect(sessions()).toEqual(['session of 2']);
+  markSaved(document_.value);
+  expect(sessions()).toEqual([]);
+  isKeeping.value = false;
+  expect(held.size).toBe(0);
+});

@@ -1,0 +1,108 @@
+/** Looking for many vessels: where a tree begins, clicks meanwhile, and what is shown first of what was found. */
+import { afterEach, beforeEach, expect, test, vi } from 'vitest';
+import type { EngineClient } from '../src/client/engine';
+import type { Camera, DocumentVessel, Vector } from '../src/core/messages';
+import { findVessels } from '../src/edit/branches';
+import { dropEdits, searches } from '../src/edit/committing';
+import { first } from '../src/edit/drawing';
+import { branchesFromHere } from '../src/edit/performing';
+import { setPoint } from '../src/edit/pointing';
+import { toPick } from '../src/edit/shown';
+import { EMPTY } from '../src/state/document';
+import { begin, document_ } from '../src/state/history';
+import * as store from '../src/state/store';
+import { told } from '../src/state/telling';
+import { tool } from '../src/state/tool';
+import { FakeTracing, withLines } from './fake-tracing';
+
+// The page's own engine runs in a worker, which there is none of here.
+vi.mock('../src/client/shared', () => ({ engine: {} }));
+
+const OPENED: Vector = [0, 0, 0];
+const CHOSEN: Vector = [3, 4, 5];
+const hairAt = (point: Vector) => ({ point, value: null, vessel: null, arcLength: null });
+
+let tracing = new FakeTracing();
+const engine = () => tracing as unknown as EngineClient;
+const kinds = () => tracing.edits.map(({ edit }) => edit.kind);
+
+beforeEach(() => {
+  vi.stubGlobal('window', Object.assign(globalThis, { matchMedia: () => ({ matches: true }) }));
+  tracing = new FakeTracing();
+  dropEdits();
+  begin(EMPTY);
+  store.firstPlace.value = OPENED;
+  store.crossHair.value = hairAt(OPENED);
+});
+
+afterEach(() => {
+  tool.value = 'look';
+  store.camera.value = null;
+  toPick.value = null;
+  first.value = null;
+  told.value = null;
+});
+
+test('where the reader did not put the cross-hair a click says where a tree begins', async () => {
+  branchesFromHere(engine());
+  expect([tool.value, kinds()]).toEqual(['seed', []]);
+  await setPoint(tracing, CHOSEN);
+  expect(tracing.edits[0]?.edit).toEqual({ kind: 'add_branches', seed: CHOSEN });
+  expect(tool.value).toBe('look');
+  store.crossHair.value = hairAt(CHOSEN);
+  branchesFromHere(engine());
+  await vi.waitFor(() => expect(kinds()).toEqual(['add_branches', 'add_branches']));
+  expect(tool.value, 'the cross-hair stands where the reader put it').toBe('look');
+});
+
+test('a second press lays the question where a tree begins down again', () => {
+  branchesFromHere(engine());
+  branchesFromHere(engine());
+  expect([tool.value, kinds()]).toEqual(['look', []]);
+});
+
+test('clicks while vessels are looked for are no points of others, and the page says so', async () => {
+  let open = () => {};
+  tracing.gate = new Promise((resolve) => {
+    open = resolve;
+  });
+  const finding = findVessels(tracing);
+  await vi.waitFor(() => expect(searches.value).toBe(1));
+  tool.value = 'trace';
+  await setPoint(tracing, CHOSEN);
+  expect(first.value).toBeNull();
+  expect(told.value).toContain('No point was set');
+  open();
+  await finding;
+  expect(searches.value).toBe(0);
+  await setPoint(tracing, CHOSEN);
+  expect(first.value).toEqual(CHOSEN);
+});
+
+test('of the vessels that were found first the widest is picked and seen best; later finds leave the view', async () => {
+  const camera = { size: [10, 10], center: [0, 0, 0] } as unknown as Camera;
+  const best = { ...camera, center: [7, 7, 7] } as unknown as Camera;
+  const asked: unknown[] = [];
+  const found = Object.assign(tracing, {
+    edit: async () => ({
+      document: withLines({ ...document_.value }, 20, 21, 22),
+      words: 'find',
+      added: [1, 2, 3],
+      without_marks: [],
+      notes: [],
+    }),
+    line_facts: async ({ lines }: { lines: readonly number[] }) =>
+      lines.map((line, n) => ({ line, length: 100 - n, calibre: [3, 24, 7][n], part: 0, parent: null })),
+    best_view: async (message: { line: number }) => {
+      asked.push(message.line);
+      return best;
+    },
+  });
+  store.camera.value = camera;
+  await findVessels(found);
+  expect(asked).toEqual([21]);
+  expect(toPick.value).toBe((document_.value.vessels[1] as DocumentVessel).id);
+  expect(store.camera.value?.center).toEqual([7, 7, 7]);
+  await findVessels(found);
+  expect(asked, 'there were vessels before').toEqual([21]);
+});
