@@ -49,3 +49,17 @@ fn the_rings_of_a_stent_are_one_stretch_of_metal() {
     join_rings(&at, &mut flags);
     assert_eq!(flags, [METAL, METAL, METAL | NEIGHBOR, METAL, CALCIUM, 0, 0, 0, 0, 0, METAL, CALCIUM]);
 }
+
+#[test]
+fn between_metal_what_is_bright_all_the_way_is_metal() {
+    let at: Vec<f64> = (0..12).map(|n| 3.0 * f64::from(n)).collect();
+    let mut flags = [CALCIUM; 12];
+    [flags[2], flags[9]] = [METAL; 2];
+    let mut dark_between = flags;
+    join_rings(&at, &mut flags);
+    assert!(flags[2..=9].iter().all(|flags| *flags == METAL));
+    assert!(flags[..2].iter().chain(&flags[10..]).all(|flags| *flags == CALCIUM));
+    dark_between[5] = 0;
+    join_rings(&at, &mut dark_between);
+    assert_eq!(dark_between[4..7], [CALCIUM, 0, CALCIUM]);
+}
