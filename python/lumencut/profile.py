@@ -179,7 +179,8 @@ class Profile(ProfileNumbers, ProfileOutputs):
         """Return what of the vessel was not measured, and why, a sentence for each stretch; mostly empty.
 
         A line that runs on where nothing tells lumen from tissue is measured as far as there is a wall: over
-        its longest stretch of pieces of 10 mm each of which has one. Sections elsewhere are NaN.
+        its longest stretch of pieces of 10 mm each of which has one. Sections elsewhere are NaN. Ends of
+        10 mm and more in which no wall was found are told, too.
         """
         return tuple(_lumencut.not_measured_stretches(self._core))
 

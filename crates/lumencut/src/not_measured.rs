@@ -17,18 +17,25 @@ pub struct NotMeasured {
     pub words: String,
 }
 
-/// The stretches that were not measured as nothing tells lumen from its surroundings there; none of most vessels.
+/// A shorter end without a section that was measured is not told (mm): many vessels end so.
+const SHORTEST: f64 = 10.0;
+
+/// The ends of a vessel that were not measured; none of most vessels.
 pub fn not_measured(profile: &Profile) -> Vec<NotMeasured> {
-    const WHY: &str = "the vessel is as bright as its surroundings there";
-    let told = |[from, to]: &[f64; 2]| {
-        let (cut, part) = if *from <= 0.0 {
-            (*to, format!("up to {to:.0} mm"))
-        } else {
-            (*from, format!("from {from:.0} mm on"))
-        };
-        NotMeasured { from_mm: *from, to_mm: *to, cut_mm: cut, words: format!("Not measured {part}: {WHY}.") }
-    };
-    profile.without_wall.iter().map(told).collect()
+    let mut measured = (0..profile.len()).filter(|n| profile.area[*n].is_finite());
+    let Some(first) = measured.next() else { return Vec::new() };
+    let last = measured.next_back().unwrap_or(first);
+    let [low, high] = [first, last].map(|n| profile.arc_length[n]);
+    let ends = [(low, [0.0, low], "up to"), (high, [high, profile.length()], "from")];
+    let long = ends.into_iter().filter(|(_, [from, to], _)| to - from >= SHORTEST);
+    long.map(|(cut, [from, to], side)| {
+        let is_bright = profile.without_wall.iter().any(|[begin, end]| *begin < to && *end > from);
+        let why = if is_bright { "the vessel is as bright as its surroundings" } else { "no wall was found" };
+        let on = if side == "from" { " on" } else { "" };
+        let words = format!("Not measured {side} {cut:.0} mm{on}: {why} there.");
+        NotMeasured { from_mm: from, to_mm: to, cut_mm: cut, words }
+    })
+    .collect()
 }
 
 #[cfg(test)]

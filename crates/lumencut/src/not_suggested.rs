@@ -35,10 +35,17 @@ fn none_safe(profile: &Profile) -> String {
     let hindrances = profile.hindrances();
     let counted = |bit: u32| hindrances.iter().filter(|found| *found & bit != 0).count();
     let bits = FLAGS.iter().map(|flag| (flag.bit, flag.word)).chain(HINDRANCES);
-    let mut found: Vec<(usize, &str)> = bits.map(|(bit, word)| (counted(bit), word)).collect();
-    found.retain(|(count, _)| *count > 0);
-    found.sort_by_key(|(count, _)| std::cmp::Reverse(*count));
-    let words: Vec<&str> = found.iter().take(MOST_REASONS).map(|(_, word)| *word).collect();
+    // The reasons so far, from the most sections on: a few, for which a sort would be more code than they are worth.
+    let mut found: Vec<(usize, &str)> = Vec::new();
+    for (bit, word) in bits {
+        let count = counted(bit);
+        let place = found.partition_point(|(other, _)| *other >= count);
+        if count > 0 && place < MOST_REASONS {
+            found.insert(place, (count, word));
+            found.truncate(MOST_REASONS);
+        }
+    }
+    let words: Vec<&str> = found.iter().map(|(_, word)| *word).collect();
     let why = if words.is_empty() { String::new() } else { format!(" ({})", words.join(", ")) };
     format!("No narrowest place is suggested: no section is safe{why}. Mark it yourself.")
 }

@@ -145,7 +145,7 @@ impl Marked {
     /// The places whose diameters are noted, rising, without those where nothing was measured.
     fn noted(&self, profile: &Profile) -> Vec<Mark> {
         let mut places = self.diameters.clone();
-        places.sort_by(f64::total_cmp);
+        places.sort_unstable_by(f64::total_cmp);
         let mark = |at: f64| {
             let (diameter, _) = profile.diameter_at(at).ok()?;
             Some(Mark { name: NOTED, at, diameter, is_suggestion: false })

@@ -8,14 +8,31 @@ fn a_vessel_that_has_a_wall_everywhere_tells_nothing() {
     assert_eq!(not_measured(&tube()), []);
 }
 
+/// The tube of 60 mm without the sections before and behind these places (mm).
+fn measured_within([low, high]: [f64; 2]) -> Profile {
+    let mut profile = tube();
+    for (area, at) in profile.area.iter_mut().zip(&profile.arc_length) {
+        if *at < low || *at > high {
+            *area = f64::NAN;
+        }
+    }
+    profile
+}
+
 #[test]
 fn both_ends_are_told_with_the_place_to_cut() {
-    let profile = Profile { without_wall: vec![[0.0, 9.5], [40.0, 60.0]], ..tube() };
+    let profile = Profile { without_wall: vec![[42.0, 60.0]], ..measured_within([12.0, 40.0]) };
     let [before, behind] = &not_measured(&profile)[..] else { panic!("both ends") };
-    assert_eq!(before.words, "Not measured up to 10 mm: the vessel is as bright as its surroundings there.");
+    assert_eq!(before.words, "Not measured up to 12 mm: no wall was found there.");
     assert_eq!(
         behind.words,
         "Not measured from 40 mm on: the vessel is as bright as its surroundings there."
     );
-    assert_eq!([before.cut_mm, behind.cut_mm], [9.5, 40.0]);
+    assert_eq!([before.cut_mm, behind.cut_mm], [12.0, 40.0]);
+    assert_eq!([behind.from_mm, behind.to_mm], [40.0, 60.0]);
+}
+
+#[test]
+fn short_ends_are_not_told() {
+    assert_eq!(not_measured(&measured_within([5.0, 55.0])), []);
 }
