@@ -97,13 +97,15 @@ function Hint() {
           End this vessel
         </button>
       )}
-      <button
-        type="button"
-        title={tool.value === 'trace' ? STOPPER : 'Go on with the points of vessels'}
-        onClick={take(tool.value === 'trace' ? 'stopper' : 'trace')}
-      >
-        {tool.value === 'trace' ? 'Stopper' : 'Trace'}
-      </button>
+      {tool.value !== 'seed' && (
+        <button
+          type="button"
+          title={tool.value === 'trace' ? STOPPER : 'Go on with the points of vessels'}
+          onClick={take(tool.value === 'trace' ? 'stopper' : 'trace')}
+        >
+          {tool.value === 'trace' ? 'Stopper' : 'Trace'}
+        </button>
+      )}
       <button type="button" onClick={take('look')}>
         Done
       </button>
