@@ -19,6 +19,13 @@ function element(tag: number, vr: string, value: string | number): Buffer {
   return Buffer.concat([head, bytes]);
 }
 
+/** Which series slices belong to. */
+interface Of {
+  readonly uid: string;
+  readonly number: string;
+}
+const ONE: Of = { uid: '1.2.3', number: '7' };
+
 function pixels(phase: number): Buffer {
   const values = Int16Array.from({ length: SIDE * SIDE }, (_, n) => {
     const [column, row] = [n % SIDE, Math.floor(n / SIDE)];
@@ -33,8 +40,8 @@ function pixels(phase: number): Buffer {
 }
 
 /** One slice at this height (mm), in this phase where there are several. */
-function slice(height: number, phase: number, phases: number): Buffer {
-  const uid = `1.2.3.${height}.${phase}`;
+function slice(height: number, [phase, phases]: readonly [number, number], of: Of): Buffer {
+  const uid = `${of.uid}.${height}.${phase}`;
   const meta = Buffer.concat([
     element(0x00020002, 'UI', CT),
     element(0x00020003, 'UI', uid),
@@ -54,8 +61,8 @@ function slice(height: number, phase: number, phases: number): Buffer {
     element(0x00080060, 'CS', 'CT'),
     element(0x00180050, 'DS', '2'),
     ...trigger,
-    element(0x0020000e, 'UI', '1.2.3'),
-    element(0x00200011, 'IS', '7'),
+    element(0x0020000e, 'UI', of.uid),
+    element(0x00200011, 'IS', of.number),
     element(0x00200032, 'DS', `0\\0\\${height}`),
     element(0x00200037, 'DS', '1\\0\\0\\0\\1\\0'),
     element(0x00280002, 'US', 1),
@@ -71,13 +78,13 @@ function slice(height: number, phase: number, phases: number): Buffer {
   ]);
 }
 
-/** Files of slices at these heights (mm), in each of this number of phases, which differ by 100 in the rod. */
-export function series(heights: readonly number[], phases = 1) {
+/** Files of slices of a series at these heights (mm), in each of this number of phases, which differ by 100 in the rod. */
+export function series(heights: readonly number[], phases = 1, of = ONE) {
   return Array.from({ length: phases }, (_, phase) =>
     heights.map((height) => ({
-      name: `IM${phase}-${height}.dcm`,
+      name: `${of.number}-IM${phase}-${height}.dcm`,
       mimeType: 'application/dicom',
-      buffer: slice(height, phase, phases),
+      buffer: slice(height, [phase, phases], of),
     })),
   ).flat();
 }

@@ -43,3 +43,16 @@ test('one of several phases is read', async () => {
   await choose(series([0, 2, 4, 6], 2));
   expect(await mended(/Choose one of the phases\./, 'Read the phase 400')).toEqual([16, 16, 4]);
 });
+
+test('among several series each shows its middle slice, and one is read by its button', async () => {
+  const other = { uid: '1.2.4', number: '9' };
+  await choose([...series([0, 2, 4, 6]), ...series([0, 2, 4, 6, 8], 1, other)]);
+  const buttons = viewer.problem.getByRole('list', { name: 'Series' }).getByRole('button');
+  await expect(buttons).toHaveCount(2);
+  await expect(viewer.problem.getByTestId('series-thumbnail')).toHaveCount(2);
+  await viewer.screenshot('series');
+  await buttons.filter({ hasText: /^9: / }).click();
+  await expect(viewer.problem).toBeHidden();
+  await viewer.rest();
+  expect((await viewer.report()).volume?.size).toEqual([16, 16, 5]);
+});

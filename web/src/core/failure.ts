@@ -14,6 +14,15 @@ export interface SeriesChoice {
   readonly spacing: readonly number[] | null;
   /** Why the images form no angiography volume, empty where they may. */
   readonly trouble: string;
+  /** Its middle slice, where that could be read. */
+  readonly thumbnail?: Thumbnail;
+}
+
+/** A small grey picture: a byte for each pixel, in rows from the top. */
+export interface Thumbnail {
+  readonly width: number;
+  readonly height: number;
+  readonly grey: readonly number[];
 }
 
 /** Clicked points, counted from 0. */

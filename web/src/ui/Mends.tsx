@@ -3,6 +3,7 @@ import type { Failure, SeriesChoice } from '../core/failure';
 import type { Mend, MendName } from '../core/mends';
 import type { SeriesWish } from '../core/messages';
 import { openAgain } from '../state/last-opened';
+import { SeriesThumbnail } from './SeriesThumbnail';
 
 /** A button, and the wish with which it opens the same again. */
 type Button = readonly [words: string, wish: SeriesWish];
@@ -57,6 +58,7 @@ function Series({ of }: { readonly of: readonly SeriesChoice[] }) {
       {of.map((one) => (
         <li key={one.uid}>
           <button type="button" onClick={() => void openAgain({ series: one.uid })}>
+            {one.thumbnail && <SeriesThumbnail of={one.thumbnail} />}
             {wordsOf(one)}
           </button>
         </li>

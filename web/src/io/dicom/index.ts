@@ -6,10 +6,11 @@ import { inOrder, type Source } from '../source';
 import type { Steps } from '../steps';
 import type { Sink } from '../volume-file';
 import { type LookedInto, lookInto } from './headers';
-import { asked, judged } from './judging';
+import { asked, judged, type Plan } from './judging';
 import { Recorder } from './records';
 import { loadStack } from './stack';
 import { studyOf } from './study';
+import { withThumbnails } from './thumbnails';
 import type { Wanted } from './wanted';
 
 export { headOf } from './study';
@@ -30,9 +31,18 @@ export interface ReadSeries {
 /** Reads a series into the engine. */
 export async function openDicom(series: Series, judge: Judge, sink: Sink, steps: Steps): Promise<ReadSeries> {
   const files = await lookIntoAll(series.sources, judge, steps);
-  const plan = judged(judge, series.subject, files, series.wanted);
+  const plan = await planned(series, judge, files);
   await loadStack(series.subject, plan, files, sink, steps);
   return { notes: plan.notes, study: await studyOf(plan, files) };
+}
+
+/** The plan of the volume; where a series is to be chosen first, the refusal shows a picture of each. */
+async function planned(series: Series, judge: Judge, files: readonly LookedInto[]): Promise<Plan> {
+  try {
+    return judged(judge, series.subject, files, series.wanted);
+  } catch (error) {
+    throw await withThumbnails(error, files);
+  }
 }
 
 async function lookIntoAll(sources: readonly Source[], judge: Judge, steps: Steps): Promise<LookedInto[]> {

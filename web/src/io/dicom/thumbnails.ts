@@ -1,0 +1,68 @@
+/** Small pictures of series among which the reader chooses: the middle slice of each, 64 pixels at its longer side. */
+import { Failure, type SeriesChoice, type Thumbnail } from '../../core/failure';
+import type { Numbers } from '../numbers';
+import { shapeOf } from './frames';
+import type { Image, LookedInto } from './headers';
+import { PixelReader } from './pixels';
+
+/** The longer side (pixels). */
+const SIDE = 64;
+/** From black to white lie all values but this share at each end. */
+const ENDS = 0.02;
+
+/** The same failure with a picture of each series to choose from; any other one as it is. */
+export async function withThumbnails(failure: unknown, files: readonly LookedInto[]): Promise<unknown> {
+  if (!(failure instanceof Failure) || failure.series.length === 0) {
+    return failure;
+  }
+  const { kind, subject, found, expected, advice, more } = failure;
+  const series: SeriesChoice[] = [];
+  for (const choice of failure.series) {
+    const thumbnail = await thumbnailOf(imagesOf(choice, files)).catch(() => null);
+    series.push(thumbnail ? { ...choice, thumbnail } : choice);
+  }
+  return new Failure(kind, subject, found, expected, advice, { ...more, series });
+}
+
+function imagesOf({ uid }: SeriesChoice, files: readonly LookedInto[]): readonly Image[] {
+  return files.flatMap(({ image }) => (image?.header.attributes.SeriesInstanceUID === uid ? [image] : []));
+}
+
+/** The middle slice of images that belong together, in the order of their places; null of none with pixels. */
+async function thumbnailOf(images: readonly Image[]): Promise<Thumbnail | null> {
+  const inOrder = images.filter(({ pixels }) => pixels).toSorted((a, b) => placeOf(a) - placeOf(b));
+  const middle = inOrder[Math.floor(inOrder.length / 2)];
+  if (!middle) {
+    return null;
+  }
+  const { columns, rows, frameCount } = shapeOf(middle);
+  const values = await new PixelReader().read(middle, Math.floor(frameCount / 2));
+  return pictureOf(values, [columns, rows]);
+}
+
+/** Where a slice lies across its plane (mm), or its number where no place is stated. */
+function placeOf({ header: { attributes } }: Image): number {
+  const numbers = (keyword: string) => [attributes[keyword] ?? []].flat().map(Number);
+  const [at, axes] = [numbers('ImagePositionPatient'), numbers('ImageOrientationPatient')];
+  const [a = 1, b = 0, c = 0, d = 0, e = 1, f = 0] = axes;
+  const normal = [b * f - c * e, c * d - a * f, a * e - b * d];
+  const place = normal.reduce((sum, part, axis) => sum + part * (at[axis] ?? Number.NaN), 0);
+  return Number.isFinite(place) ? place : Number(attributes.InstanceNumber ?? 0);
+}
+
+/** Grey bytes of a slice, made smaller by taking the nearest of its pixels. */
+export function pictureOf(values: Numbers, [columns, rows]: readonly [number, number]): Thumbnail {
+  const step = Math.max(columns, rows) / SIDE;
+  const [width, height] = [Math.max(1, Math.round(columns / step)), Math.max(1, Math.round(rows / step))];
+  const at = (n: number) => {
+    const column = Math.min(columns - 1, Math.floor(((n % width) + 0.5) * step));
+    const row = Math.min(rows - 1, Math.floor((Math.floor(n / width) + 0.5) * step));
+    return Number(values[row * columns + column]);
+  };
+  const taken = Float64Array.from({ length: width * height }, (_, n) => at(n));
+  const sorted = taken.toSorted();
+  const end = (share: number) => sorted[Math.round(share * (sorted.length - 1))] ?? 0;
+  const [low, high] = [end(ENDS), end(1 - ENDS)];
+  const grey = taken.map((value) => (255 * (value - low)) / Math.max(high - low, 1e-9));
+  return { width, height, grey: [...Uint8ClampedArray.from(grey)] };
+}
