@@ -12,16 +12,19 @@ import tempfile
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pydicom
 
 from dicom_judges import faults
-from dicom_scenes import LINE, series
-from lumencut import Vessel, VesselTree, write_centerlines
+from dicom_phantom import instance, save
+from dicom_scenes import LINE, scan, series
+from lumencut import Vessel, VesselTree, Volume, write_centerlines
 from lumencut.viewer.arriving import ArrivingScene
 from lumencut.viewer.page import Page
 from lumencut.viewer.server import ViewerServer
 from lumencut.volume_files import open_volume
 from pacs_requests import NAME, members
+from segmentation_files import segmentation
 from test_dicom_reports import child, code, groups, numbers
 
 
@@ -30,11 +33,25 @@ def serve(page: Path, shows_scan: bool) -> None:
     tree = VesselTree([Vessel(LINE[0].points, 3.0, NAME)])
     scene = ArrivingScene(open_volume(series()), lambda _: tree) if shows_scan else None
     with tempfile.TemporaryDirectory() as folder, ViewerServer(Page.of(page), scene) as server:
-        lines = Path(folder) / "lines.vtp"
+        lines, tube, contours = (Path(folder) / name for name in ("lines.vtp", "tube.dcm", "contours.dcm"))
         write_centerlines(tree, lines)
+        save(segmentation({5: _tube()}, {5: NAME}), tube)
+        save(instance(1, 1, pydicom.uid.RTStructureSetStorage, "RTSTRUCT"), contours)
         files = [str(path) for path in sorted(series().iterdir())]
-        print(json.dumps({"address": server.place.address, "files": files, "lines": str(lines)}), flush=True)
+        beside = {"lines": str(lines), "segmentation": str(tube), "contours": str(contours)}
+        print(json.dumps({"address": server.place.address, "files": files, **beside}), flush=True)
         sys.stdin.read()
+
+
+def _tube() -> Volume:
+    """The lumen of the phantom's vessel as a mask on the grid of the scan."""
+    volume = scan()
+    index = np.stack(np.meshgrid(*map(np.arange, volume.size), indexing="ij"), -1).reshape(-1, 3)
+    places = index @ volume.world_from_index[:3, :3].T + volume.world_from_index[:3, 3]
+    x, y = (places - LINE[0].points[0])[:, :2].T
+    inside = (np.hypot(x, y) < 3) & (index[:, 2] > 3) & (index[:, 2] < volume.size[2] - 4)
+    mask = inside.reshape(volume.size).transpose(2, 1, 0).astype(np.uint8)
+    return Volume(mask, world_from_index=volume.world_from_index)
 
 
 def read(archive: Path) -> dict[str, Any]:

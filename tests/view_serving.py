@@ -18,9 +18,11 @@ from lumencut.viewer.server import ViewerServer
 from lumencut.volume_files.opened import VolumeFile
 
 INDEX = "<!doctype html><html><head lang='en'><title>stand-in</title></head><body></body></html>"
-#: The same as it is served: it says where the server makes objects of what the page sends.
+#: The same as it is served: it says where the server makes something of what the page sends.
 SERVED = INDEX.replace(
-    "<head lang='en'>", '<head lang=\'en\'><meta name="lumencut-objects" content="make/objects">'
+    "<head lang='en'>",
+    "<head lang='en'>"
+    '<meta name="lumencut-objects" content="make/objects"><meta name="lumencut-mask" content="make/mask">',
 )
 SCRIPT = b"export const one = 1\n"
 

@@ -31,14 +31,14 @@ class Grid(Protocol):
         """The UID of the space of DICOM; empty where none is stated."""
 
 
-def on_grid_of(mask: Volume, volume: Volume) -> Volume:
+def on_grid_of(mask: Volume, volume: Grid) -> Volume:
     """Return a mask on the grid of its scan; one that is no segmentation of DICOM is returned as it is.
 
     Parameters
     ----------
     mask : Volume
         The mask.
-    volume : Volume
+    volume : Volume, or what has its grid
         The scan; its voxels beside the mask become 0.
 
     Raises
@@ -52,7 +52,7 @@ def on_grid_of(mask: Volume, volume: Volume) -> Volume:
     # Arrays have their axes in the order k, j, i.
     turned = mask.array.transpose([2 - axes.index(axis) for axis in (2, 1, 0)])
     turned = turned[tuple(slice(None, None, signs[axis]) for axis in (2, 1, 0))]
-    whole = np.zeros(volume.shape, turned.dtype)
+    whole = np.zeros(volume.size[::-1], turned.dtype)
     starts = zip(reversed(low), turned.shape, strict=True)
     whole[tuple(slice(start, start + length) for start, length in starts)] = turned
     placed = Volume(whole, world_from_index=volume.world_from_index)

@@ -3,7 +3,7 @@ import { type ChildProcess, spawn, spawnSync } from 'node:child_process';
 import { once } from 'node:events';
 import { join } from 'node:path';
 import { type Browser, expect, test } from '@playwright/test';
-import { button, menu, SIZE } from './controls';
+import { button, menu, nameOf, rows, SIZE } from './controls';
 import { Viewer } from './page';
 
 const ROOT = join(import.meta.dirname, '../..');
@@ -15,6 +15,8 @@ interface Served {
   readonly address: string;
   readonly files: readonly string[];
   readonly lines: string;
+  readonly segmentation: string;
+  readonly contours: string;
 }
 
 interface Told {
@@ -150,5 +152,26 @@ test('a page of a server of files says what it needs', async ({ browser }) => {
   await button(viewer, 'For PACS (DICOM, zip)').click();
   await expect(viewer.problem).toContainText('Open the scan by `lumencut view`');
   viewer.expectNoFault();
+  await viewer.close();
+});
+
+test('a segmentation is taken as a mask of the scan, and contours are refused by name', async ({
+  browser,
+}) => {
+  const place = await served('scan');
+  const viewer = await opened(browser, place);
+  await viewer.rest();
+  await viewer.press('v');
+  await expect(rows(viewer)).toHaveCount(1);
+  const input = viewer.page.locator('header input[type=file]').first();
+  await input.setInputFiles(place.contours);
+  await expect(viewer.problem).toContainText('RT Structure Set');
+  await expect(viewer.problem).toContainText('onvert its contours to a DICOM segmentation');
+  await input.setInputFiles(place.segmentation);
+  await expect(rows(viewer)).toHaveCount(2);
+  await expect(nameOf(viewer, 1)).toHaveValue('left renal artery');
+  await viewer.rest();
+  // The browser tells of the one answer that refuses.
+  expect(viewer.faults).toEqual([expect.stringContaining('422')]);
   await viewer.close();
 });

@@ -16,8 +16,8 @@ from lumencut.viewer.guard import Place
 from lumencut.viewer.refusing import refusal, unreadable
 from lumencut.volume import Volume
 
-#: Where "Save for PACS" asks for its objects.
-OBJECTS = "make/objects"
+#: Where "Save for PACS" asks for its objects, and where a segmentation of DICOM becomes a mask.
+OBJECTS, MASK = "make/objects", "make/mask"
 
 #: What a request may hold: pictures of large screens, twice, and reports of many vessels (bytes).
 _MOST = 128 << 20
@@ -38,7 +38,7 @@ class Posts:
     """
 
     #: The names that take content.
-    names = (OBJECTS,)
+    names = (OBJECTS, MASK)
     #: How many bytes a request may hold, and how long they may take to come (s).
     most, patience = _MOST, _PATIENCE
 
@@ -83,20 +83,21 @@ class Posts:
     async def _made(self, name: str, content: bytes) -> Response:
         volume = None if self._scene is None else self._scene.volume
         try:
-            archive = await _apart(lambda: _made_of(name, content, volume))
+            made = await _apart(lambda: _made_of(name, content, volume))
         except LumencutError as error:
             return unreadable(error)
         except MemoryError:
             found, expected = "more than the free memory holds", "objects that fit into it"
             return unreadable(FormatError("what the page asks for", found, expected))
-        return Response(archive, media_type=_ZIP)
+        return Response(made, media_type=_ZIP if name == OBJECTS else _JSON)
 
 
 def _made_of(name: str, content: bytes, volume: Volume | None) -> bytes:
     """What a request asks for by its name."""
     from lumencut.pacs_zip.archive import pacs_zip
+    from lumencut.pacs_zip.segmentation import segmentation_mask
 
-    return pacs_zip(content, volume)
+    return pacs_zip(content, volume) if name == OBJECTS else segmentation_mask(content, volume)
 
 
 async def _apart(work: Callable[[], bytes]) -> bytes:

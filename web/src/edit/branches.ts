@@ -1,12 +1,13 @@
 /** Many vessels at once: all of the scan, all branches from a seed, and the vessels of a mask. */
 import type { Asked } from '../core/asked';
-import type { Edit, Edited, GivenFile, LineFacts, Vector } from '../core/messages';
+import type { DocumentVessel, Edit, Edited, GivenFile, LineFacts, Vector } from '../core/messages';
 import { flyToAnswer } from '../state/flight';
 import { document_ } from '../state/history';
 import { camera, notes } from '../state/store';
 import { tellFailure } from '../state/telling';
 import { commit, isDone } from './committing';
 import { openList } from './list-open';
+import { maskOf, namedBySegment } from './segmentation';
 import { pickOnceShown } from './shown';
 
 /** Adds all branches that a seed reaches; doubtful ones wait until they are accepted. */
@@ -68,10 +69,27 @@ export async function findAndList(engine: Asked, doubtful = false): Promise<void
 export const addMask = (engine: Asked, mask: readonly GivenFile[]): Promise<boolean> =>
   addMany(engine, { kind: 'add_mask' }, mask);
 
+/** Adds the vessels of a segmentation of DICOM, by the names of its segments. */
+export async function addSegmentation(engine: Asked, file: GivenFile): Promise<boolean> {
+  try {
+    const { mask, names, notes: told } = await maskOf(file);
+    notes.value = [...new Set([...notes.value, ...told])];
+    return await addMany(engine, { kind: 'add_mask' }, mask, (vessel) => namedBySegment(vessel, names));
+  } catch (error) {
+    tellFailure(error);
+    return false;
+  }
+}
+
 /** Adds vessels; what is told of them comes among the notes. */
-function addMany(engine: Asked, edit: Edit, mask?: readonly GivenFile[]): Promise<boolean> {
+function addMany(
+  engine: Asked,
+  edit: Edit,
+  mask?: readonly GivenFile[],
+  renamed?: (vessel: DocumentVessel) => DocumentVessel,
+): Promise<boolean> {
   const then = (edited: Edited) => {
     notes.value = [...new Set([...notes.value, ...edited.notes])];
   };
-  return isDone(commit(engine, edit, mask ? { mask, then } : { then }));
+  return isDone(commit(engine, edit, { then, ...(mask && { mask }), ...(renamed && { renamed }) }));
 }

@@ -5,7 +5,7 @@
 import { signal } from '@preact/signals';
 import type { Asked } from '../core/asked';
 import { Failure } from '../core/failure';
-import type { Edit, Edited, GivenFile, Progress } from '../core/messages';
+import type { DocumentVessel, Edit, Edited, GivenFile, Progress } from '../core/messages';
 import { placeCrossHair } from '../link/cross-hair';
 import { afterEdit } from '../state/changes';
 import type { Document } from '../state/document';
@@ -158,6 +158,8 @@ export function commitPlain(words: string, edit: (document: Document) => Documen
 interface Beside {
   /** The files of a mask that is added. */
   readonly mask?: readonly GivenFile[];
+  /** Changes the vessels that came to the document. */
+  readonly renamed?: (vessel: DocumentVessel) => DocumentVessel;
   /** Hears what came of it, also where that needed a bridge first. */
   readonly then?: (edited: Edited) => void;
   readonly bridging?: boolean;
@@ -168,12 +170,12 @@ interface Beside {
  * done. What the page changes meanwhile, such as marks, stays.
  */
 export async function commit(engine: Asked, edit: Edit, beside: Beside = {}): Promise<Edited | null> {
-  const { mask, then, bridging = false } = beside;
+  const { mask, then, renamed = (vessel) => vessel, bridging = false } = beside;
   const files = mask && { mask };
   const work: Work<Edited> = async (told) => {
     const ask = ({ vessels, stoppers, bridge }: Document) =>
       engine.ask('edit', { document: { vessels, stoppers, bridge }, edit, bridging }, { told, ...files });
-    const edited = await latest(ask);
+    const edited = withNames(await latest(ask), renamed);
     return { words: edited.words, after: afterEdit(document_.value, edited), result: edited };
   };
   const again = () => void commit(engine, edit, { ...beside, bridging: true });
@@ -195,6 +197,13 @@ function counted<T>(work: Work<T>): Work<T> {
       searches.value -= 1;
     }
   };
+}
+
+/** What came of an edit, with other names of the vessels that came. */
+function withNames(edited: Edited, renamed: (vessel: DocumentVessel) => DocumentVessel): Edited {
+  const { document, added } = edited;
+  const vessels = document.vessels.map((one) => (added.includes(one.id) ? renamed(one) : one));
+  return { ...edited, document: { ...document, vessels } };
 }
 
 /** Work about which the reader is asked where it takes long. */

@@ -1,8 +1,8 @@
 /** What is put beside the scan in a PACS: the server makes DICOM objects of it, which come back as a zip archive. Nothing is sent elsewhere. */
 import { signal } from '@preact/signals';
 import { engine } from '../client/shared';
-import { Failure } from '../core/failure';
 import type { GivenFile } from '../core/messages';
+import { inBase64, made, placeOf } from '../core/server';
 import { type Finding, markedVessel } from '../measure/findings';
 import { settingOf } from '../state/actions';
 import { isMillimetreAssumed } from '../state/millimetres';
@@ -17,6 +17,7 @@ import { composed, saveAs } from './pictures';
 import { reported, reportOf } from './report';
 import { pngOf, straightenedCanvas } from './report-pictures';
 
+const SUBJECT = 'Save for PACS';
 /** The version of what is sent. */
 const VERSION = 1;
 const UPRIGHT =
@@ -36,43 +37,16 @@ export const isPacsAsked = signal(false);
 
 /** Asks into which study; refuses where no program serves the page that could make objects. */
 export async function askForPacs(): Promise<void> {
-  objectsAddress();
+  placeOf('objects', SUBJECT);
   isPacsAsked.value = true;
 }
 
 /** Saves the objects of what is shown. */
 export async function savePacs(study: PacsStudy): Promise<void> {
-  const address = objectsAddress();
   tell('Making the DICOM objects …');
-  const body = JSON.stringify(await requestOf(study));
-  const response = await fetch(address, {
-    method: 'POST',
-    headers: { 'Content-Type': 'application/json' },
-    body,
-  });
-  if (!response.ok) {
-    throw refusalOf(response.status, await response.text());
-  }
+  const response = await made('objects', SUBJECT, await requestOf(study));
   const scan = study === 'anonymous' ? null : store.studyName.value;
   saveAs(await response.blob(), fileName({ scan, content: 'pacs', ending: 'zip' }), 'Nothing was sent');
-}
-
-function objectsAddress(): string {
-  const address = document.querySelector<HTMLMetaElement>('meta[name="lumencut-objects"]')?.content;
-  if (address) {
-    return address;
-  }
-  const advice = 'open the scan by `lumencut view`, of pip install "lumencut[dicom,plot]"';
-  throw new Failure('file', 'Save for PACS', 'a page alone', 'the program that writes DICOM', advice);
-}
-
-function refusalOf(status: number, text: string): Failure {
-  const failure = Failure.of(text);
-  const advice =
-    status === 503 ? 'wait until the objects before are made' : 'look at the program that serves the page';
-  return failure.kind === 'unexpected'
-    ? new Failure('file', 'Save for PACS', `an answer ${status}`, 'DICOM objects', advice)
-    : failure;
 }
 
 async function requestOf(study: PacsStudy): Promise<object> {
@@ -108,7 +82,7 @@ async function studyPart(study: PacsStudy): Promise<object> {
   return {
     choice: typeof study === 'string' ? study : 'like',
     is_served: known?.isServed ?? false,
-    header: header ? await inBase64(header) : null,
+    header: header ? await inBase64(new Blob([header])) : null,
     instances: read?.instances ?? [],
     study_count: read?.studyCount ?? 1,
   };
@@ -165,12 +139,4 @@ async function partOf(finding: Finding): Promise<object> {
     ]),
     words: stenosis?.words ?? null,
   };
-}
-
-function inBase64(bytes: Uint8Array<ArrayBuffer>): Promise<string> {
-  return new Promise((resolve) => {
-    const reader = new FileReader();
-    reader.onload = () => resolve(String(reader.result).split(',')[1] ?? '');
-    reader.readAsDataURL(new Blob([bytes]));
-  });
 }

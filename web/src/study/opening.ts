@@ -3,6 +3,8 @@ import { signal } from '@preact/signals';
 import type { EngineClient } from '../client/engine';
 import { Failure } from '../core/failure';
 import type { GivenFile, SeriesWish } from '../core/messages';
+import { addSegmentation } from '../edit/branches';
+import { isSegmentation } from '../edit/segmentation';
 import { isSession, openSession } from '../session/saving';
 import { openWith } from '../state/last-opened';
 import * as store from '../state/store';
@@ -49,6 +51,8 @@ export async function takeFiles(engine: EngineClient, files: readonly GivenFile[
     });
   } else if (store.hasVolume.value && files.length > 0 && files.every(({ path }) => VOLUMES.test(path))) {
     question.value = files;
+  } else if (store.hasVolume.value && files[0] && (await isSegmentation(files))) {
+    await addSegmentation(engine, files[0]);
   } else if (files.every(({ path }) => CENTERLINES.test(path))) {
     await openFiles(engine, files);
   } else {

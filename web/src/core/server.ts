@@ -1,0 +1,42 @@
+/** The program that serves the page, as far as it makes something of what the page sends; a server of files makes nothing. */
+import { Failure } from './failure';
+
+/** What it makes: objects of DICOM, and the mask of a segmentation. */
+export type Made = 'objects' | 'mask';
+
+/** Where it makes this; refuses for `subject` where nothing does. */
+export function placeOf(made: Made, subject: string): string {
+  const address = document.querySelector<HTMLMetaElement>(`meta[name="lumencut-${made}"]`)?.content;
+  if (address) {
+    return address;
+  }
+  const advice = 'open the scan by `lumencut view`, of pip install "lumencut[dicom,plot]"';
+  throw new Failure('file', subject, 'a page alone', 'the program that reads and writes such DICOM', advice);
+}
+
+/** What it makes of content; its refusals are failures. */
+export async function made(what: Made, subject: string, content: object): Promise<Response> {
+  const response = await fetch(placeOf(what, subject), {
+    method: 'POST',
+    headers: { 'Content-Type': 'application/json' },
+    body: JSON.stringify(content),
+  });
+  if (response.ok) {
+    return response;
+  }
+  const failure = Failure.of(await response.text());
+  const advice =
+    response.status === 503 ? 'wait for what is made already' : 'look at the program that serves the page';
+  throw failure.kind === 'unexpected'
+    ? new Failure('file', subject, `an answer ${response.status}`, 'what was asked for', advice)
+    : failure;
+}
+
+/** Bytes as a text that JSON can hold. */
+export function inBase64(bytes: Blob): Promise<string> {
+  return new Promise((resolve) => {
+    const reader = new FileReader();
+    reader.onload = () => resolve(String(reader.result).split(',')[1] ?? '');
+    reader.readAsDataURL(bytes);
+  });
+}
