@@ -13,6 +13,7 @@ const edited = (document: Document, ...lost: number[]) => ({
   added: [],
   without_marks: lost,
   notes: [],
+  told: null,
 });
 
 test('a vessel without a name is called by its id', () => {

@@ -15,7 +15,7 @@ class Slow {
 
   private answer(told: ((heard: Progress) => void) | undefined): Promise<never> {
     this.told = told ?? this.told;
-    const edited = { document: EMPTY, words: 'x', added: [], without_marks: [], notes: [] };
+    const edited = { document: EMPTY, words: 'x', added: [], without_marks: [], notes: [], told: null };
     return new Promise((resolve) => {
       this.end = () => resolve(edited as never);
     });

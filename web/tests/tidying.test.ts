@@ -46,7 +46,14 @@ function edited({ document, edit }: EditRequest): object {
     kind === 'accept'
       ? document.vessels.map((one) => (ids.includes(one.id) ? { ...one, doubt: null } : one))
       : document.vessels.filter((one) => !ids.includes(one.id));
-  return { document: { ...document, vessels }, words: kind, added: [], without_marks: [], notes: [] };
+  return {
+    document: { ...document, vessels },
+    words: kind,
+    added: [],
+    without_marks: [],
+    notes: [],
+    told: null,
+  };
 }
 
 const engine = {

@@ -7,6 +7,11 @@ use lumencut_phantom::straight_tube;
 use lumencut_vessels::trace::clicks::checks::Clicks;
 use lumencut_vessels::trace::clicks::traced::Traced;
 use lumencut_vessels::trace::clicks::tracer::Tracer;
+use lumencut_vessels::trace::lines::centerline::Centerline;
+use lumencut_vessels::trace::lines::wander::wandering;
+use lumencut_vessels::trace::lumen::calm::calmed;
+use lumencut_vessels::trace::lumen::surroundings::Surroundings;
+use lumencut_vessels::voxels;
 
 fn traced(volume: &Volume, clicks: &[DVec3]) -> lumencut_core::error::Result<Traced> {
     let clicks = Clicks { vessels: vec![clicks.to_vec()], ..Clicks::default() };
@@ -61,4 +66,30 @@ fn a_click_next_to_lumen_means_the_lumen_and_one_farther_away_is_refused() {
     let tracer = Tracer::default();
     assert!(tracer.check_click(&volume, DVec3::new(4.6, 0.0, -15.0)).is_ok());
     assert!(tracer.check_click(&volume, DVec3::new(7.0, 0.0, -15.0)).is_err());
+}
+
+#[test]
+fn a_line_that_folds_back_within_a_lumen_is_made_calm_and_a_straight_one_stays() {
+    let phantom = straight_tube().unwrap();
+    let volume = phantom.volume().unwrap();
+    let voxels = voxels::Voxels::new(&volume);
+    let model = Surroundings::of(&voxels, &[DVec3::ZERO]).model(&voxels, &[DVec3::ZERO]).unwrap();
+    let line = |corners: &[DVec3]| {
+        let points: Vec<DVec3> = corners
+            .windows(2)
+            .flat_map(|ends| (0..20).map(move |n| ends[0].lerp(ends[1], f64::from(n) / 20.0)))
+            .collect();
+        let count = points.len();
+        Centerline { points, radius: vec![4.0; count], confidence: vec![0.5; count] }
+    };
+    let length =
+        |line: &Centerline| line.points.windows(2).map(|pair| pair[0].distance(pair[1])).sum::<f64>();
+    let wanders = |line: &Centerline| wandering(line).contains(&true);
+    let [from, to] = [-12.0, 12.0].map(|z| DVec3::Z * z);
+    let folded = line(&[from, DVec3::new(1.0, 0.0, 3.0), DVec3::new(-1.0, 0.5, -3.0), to]);
+    assert!(wanders(&folded) && length(&folded) > 34.0);
+    let calm = calmed(&voxels, &model, folded, &|| false).unwrap();
+    assert!(!wanders(&calm) && length(&calm) < 27.0, "{}", length(&calm));
+    let straight = line(&[from, to]);
+    assert_eq!(calmed(&voxels, &model, straight.clone(), &|| false).unwrap(), straight);
 }

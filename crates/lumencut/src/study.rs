@@ -42,6 +42,7 @@ pub mod session_files;
 pub mod settings;
 pub mod straightened;
 pub mod straightening;
+pub mod telling;
 pub mod tracing;
 pub mod view;
 pub mod voxels;

@@ -11,6 +11,7 @@ import { afterEdit } from '../state/changes';
 import type { Document } from '../state/document';
 import { change, document_ } from '../state/history';
 import { problem, progress } from '../state/store';
+import { hear } from './telling';
 
 /** An edit that was refused; it can be tried again with gaps bridged where that may help. */
 export interface Refusal {
@@ -182,6 +183,7 @@ export async function commit(engine: Asked, edit: Edit, beside: Beside = {}): Pr
   const found = SEARCHES.includes(edit.kind) ? counted(work) : work;
   const edited = await inTurn(edit.kind === 'add_branches' ? askedAbout(found) : found, again);
   if (edited) {
+    hear(edited);
     then?.(edited);
   }
   return edited;

@@ -2,7 +2,7 @@
 import { computed, effect, signal } from '@preact/signals';
 import type { Asked } from '../core/asked';
 import { Latest } from '../core/latest';
-import type { Vector } from '../core/messages';
+import type { Vector, WholeVessel } from '../core/messages';
 import { document_ } from '../state/history';
 import { tool } from '../state/tool';
 import { commit, refusal } from './committing';
@@ -18,18 +18,18 @@ export const only = computed<Vector | null>(() =>
 );
 
 /** The vessel that would be taken; null where none is known. */
-export const whole = signal<readonly Vector[] | null>(null);
+export const whole = signal<WholeVessel | null>(null);
 
 /** Shows what would be taken from now on; gives what ends it. */
 export function followWhole(engine: Asked): () => void {
   const latest = new Latest();
   return effect(() => {
     const click = only.value;
-    const beside = document_.value.vessels.filter(({ doubt }) => doubt === null).map(({ line }) => line);
+    const { vessels } = document_.value;
     whole.value = null;
     if (click) {
       latest.run(async () => {
-        const found = await engine.ask('whole_vessel', { click, beside }).catch(() => null);
+        const found = await engine.ask('whole_vessel', { click, vessels }).catch(() => null);
         whole.value = only.value === click ? found : whole.value;
       });
     }

@@ -9,12 +9,14 @@ import { chosenDoubt, isTracing } from '../edit/mode';
 import { performAny } from '../edit/performing';
 import { acceptCandidate, endVessel } from '../edit/pointing';
 import { STOPPER } from '../edit/stoppers';
-import { only, takeWhole } from '../edit/whole';
+import { told } from '../edit/telling';
+import { only, takeWhole, whole } from '../edit/whole';
 import { nameOf, vesselOf } from '../state/changes';
 import { document_ } from '../state/history';
 import { hasVolume, report } from '../state/store';
 import { type Tool, tool } from '../state/tool';
 import { OpenMore } from './OpenButtons';
+import { ToldVessel } from './ToldVessel';
 
 export function TraceBar() {
   const doubt = vesselOf(document_.value, chosenDoubt.value);
@@ -79,9 +81,12 @@ function Hint() {
   const take = (wanted: Tool) => () => {
     tool.value = wanted;
   };
+  // Not while a point waits that may begin another vessel, nor while one is traced.
+  const isTold = waiting.value === 0 && !candidate.value && (!isDrawing.value || drawn.value !== null);
   return (
     <div class="trace-bar" role="status">
-      <span>{hintWords()}</span>
+      {isTold && <ToldVessel />}
+      {!(isTold && told.value?.doubts.length) && <span>{hintWords()}</span>}
       {candidate.value && (
         <button type="button" onClick={() => acceptCandidate(engine)}>
           Set the point here
@@ -129,8 +134,9 @@ function hintWords(): string {
   if (drawn.value) {
     return `Click, or press Enter at the cross-hair, further along ${nameOf(drawn.value)}; a double click ends it.`;
   }
+  const taken = whole.value ? `: ${whole.value.words}` : '';
   return isDrawing.value
-    ? 'Enter or a double click takes the whole vessel. Or click, or press Enter at the cross-hair, further along it.'
+    ? `Enter or a double click takes the whole vessel${taken}. Or click, or press Enter at the cross-hair, further along it.`
     : 'Click, or press Enter at the cross-hair, where a vessel begins.';
 }
 

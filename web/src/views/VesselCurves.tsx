@@ -83,7 +83,7 @@ function LivePaths({ projection }: OverProps) {
         <g stroke={drawnColor.value} data-testid="whole-vessel">
           <Cased
             kind="live whole"
-            d={`${pathData(whole.value, projection, 'near')}${pathData(whole.value, projection, 'far')}`}
+            d={`${pathData(whole.value.points, projection, 'near')}${pathData(whole.value.points, projection, 'far')}`}
           />
         </g>
       )}

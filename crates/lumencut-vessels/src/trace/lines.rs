@@ -7,3 +7,4 @@ pub mod even_steps;
 pub mod frames;
 pub mod nearest_point;
 pub mod smoothing;
+pub mod wander;

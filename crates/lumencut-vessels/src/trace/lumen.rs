@@ -1,7 +1,11 @@
 //! What lumen looks like: its values, its cross-sections along a line, and lines moved to its middle.
 
+pub mod across;
+pub mod calm;
 pub mod cross_section;
+pub mod level_change;
 pub mod lumen_model;
+pub mod own_axis;
 pub mod ray;
 pub mod refine;
 pub mod surroundings;

@@ -31,6 +31,11 @@ pub struct DocumentVessel {
 }
 
 impl DocumentVessel {
+    /// Whether it is a vessel that is there already, and no branch that is offered: others hang on it, and a click in it adds nothing.
+    pub fn is_sure(&self) -> bool {
+        self.doubt.is_none()
+    }
+
     /// What lists, files and errors call it.
     pub fn called(&self) -> String {
         if self.name.is_empty() { format!("vessel {}", self.id) } else { self.name.clone() }

@@ -8,6 +8,7 @@ use crate::study::edits::{Edit, EditMessage, Edited};
 use crate::study::failure::Result;
 use crate::study::open_study::Study;
 use crate::study::points_along::{click_after, nearest_point, points_along};
+use crate::study::telling::DoubtfulPlace;
 use crate::study::tracing::{TraceRequest, Watch};
 
 impl Study {
@@ -35,7 +36,7 @@ impl Study {
         let is_traced = match &message.edit {
             Edit::AddBranches { seed } => self.add_branches(&mut draft, *seed, watch).map(|()| false),
             Edit::AddWholeVessel { click } => {
-                self.add_whole_vessel(&mut draft, *click, watch).map(|()| false)
+                self.add_whole_vessel(&mut draft, &mut notes, (*click, watch)).map(|()| false)
             }
             Edit::FindVessels { doubtful } => {
                 self.add_found(&mut draft, *doubtful, watch).map(|told| notes = told).map(|()| false)
@@ -54,7 +55,11 @@ impl Study {
         }
         self.last_id = draft.last_id;
         let Draft { document, added, without_marks, .. } = draft;
-        Ok(Edited { document, words: message.words(), added, without_marks, notes })
+        let mut told = self.told_of(&document, message.edit.traces(&added))?;
+        if let Some(told) = &mut told {
+            told.doubts.extend(notes.iter().map(|note| DoubtfulPlace { words: note.clone(), at: None }));
+        }
+        Ok(Edited { document, words: message.words(), added, without_marks, notes, told })
     }
 
     /// Traces all vessels that were clicked.
@@ -123,7 +128,7 @@ impl Study {
     }
 
     fn add_click_on_line(&mut self, draft: &mut Draft, id: u32, point: Place) -> Result<()> {
-        let Some(vessel) = draft.document.vessel(id).filter(|vessel| vessel.doubt.is_none()) else {
+        let Some(vessel) = draft.document.vessel(id).filter(|vessel| vessel.is_sure()) else {
             return Ok(());
         };
         let line = self.lines.get(vessel.line)?;
@@ -141,7 +146,7 @@ impl Study {
 
 /// Whether a vessel is met by those that are traced between clicks.
 fn is_beside(vessel: &DocumentVessel) -> bool {
-    vessel.clicks.is_none() && vessel.doubt.is_none()
+    vessel.clicks.is_none() && vessel.is_sure()
 }
 
 /// Makes an edit that needs nothing but the document; says whether the vessels that were clicked are traced again.

@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::study::document::{Document, Place};
 use crate::study::lines::NamedLine;
+use crate::study::telling::Told;
 
 /// An edit of vessels. Clicks and stoppers are numbered from 0, arc lengths are in mm.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
@@ -142,6 +143,18 @@ impl Edit {
         )
     }
 
+    /// The vessel that it traces, where it is a single one; `added` are those that came of it.
+    pub fn traces(&self, added: &[u32]) -> Option<u32> {
+        match self {
+            Self::BeginVessel { .. } | Self::AddWholeVessel { .. } => added.first().copied(),
+            Self::AddClick { id, .. }
+            | Self::AddClickOnLine { id, .. }
+            | Self::MoveClick { id, .. }
+            | Self::RemoveClick { id, .. } => Some(*id),
+            _ => None,
+        }
+    }
+
     /// What it does, as the name of a step that can be undone.
     pub fn words(&self) -> &'static str {
         let count = |ids: &[u32], one, several| if ids.len() == 1 { one } else { several };
@@ -203,4 +216,6 @@ pub struct Edited {
     pub without_marks: Vec<u32>,
     /// What was odd, one sentence each.
     pub notes: Vec<String>,
+    /// What is told of the vessel that was traced; none after an edit that traces no single one.
+    pub told: Option<Told>,
 }

@@ -7,7 +7,7 @@ use crate::report::Stated;
 use crate::study::asking::{Answer, Answering, Asking, Turn, WrittenFile, questions, read};
 use crate::study::centerline_files::AskedMessage;
 use crate::study::content::Report;
-use crate::study::document::Document;
+use crate::study::document::{Document, DocumentVessel};
 use crate::study::doubts::{DoubtRow, doubt_rows};
 use crate::study::edits::{EditMessage, Edited};
 use crate::study::failure::{Failure, Result};
@@ -33,6 +33,7 @@ use crate::study::straightened::CprMessage;
 use crate::study::straightening::StraightenedPick;
 use crate::study::tracing::PathMessage;
 use crate::study::view::{CameraMessage, ViewMessage, views_between};
+use crate::study::whole_vessel::WholeVessel;
 
 type Vector = [f64; 3];
 
@@ -122,10 +123,10 @@ of_the_study {
         study.path(&request, &|| (asking.clock)() >= end)?
     };
 
-    /// The points of the whole vessel that a click would add beside lines that there are already; null where it would add none, and
-    /// until the vessels of the scan were looked for.
-    [Turn::First] whole_vessel { click: Vector, beside: Vec<usize> } -> Option<Vec<Vector>> =
-        study.whole_vessel(click, &beside)?;
+    /// The whole vessel that a click would add beside the vessels of a list; null where it would add none, and until the vessels of
+    /// the scan were looked for.
+    [Turn::First] whole_vessel { click: Vector, vessels: Vec<DocumentVessel> } -> Option<WholeVessel> =
+        study.whole_vessel(click, &vessels)?;
 
     /// The content of a line.
     [Turn::First] line { line: usize } -> LineContent = study.line(line)?;

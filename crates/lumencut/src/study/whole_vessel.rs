@@ -1,17 +1,39 @@
 //! The whole vessel of one click, in the study that is open: it is one of all vessels of the scan, which are looked for once.
 
 use glam::DVec3;
+use lumencut_core::error::ErrorKind;
+use lumencut_vessels::trace::clicks::checks::Clicks;
+use lumencut_vessels::trace::clicks::tracer::Tracer;
 use lumencut_vessels::trace::find::found::Trees;
 use lumencut_vessels::trace::find::{FindRequest, SMALLEST_RADIUS, find_vessels};
 use lumencut_vessels::trace::lines::centerline::Centerline;
+use lumencut_vessels::trace::lumen::own_axis::OwnLumen;
+use lumencut_vessels::voxels::Voxels;
+use serde::Serialize;
 
 use crate::found_vessels::one_vessel;
 use crate::study::document::{DocumentVessel, Place};
 use crate::study::draft::Draft;
 use crate::study::failure::Result;
 use crate::study::held_volume::no_volume;
+use crate::study::lines::Line;
 use crate::study::open_study::Study;
 use crate::study::tracing::Watch;
+
+/// A vessel of which the scan shows hardly more than it is wide is taken where it is round: its points have this confidence on average.
+/// It is no wider than the widest aorta that is no organ (radius in mm).
+const ROUND: f64 = 0.6;
+const WIDEST_SHORT: f64 = 25.0;
+
+/// The whole vessel that a click would add.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub struct WholeVessel {
+    /// The points of its line (mm, LPS).
+    pub points: Vec<Place>,
+    /// How long it is and which vessels it joins, such as `84.2 mm, joins Vessel 2 at 12 mm`.
+    pub words: String,
+}
 
 impl Study {
     /// The vessels of the scan down to the radius of Python, sure and doubtful ones.
@@ -35,45 +57,84 @@ impl Study {
     ///
     /// # Errors
     /// `tracing` as [`one_vessel`] and for a place that no vessel can begin at, `volume` where none is open, `interrupted`.
-    pub(crate) fn add_whole_vessel(&mut self, draft: &mut Draft, click: Place, watch: Watch) -> Result<()> {
+    pub(crate) fn add_whole_vessel(
+        &mut self,
+        draft: &mut Draft,
+        notes: &mut Vec<String>,
+        (click, watch): (Place, Watch),
+    ) -> Result<()> {
         // A place in air or fat is refused at once: the search would look through all of the scan before it says so.
         self.check_click(click)?;
         self.trees(watch)?;
-        let beside: Vec<usize> = draft.document.vessels.iter().filter(is_sure).map(|one| one.line).collect();
-        if let Some(line) = self.known_vessel(click, &beside)? {
+        let known = self.known_vessel(click, &draft.document.vessels);
+        // Where a second click would help, the scan may show too little of the vessel for a tube to be found.
+        let is_short = known.as_ref().is_err_and(|refused| !refused.mend.is_empty());
+        let short = if is_short { self.short_vessel(click, &draft.document.vessels, watch)? } else { None };
+        if let Some(line) = short {
+            let line = self.lines.add(line)?;
+            let name = draft.add_named(line, "", "Vessel").called();
+            notes.push(format!(
+                "{name} was traced from the click alone, as no vessel was found there: is it one?"
+            ));
+        } else if let Some(line) = known? {
             let line = self.lines.add(line.into())?;
             draft.add_named(line, "", "Vessel");
         }
         Ok(())
     }
 
-    /// The vessel that a click would add beside lines that there are already; none as long as the vessels of the scan were not
-    /// looked for.
+    /// The vessel around a click that is cut off by the scan on both sides, and hardly longer than wide in between; none where there
+    /// is none that is round.
+    fn short_vessel(&self, click: Place, vessels: &[DocumentVessel], watch: Watch) -> Result<Option<Line>> {
+        let volume = self.content.held.as_ref().ok_or_else(no_volume)?.volume()?;
+        let Some(ends) = OwnLumen::around(&Voxels::new(&volume), DVec3::from_array(click)).cut_ends() else {
+            return Ok(None);
+        };
+        let sure = vessels.iter().filter(|vessel| vessel.is_sure());
+        let beside = sure.map(|vessel| Ok(self.lines.get(vessel.line)?.met())).collect::<Result<_>>()?;
+        let clicks = Clicks { vessels: vec![ends.to_vec()], beside, ..Clicks::default() };
+        let traced = match Tracer::default().trace(&volume, &clicks, watch.stop, None) {
+            Err(error) if error.kind == ErrorKind::Tracing => return Ok(None),
+            traced => traced?,
+        };
+        let is_round = |line: &Centerline| {
+            let sum: f64 = line.confidence.iter().sum();
+            let is_narrow = line.radius.iter().all(|radius| *radius <= WIDEST_SHORT);
+            is_narrow && sum >= ROUND * line.confidence.len() as f64
+        };
+        Ok(traced.into_iter().find(|traced| is_round(&traced.line)).map(Line::from))
+    }
+
+    /// The vessel that a click would add beside those of a list that are sure; none as long as the vessels of the scan were not looked
+    /// for.
     ///
     /// # Errors
     /// Those of [`one_vessel`], `vessel tree` for a line that there is not, `volume` where none is open.
-    pub(crate) fn known_vessel(&self, click: Place, beside: &[usize]) -> Result<Option<Centerline>> {
+    pub(crate) fn known_vessel(
+        &self,
+        click: Place,
+        vessels: &[DocumentVessel],
+    ) -> Result<Option<Centerline>> {
         let volume = self.content.held.as_ref().ok_or_else(no_volume)?.volume()?;
         let Some(trees) = &self.trees else { return Ok(None) };
-        let beside = beside.iter().map(|line| Ok(self.lines.get(*line)?.met()));
+        let sure = vessels.iter().filter(|vessel| vessel.is_sure());
+        let beside = sure.map(|vessel| Ok(self.lines.get(vessel.line)?.met()));
         let beside: Vec<Centerline> = beside.collect::<Result<_>>()?;
         Ok(Some(one_vessel(&volume, trees, DVec3::from_array(click), &beside)?))
     }
 
-    /// The points of the vessel that a click would add; none where it would add none, and as long as that is not known at once.
+    /// The vessel that a click would add; none where it would add none, and as long as that is not known at once.
     ///
     /// # Errors
     /// `vessel tree` for a line that there is not, `volume` where none is open.
-    pub fn whole_vessel(&self, click: Place, beside: &[usize]) -> Result<Option<Vec<Place>>> {
-        let points = |line: Centerline| line.points.iter().map(|point| point.to_array()).collect();
-        match self.known_vessel(click, beside) {
-            Err(refused) if refused.kind == "tracing" => Ok(None),
-            known => Ok(known?.map(points)),
-        }
+    pub fn whole_vessel(&self, click: Place, vessels: &[DocumentVessel]) -> Result<Option<WholeVessel>> {
+        let line = match self.known_vessel(click, vessels) {
+            Err(refused) if refused.kind == "tracing" => return Ok(None),
+            known => known?,
+        };
+        let Some(line) = line else { return Ok(None) };
+        let sure: Vec<&DocumentVessel> = vessels.iter().filter(|vessel| vessel.is_sure()).collect();
+        let words = self.joining(&line, &sure)?;
+        Ok(Some(WholeVessel { points: line.points.iter().map(|point| point.to_array()).collect(), words }))
     }
-}
-
-/// Whether a vessel is more than an offer.
-fn is_sure(vessel: &&DocumentVessel) -> bool {
-    vessel.doubt.is_none()
 }

@@ -88,6 +88,14 @@ export type DoubtRow = {
   readonly short: string;
 };
 
+/** Where a line is doubtful. */
+export type DoubtfulPlace = {
+  /** Why, in a sentence. */
+  readonly words: string;
+  /** From which arc length on, or up to which (mm): where it can be looked at and cut. None where all of the line is meant. */
+  readonly at: number | null;
+};
+
 /** The letters at the four edges of a picture. */
 export type EdgeLetters = {
   /** At the left edge. */
@@ -215,6 +223,8 @@ export type Edited = {
   readonly without_marks: ReadonlyArray<number>;
   /** What was odd, one sentence each. */
   readonly notes: ReadonlyArray<string>;
+  /** What is told of the vessel that was traced; none after an edit that traces no single one. */
+  readonly told: Told | null;
 };
 
 /** The features of CFA by their names. */
@@ -810,6 +820,16 @@ export type Stretch = {
   readonly view: Look;
 };
 
+/** What is told of a vessel that was traced. */
+export type Told = {
+  /** The vessel. */
+  readonly vessel: number;
+  /** Its name, its length, and which vessels it joins, in a sentence. */
+  readonly words: string;
+  /** Where it is doubtful; none where it is not. */
+  readonly doubts: ReadonlyArray<DoubtfulPlace>;
+};
+
 /** The vessels of a document, and what they are traced by. */
 export type VesselDocument = {
   /** In the order of the list. */
@@ -854,6 +874,14 @@ export type VolumeReport = {
   readonly smallest_side: number;
   /** How the scan was made, in words. */
   readonly scan: string;
+};
+
+/** The whole vessel that a click would add. */
+export type WholeVessel = {
+  /** The points of its line (mm, LPS). */
+  readonly points: ReadonlyArray<Vector>;
+  /** How long it is and which vessels it joins, such as `84.2 mm, joins Vessel 2 at 12 mm`. */
+  readonly words: string;
 };
 
 /** The windows of what is open. */
@@ -1033,13 +1061,13 @@ export type Questions = {
     readonly message: PathRequest;
     readonly answer: ReadonlyArray<Vector> | null;
   };
-  /** The points of the whole vessel that a click would add beside lines that there are already; null where it would add none, and until the vessels of the scan were looked for. */
+  /** The whole vessel that a click would add beside the vessels of a list; null where it would add none, and until the vessels of the scan were looked for. */
   readonly whole_vessel: {
     readonly message: {
       readonly click: Vector;
-      readonly beside: ReadonlyArray<number>;
+      readonly vessels: ReadonlyArray<DocumentVessel>;
     };
-    readonly answer: ReadonlyArray<Vector> | null;
+    readonly answer: WholeVessel | null;
   };
   /** The content of a line. */
   readonly line: {

@@ -11,6 +11,7 @@ use crate::trace::clicks::preview::{Live, Sought};
 use crate::trace::clicks::traced::Traced;
 use crate::trace::clicks::way::{Way, start};
 use crate::trace::lines::nearest_point::nearest_point;
+use crate::trace::lumen::calm::calmed;
 use crate::trace::lumen::lumen_model::{LumenModel, in_words};
 use crate::trace::lumen::refine::refined;
 use crate::trace::lumen::surroundings::Surroundings;
@@ -180,7 +181,8 @@ impl Tracer {
             open.extend(&is_open[skip..]);
         }
         let Some(region) = &self.region else { return Err(Error::interrupted()) };
-        let mut line = refined(search.voxels, &region.model, &points, search.stop)?;
+        let line = refined(search.voxels, &region.model, &points, search.stop)?;
+        let mut line = calmed(search.voxels, &region.model, line, search.stop)?;
         let bridged: Vec<bool> =
             line.points.iter().map(|point| open[nearest_point(&points, *point)]).collect();
         for (confidence, is_bridged) in line.confidence.iter_mut().zip(&bridged) {

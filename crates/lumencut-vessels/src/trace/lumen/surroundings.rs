@@ -81,6 +81,11 @@ impl Surroundings {
         Self { tissue, most, bright, is_hounsfield }
     }
 
+    /// The value of the tissue around the lumen.
+    pub fn tissue(&self) -> f64 {
+        self.tissue
+    }
+
     /// The model of the lumen that the clicks lie in.
     ///
     /// # Errors

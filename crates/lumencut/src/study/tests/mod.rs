@@ -6,6 +6,7 @@ mod lines;
 mod masks;
 mod planes;
 mod pretty;
+mod telling;
 mod tracing;
 pub(crate) mod typescript;
 mod whole_vessel;

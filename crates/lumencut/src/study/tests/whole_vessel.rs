@@ -1,6 +1,7 @@
 //! The whole vessel of one click, as the page asks for it.
 
 use glam::DVec3;
+use lumencut_core::math::arc_length::arc_lengths;
 use serde_json::json;
 
 use super::edits::{after, bare, called, edited, tried};
@@ -22,10 +23,18 @@ fn one_click_adds_the_whole_vessel_from_the_one_that_there_is_to_its_end() {
     assert_eq!(first.document.vessels[0].doubt, None);
     let held = first.document.vessels[0].line;
     // From now on the page can show what a click would add, which is what it adds.
-    let shown = study.whole_vessel(branch, &[held]).expect("a volume").expect("a vessel");
+    let shown = study.whole_vessel(branch, &first.document.vessels).expect("a volume").expect("a vessel");
     let second = edited(&mut study, &first.document, &whole(branch));
     let added = points(&study, second.document.vessels[1].line);
-    assert_eq!(shown, added.iter().map(|point| point.to_array()).collect::<Vec<_>>());
+    assert_eq!(shown.points, added.iter().map(|point| point.to_array()).collect::<Vec<_>>());
+    // Both say how it joins the other one: at the point that they share.
+    let told = second.told.expect("words");
+    assert_eq!(told.words, format!("Vessel 2, {}.", shown.words));
+    let joined = points(&study, held).iter().position(|point| *point == added[0]).expect("a shared point");
+    let at = arc_lengths(&points(&study, held))[joined];
+    assert!(shown.words.ends_with(&format!(" mm, joins Vessel 1 at {at:.0} mm")), "{}", shown.words);
+    assert_eq!(told.doubts, Vec::new());
+    assert!(first.told.expect("words").words.ends_with(" mm."));
     let trunk_points = points(&study, held);
     assert!(trunk_points.contains(&added[0]), "it begins at a point of the other one");
     let end = *lines[1].last().expect("points");
@@ -42,8 +51,7 @@ fn a_click_that_gives_no_whole_vessel_is_refused_and_says_why() {
     let again = tried(&mut study, &document, &whole(click), false).expect_err("it is there");
     assert_eq!((again.kind, again.found.as_str()), ("tracing", "a vessel that is traced already"));
     assert_eq!(again.more.seen.as_ref().expect("a place").place, click);
-    let held = document.vessels[0].line;
-    assert_eq!(study.whole_vessel(click, &[held]).expect("a volume"), None);
+    assert_eq!(study.whole_vessel(click, &document.vessels).expect("a volume"), None);
     let corner = study.content.held.as_ref().expect("a volume").volume().expect("one").corners()[0];
     let outside = (corner - DVec3::ONE * 40.0).to_array();
     assert_eq!(study.whole_vessel(outside, &[]).expect("a volume"), None);

@@ -1,0 +1,28 @@
+//! Whether the way between two clicks runs across a lumen and not along it.
+
+use glam::DVec3;
+
+use crate::trace::lumen::own_axis::{DIRECTIONS, OwnLumen, direction};
+use crate::voxels::Voxels;
+
+/// A way runs across where the lumen reaches at most this many times its width along it, and less than this part of its length.
+const MOST_WIDTHS: f64 = 1.3;
+const LEAST_SHARE: f64 = 0.6;
+
+/// How far is looked on each side: along the way (mm), and elsewhere in what the lumen reaches along it.
+const REACH: f64 = 60.0;
+const REACH_WIDTHS: f64 = 3.0;
+
+/// Whether the straight way between two clicks (mm, LPS) lies within one lumen and runs across it: the lumen reaches hardly farther
+/// along it than where it is narrowest, and much farther in another direction.
+pub fn runs_across(voxels: &Voxels, [from, to]: [DVec3; 2]) -> bool {
+    let lumen = OwnLumen::around(voxels, from.midpoint(to));
+    let along = lumen.extent((to - from).normalize_or_zero(), REACH);
+    if along < from.distance(to) {
+        return false;
+    }
+    let extents = (0..DIRECTIONS).map(|n| lumen.extent(direction(n), REACH_WIDTHS * along));
+    let (width, length) =
+        extents.fold((f64::MAX, 0.0), |(least, most), extent| (extent.min(least), extent.max(most)));
+    along <= MOST_WIDTHS * width && along < LEAST_SHARE * length
+}

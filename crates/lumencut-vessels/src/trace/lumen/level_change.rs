@@ -1,0 +1,132 @@
+//! Where the lumen along a line changes its brightness for good, as where the line has got from one lumen into another one.
+
+use lumencut_core::math::arc_length::arc_lengths;
+
+use crate::trace::lines::centerline::Centerline;
+use crate::trace::lumen::lumen_model::quantile;
+use crate::trace::lumen::surroundings::Surroundings;
+use crate::voxels::Voxels;
+
+/// How much of the line before and after a place is compared (mm, and in radii), and how far from the place it begins.
+const STRETCH: f64 = 15.0;
+const STRETCH_RADII: f64 = 2.0;
+const APART: f64 = 3.0;
+const APART_RADII: f64 = 0.5;
+
+/// A change counts from this part of the contrast on, and from so many times the noise on each side.
+const LEAST_CHANGE: f64 = 0.25;
+const LEAST_NOISES: f64 = 3.0;
+
+/// Values farther from the median than so many times the noise, as those of struts and calcium, are left out of a fit.
+const OUTLIER: f64 = 3.0;
+
+/// Steps of this part of the largest one are as large but for noise.
+const NEARLY: f64 = 0.9;
+
+/// In lumens of fewer voxels across (radii in voxels) the tissue beside them is seen in the middle too.
+const LEAST_VOXELS: f64 = 2.0;
+
+/// The point of a line at which its lumen changes its brightness, for good and at once; none where it does not, or little by little
+/// as contrast medium fades.
+///
+/// # Source
+/// Ours: two straight lines of one slope are fitted to the values along 15 mm (or two radii) before and after a place. The step between
+/// them is a quarter of the contrast with the tissue at least, and three times the noise.
+pub fn level_change(voxels: &Voxels, line: &Centerline) -> Option<usize> {
+    let along = Along::new(voxels, line);
+    let steps = (0..line.points.len()).filter_map(|n| Some((n, along.step_at(n)?)));
+    let mut steps: Vec<(usize, Step)> = steps.collect();
+    let largest = steps.iter().map(|(_, step)| step.size).fold(0.0, f64::max);
+    // On both sides of the place the step is seen as large: the place lies in the middle of where it is.
+    steps.retain(|(_, step)| step.size >= NEARLY * largest);
+    let (at, step) = *steps.get(steps.len() / 2)?;
+    let tissue = Surroundings::of(voxels, &[line.points[at]]).tissue();
+    (step.size >= LEAST_CHANGE * (step.brighter - tissue)).then_some(at)
+}
+
+/// A step of the values along a line, and the level on its brighter side.
+#[derive(Clone, Copy, Debug)]
+struct Step {
+    size: f64,
+    brighter: f64,
+}
+
+/// The values along a stretch of a line: median and noise, and the sums of a fit, of which outliers are left out.
+#[derive(Clone, Copy, Debug)]
+struct Side {
+    median: f64,
+    noise: f64,
+    mean: f64,
+    /// The mean of the arc lengths (mm).
+    middle: f64,
+    /// The sums of the products of arc length and value, and of the squares of arc length, from their means.
+    products: [f64; 2],
+}
+
+/// A line with the values on it.
+struct Along<'a> {
+    line: &'a Centerline,
+    lengths: Vec<f64>,
+    values: Vec<f32>,
+    thin: f64,
+}
+
+impl<'a> Along<'a> {
+    fn new(voxels: &Voxels, line: &'a Centerline) -> Self {
+        let sides = voxels.world_from_index.matrix3;
+        let largest = sides.x_axis.length().max(sides.y_axis.length()).max(sides.z_axis.length());
+        Self {
+            line,
+            lengths: arc_lengths(&line.points),
+            values: line.points.iter().map(|point| voxels.at(*point)).collect(),
+            thin: LEAST_VOXELS * largest,
+        }
+    }
+
+    /// The step at a point where it is more than noise and not the slope on both sides.
+    fn step_at(&self, n: usize) -> Option<Step> {
+        let radius = self.line.radius[n];
+        let (apart, stretch) = (APART.max(APART_RADII * radius), STRETCH.max(STRETCH_RADII * radius));
+        let at = self.lengths[n];
+        let before = self.side(at - apart - stretch, at - apart)?;
+        let after = self.side(at + apart, at + apart + stretch)?;
+        let [products, squares] = [0, 1].map(|part| before.products[part] + after.products[part]);
+        let slope = products / squares.max(f64::MIN_POSITIVE);
+        let step = after.mean - before.mean - slope * (after.middle - before.middle);
+        let change = after.median - before.median;
+        let size = step.abs().min(change.abs());
+        let is_seen = step * change > 0.0 && size >= LEAST_NOISES * before.noise.max(after.noise);
+        is_seen.then(|| Step { size, brighter: before.median.max(after.median) })
+    }
+
+    /// What is seen from one arc length to another; none where the line ends before or is thin there.
+    fn side(&self, from: f64, to: f64) -> Option<Side> {
+        if from < 0.0 || to > self.lengths[self.lengths.len() - 1] {
+            return None;
+        }
+        let first = self.lengths.partition_point(|length| *length < from);
+        let end = self.lengths.partition_point(|length| *length <= to);
+        if end <= first || self.line.radius[first..end].iter().any(|radius| *radius < self.thin) {
+            return None;
+        }
+        let values = &self.values[first..end];
+        let median = median_of(values.to_vec());
+        let away = |value: f32| (f64::from(value) - median).abs();
+        let noise = 1.4826 * median_of(values.iter().map(|value| away(*value) as f32).collect());
+        let kept = (first..end).filter(|n| away(self.values[*n]) <= OUTLIER * noise);
+        let kept: Vec<(f64, f64)> = kept.map(|n| (self.lengths[n], f64::from(self.values[n]))).collect();
+        let mean_of =
+            |part: &dyn Fn(&(f64, f64)) -> f64| kept.iter().map(part).sum::<f64>() / kept.len() as f64;
+        let (middle, mean) = (mean_of(&|kept| kept.0), mean_of(&|kept| kept.1));
+        let products = kept.iter().fold([0.0; 2], |[products, squares], (length, value)| {
+            let away = length - middle;
+            [products + away * (value - mean), squares + away * away]
+        });
+        Some(Side { median, noise, mean, middle, products })
+    }
+}
+
+fn median_of(mut values: Vec<f32>) -> f64 {
+    values.sort_unstable_by(f32::total_cmp);
+    quantile(&values, 0.5)
+}

@@ -1,0 +1,94 @@
+//! The axis of the lumen that a place lies in, and how far the lumen reaches along it: for vessels that are hardly longer than wide in
+//! a scan of few slices, where no tube is found.
+
+use std::f64::consts::PI;
+
+use glam::{DMat3, DQuat, DVec3};
+
+use crate::trace::lumen::lumen_model::quantile;
+use crate::trace::lumen::surroundings::Surroundings;
+use crate::voxels::Voxels;
+
+/// How many directions are looked along, spread evenly over half a sphere.
+pub const DIRECTIONS: u32 = 200;
+
+/// How far a lumen is followed (mm).
+const REACH: f64 = 60.0;
+
+/// In how many directions across the axis the width is looked at.
+const TURNS: u32 = 12;
+
+/// How often the axis is turned towards that of the largest extent.
+const ROUNDS: usize = 50;
+
+/// The lumen around a place, as the values tell it.
+pub struct OwnLumen<'a, 'v> {
+    voxels: &'a Voxels<'v>,
+    place: DVec3,
+    value: f64,
+    /// Values of the lumen are at most so far from that of the place.
+    most_away: f64,
+    step: f64,
+}
+
+impl<'a, 'v> OwnLumen<'a, 'v> {
+    /// The lumen around a place (mm, LPS).
+    pub fn around(voxels: &'a Voxels<'v>, place: DVec3) -> Self {
+        let tissue = Surroundings::of(voxels, &[place]).tissue();
+        let near = voxels.ball(place, 1.75 * voxels.smallest_side);
+        let mut near: Vec<f32> = near.into_iter().map(|(_, value)| value).collect();
+        near.sort_unstable_by(f32::total_cmp);
+        let value = quantile(&near, 0.5);
+        Self { voxels, place, value, most_away: 0.5 * (value - tissue), step: 0.5 * voxels.smallest_side }
+    }
+
+    /// How far the lumen reaches from the place in a direction (mm), as far as it is followed.
+    pub fn reach(&self, direction: DVec3, most: f64) -> f64 {
+        let value = |n: u32| f64::from(self.voxels.at(self.place + direction * (self.step * f64::from(n))));
+        let is_lumen = |n: &u32| (value(*n) - self.value).abs() < self.most_away;
+        self.step * (1..=(most / self.step) as u32).take_while(is_lumen).count() as f64
+    }
+
+    /// How far it reaches to both sides (mm), up to `most` to each.
+    pub fn extent(&self, direction: DVec3, most: f64) -> f64 {
+        self.reach(direction, most) + self.reach(-direction, most)
+    }
+
+    /// Both ends of a lumen that the scan cuts off there, along its axis, which is the direction in which most of it lies; none where
+    /// it is hardly longer than wide, so that its axis is not known, and where it ends within the scan.
+    pub fn cut_ends(&self) -> Option<[DVec3; 2]> {
+        let axis = self.axis();
+        let reaches = [-1.0, 1.0].map(|side| self.reach(axis * side, REACH));
+        let place = |side: f64, way: f64| self.place + axis * (side * way);
+        let is_cut =
+            |side: f64, reach: f64| self.voxels.voxel_at(place(side, reach + 2.0 * self.step)).is_none();
+        let across = axis.any_orthonormal_vector();
+        let turned =
+            (0..TURNS).map(|n| DQuat::from_axis_angle(axis, PI * f64::from(n) / f64::from(TURNS)) * across);
+        let width = turned.map(|direction| self.extent(direction, REACH)).fold(0.0, f64::max);
+        let is_known = reaches[0] + reaches[1] > width;
+        let within = |reach: f64| (reach - 2.0 * self.voxels.smallest_side).max(0.0);
+        (is_known && is_cut(-1.0, reaches[0]) && is_cut(1.0, reaches[1]))
+            .then(|| [place(-1.0, within(reaches[0])), place(1.0, within(reaches[1]))])
+    }
+
+    /// The direction in which most of the lumen lies.
+    fn axis(&self) -> DVec3 {
+        let mut sums = DMat3::ZERO;
+        for direction in (0..DIRECTIONS).map(direction) {
+            let outer = [direction.x, direction.y, direction.z].map(|part| direction * part);
+            sums += DMat3::from_cols(outer[0], outer[1], outer[2]) * self.extent(direction, REACH).powi(3);
+        }
+        // Of no symmetry that the sums might have.
+        let start = DVec3::new(0.6, 0.5, 0.7);
+        (0..ROUNDS).fold(start, |axis, _| (sums * axis).normalize_or_zero())
+    }
+}
+
+/// One of the directions.
+pub fn direction(n: u32) -> DVec3 {
+    let z = (f64::from(n) + 0.5) / f64::from(DIRECTIONS);
+    let turn = f64::from(n) * PI * (3.0 - 5.0_f64.sqrt());
+    let across = (1.0 - z * z).sqrt();
+    DVec3::new(across * turn.cos(), across * turn.sin(), z)
+}

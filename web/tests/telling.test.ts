@@ -1,0 +1,48 @@
+import { expect, test } from 'vitest';
+import type { DocumentVessel, Told } from '../src/core/messages';
+import { hear, told } from '../src/edit/telling';
+import { EMPTY } from '../src/state/document';
+import { begin, change, undo } from '../src/state/history';
+
+const VESSEL: DocumentVessel = {
+  id: 3,
+  line: 7,
+  name: 'Vessel 1',
+  color: '#f0e442',
+  isHidden: false,
+  clicks: null,
+  doubt: null,
+};
+const TOLD: Told = { vessel: 3, words: 'Vessel 1, 80.0 mm.', doubts: [{ words: 'Doubtful.', at: 40 }] };
+const document = (vessel: DocumentVessel) => ({ ...EMPTY, vessels: [vessel] });
+const edited = (vessel: DocumentVessel, told: Told | null) => ({
+  document: document(vessel),
+  words: 'x',
+  added: [],
+  without_marks: [],
+  notes: [],
+  told,
+});
+
+test('what is told of a vessel holds as long as the vessel runs where it ran', () => {
+  begin(EMPTY);
+  change('trace', document(VESSEL));
+  hear(edited(VESSEL, TOLD));
+  expect(told.value).toEqual(TOLD);
+  change('name', document({ ...VESSEL, name: 'aorta' }));
+  expect(told.value).toEqual(TOLD);
+  change('cut', document({ ...VESSEL, line: 8 }));
+  expect(told.value).toBeNull();
+  undo();
+  expect(told.value).toEqual(TOLD);
+  undo();
+  undo();
+  expect(told.value).toBeNull();
+});
+
+test('an edit that traces no single vessel tells nothing', () => {
+  begin(document(VESSEL));
+  hear(edited(VESSEL, TOLD));
+  hear(edited(VESSEL, null));
+  expect(told.value).toBeNull();
+});
