@@ -189,9 +189,10 @@ def test_phantoms_in_their_middle(name):
     assert found.false_length == 0
 
 
-@pytest.mark.parametrize(("name", "cycles"), [("aorta", 0), ("cervical", 5)])
-def test_workloads_in_their_middle(name, cycles):
-    made = getattr(phantom, name)()
+# In larger voxels arteries of the aorta would touch; those of the neck do not. The bounds are in voxels.
+@pytest.mark.parametrize(("name", "scale", "cycles"), [("aorta", 1.0, 0), ("cervical", 0.7, 5)])
+def test_workloads_in_their_middle(name, scale, cycles):
+    made = getattr(phantom, name)(scale=scale)
     mask = lumen_mask(made.tree, made.volume)
     tree = trace_mask(mask)
     assert betti_of(tree) == betti(mask) == (1, cycles)
