@@ -33,7 +33,7 @@ test('from a scan without vessels to a clean tree and a saved finding in at most
   await button(viewer, 'Leave all out').click();
   await expect(viewer.page.locator('.doubtful-rows')).toHaveCount(0);
   await viewer.page.getByText('Clean up', { exact: true }).click();
-  await slide(viewer.page.getByRole('slider', { name: 'Shorter than' }), 0.6);
+  await slide(viewer.page.getByRole('slider', { name: 'Shorter than' }), 0.7);
   await expect(viewer.page.locator('.vessel-rows .marked').first()).toBeVisible();
   await viewer.page.getByRole('button', { name: /^Remove \d+ vessels?$/ }).click();
   await expect(viewer.page.locator('.vessel-rows .marked')).toHaveCount(0);
