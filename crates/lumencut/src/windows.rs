@@ -49,8 +49,11 @@ const DARKEST: f64 = 0.01;
 const BRIGHT: f64 = 0.99;
 const BRIGHTEST: f64 = 0.999;
 
-/// From here on, from black to white, a lumen is too white for anything within it to be seen.
-const TOO_WHITE: f64 = 0.9;
+/// This part of a lumen is darker than what stands for its brightest vessels: small ones are darker, as they are blurred.
+const BRIGHT_LUMEN: f64 = 0.9;
+
+/// Where these lie at most, from black to white, and from where on nothing is to be seen within them.
+const HELD: [f64; 2] = [0.9, 0.95];
 
 /// The window of volumes without a single number.
 const OF_NOTHING: Window = Window { level: 300.0, width: 900.0 };
@@ -180,18 +183,45 @@ pub fn of_slices(volume: &Volume) -> Result<Window> {
     let Some(found) = Populations::of(&mut looked) else {
         return Ok(OF_NOTHING);
     };
-    let (lumen, middle) = (found.lumen, found.tissue);
-    let darkest = darkest_tissue(&mut looked, lumen - BELOW_LUMEN[1] * (lumen - middle));
-    let tissue = Tissue { middle, darkest };
+    let lumen = found.lumen;
+    let tissue = cut_off_tissue(&mut looked, lumen).unwrap_or_else(|| {
+        let darkest = darkest_tissue(&mut looked, lumen - BELOW_LUMEN[1] * (lumen - found.tissue));
+        Tissue { middle: found.tissue, darkest }
+    });
     let [black, white] = around_lumen(lumen, tissue, 0.0, [found.darkest, found.peak]);
     within(f64::midpoint(black, white), white - black, || from_to(found.darkest, found.brightest))
 }
 
-/// Whether the lumen along centerlines is not white in a window, by its median; true where there is none.
+/// The tissue of a volume whose dark values were cut off: most of what is no padding is nearer to it than to the lumen, and much of
+/// it would pass for air. None of other volumes.
+fn cut_off_tissue(looked: &mut Looked, lumen: f64) -> Option<Tissue> {
+    let padding = padding(&mut looked.voxels)?;
+    let middle = median(&mut without_padding(&mut looked.voxels).to_vec())?;
+    (middle - padding < lumen - middle).then_some(Tissue { middle, darkest: Some(padding) })
+}
+
+/// The window [`along`] centerlines, made wider where their brightest vessels would be white in it.
+///
+/// # Errors
+/// [`ErrorKind::Volume`] for values beyond all windows.
+pub fn holding_lumen(volume: &Volume, tree: &VesselTree) -> Result<Window> {
+    let window = along(volume, tree)?;
+    let black = window.level - window.width / 2.0;
+    let needed = brightest_lumen(volume, tree).map_or(0.0, |lumen| (lumen - black) / HELD[0]);
+    let width = window.width.max(needed);
+    Ok(Window { level: black + width / 2.0, width })
+}
+
+/// Whether the brightest vessels of a tree are not white in a window; true where there are none.
 pub fn holds_lumen(window: Window, volume: &Volume, tree: &VesselTree) -> bool {
-    let points: Vec<DVec3> = tree.vessels().iter().flat_map(|vessel| vessel.points()).copied().collect();
     let share = |lumen: f64| (lumen - window.level) / window.width + 0.5;
-    median(&mut finite(&sample(volume, &points))).is_none_or(|lumen| share(lumen) <= TOO_WHITE)
+    brightest_lumen(volume, tree).is_none_or(|lumen| share(lumen) <= HELD[1])
+}
+
+/// What stands for the lumen of the brightest vessels of a tree.
+fn brightest_lumen(volume: &Volume, tree: &VesselTree) -> Option<f64> {
+    let points: Vec<DVec3> = tree.vessels().iter().flat_map(|vessel| vessel.points()).copied().collect();
+    quantile(&mut finite(&sample(volume, &points)), BRIGHT_LUMEN)
 }
 
 /// The window of [`of_volume`] for a MIP: its white end lies where the brightest voxels are (99.9th percentile), where

@@ -211,7 +211,7 @@ impl Content {
             .iter()
             .map(|(name, context)| (*name, found[DataWindow::of_context(*context, tree.is_some()).name()]));
         let main = match tree {
-            Some(_) => found[DataWindow::Auto.name()],
+            Some(tree) => pair(windows::holding_lumen(volume, tree)?),
             None => pair(windows::of_slices(volume)?),
         };
         let presets = WINDOW_PRESETS.map(|preset| {

@@ -262,3 +262,32 @@ fn a_lumen_that_is_white_is_not_held() {
     let held = |level, width| holds_lumen(Window { level, width }, &volume(&voxels, [40; 3]), &tree(None));
     assert_eq!([held(300.0, 900.0), held(200.0, 200.0), held(1000.0, 100.0)], [true, false, true]);
 }
+
+#[test]
+fn bright_vessels_beside_many_faint_ones_are_held() {
+    // A third of the line is twice as bright as the rest of it.
+    let voxels = grid([40, 40, 40], |[i, j, k]| match (i, j.abs_diff(20), k.abs_diff(20)) {
+        (0..14, 0..5, 0..5) => 800.0,
+        (_, 0..5, 0..5) => 400.0,
+        _ => 100.0,
+    });
+    let (volume, tree) = (volume(&voxels, [40; 3]), line_of_points());
+    assert!(!holds_lumen(along(&volume, &tree).unwrap(), &volume, &tree));
+    let found = holding_lumen(&volume, &tree).unwrap();
+    assert!(holds_lumen(found, &volume, &tree));
+    assert!((share(found, 800.0) - HELD[0]).abs() < 1e-9);
+}
+
+/// The line of [`tree`] with a point for each mm.
+fn line_of_points() -> VesselTree {
+    let points = (2..38).map(|i| DVec3::new(f64::from(i), 20.0, 20.0)).collect();
+    VesselTree::new(vec![Vessel::new(points, None).unwrap()]).unwrap()
+}
+
+#[test]
+fn slices_of_a_scan_whose_dark_values_are_cut_off_begin_there() {
+    // As a CTA whose soft tissue is 62 and all that is darker 0.
+    let voxels: Vec<f32> = sac().iter().map(|value| if *value < 0.0 { 0.0 } else { *value }).collect();
+    let found = of_slices(&volume(&voxels, [40; 3])).unwrap();
+    assert!(share(found, 0.0) < 0.05 && share(found, 40.0) > 0.05, "{found:?}");
+}
