@@ -104,21 +104,29 @@ async function viewPart(): Promise<object> {
 
 /** The reformation beside it; where none is shown, the picked vessel straightened, and nothing where none is picked. */
 async function panePart(): Promise<object | null> {
-  const axes =
-    reformationKind.value === 'cpr' ? UPRIGHT : document.querySelector<HTMLElement>('.reformed .axes')?.title;
+  const vessel = store.pickedVessel.value;
+  const length = store.report.value?.vessels?.[vessel ?? -1]?.length ?? 0;
+  const isUpright = reformationKind.value === 'cpr';
+  const axes = isUpright ? UPRIGHT : document.querySelector<HTMLElement>('.reformed .axes')?.title;
   const shown = document.querySelector<HTMLCanvasElement>('[data-testid=straightened] canvas.flat');
   if (axes && shown && shown.width > 1) {
-    return { picture: pngOf(drawnPane(shown, axes)), axes };
+    return withWords(shown, isUpright ? axes + pixelWords(length / (shown.height - 1)) : axes);
   }
-  const vessel = store.pickedVessel.value;
-  const length = store.report.value?.vessels?.[vessel ?? -1]?.length;
-  if (vessel === null || length === undefined) {
+  if (vessel === null || length === 0) {
     return null;
   }
   const spacing = Math.max(FINEST, length / MOST_COLUMNS);
-  const lying = await straightenedCanvas(vessel, { width: WIDTH, spacing });
-  return { picture: pngOf(drawnPane(lying, LYING)), axes: LYING };
+  return withWords(await straightenedCanvas(vessel, { width: WIDTH, spacing }), LYING + pixelWords(spacing));
 }
+
+const withWords = (shown: HTMLCanvasElement, axes: string): object => ({
+  picture: pngOf(drawnPane(shown, axes)),
+  axes,
+});
+
+/** How large a pixel is, where the scan tells it: no ruler of a viewer is true across such a picture. */
+const pixelWords = (spacing: number): string =>
+  store.states.value.spacing ? ` A pixel is ${spacing.toFixed(3)} mm.` : '';
 
 /** A finding with its key image, and the contours of what is marked on it. */
 async function partOf(finding: Finding): Promise<object> {

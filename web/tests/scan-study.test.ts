@@ -1,0 +1,37 @@
+/** The study of a series: what is kept of it for objects that are put beside the scan. */
+import { expect, test } from 'vitest';
+import { series } from '../e2e/dicom';
+import { type LookedInto, lookInto } from '../src/io/dicom/headers';
+import type { Plan } from '../src/io/dicom/judging';
+import { Recorder } from '../src/io/dicom/records';
+import { headOf, studyOf } from '../src/io/dicom/study';
+import { BlobSource } from '../src/io/source';
+
+const sources = series([0, 2, 4]).map(
+  ({ name, buffer }) => new BlobSource(name, new Blob([new Uint8Array(buffer)])),
+);
+const read = (): Promise<LookedInto[]> =>
+  Promise.all(sources.map((source) => lookInto(source, new Recorder({ SOPInstanceUID: [] }))));
+/** A plan of the last slices alone. */
+const plan = { slices: [{ file: 1 }, { file: 2 }] } as unknown as Plan;
+
+test('it has the header of one slice without its pixels, and the UIDs of all that were read', async () => {
+  const study = await studyOf(plan, await read());
+  expect(study?.instances).toEqual(['1.2.3.2.0', '1.2.3.4.0']);
+  expect(study?.studyCount).toBe(1);
+  const whole = await sources[1]?.slice(0, 1 << 20);
+  const pixels = 16 * 16 * 2;
+  expect(study?.header).toEqual(whole?.subarray(0, whole.length - pixels));
+});
+
+test('slices of two studies are counted', async () => {
+  const [first, second, third] = await read();
+  const other = third?.image ? [{ ...third, image: { ...third.image, study: '1.2.9' } }] : [];
+  const files = [...[first, second].filter((one) => one !== undefined), ...other];
+  expect((await studyOf(plan, files))?.studyCount).toBe(2);
+});
+
+test('a file that is no DICOM is refused', async () => {
+  const source = new BlobSource('lines.csv', new Blob(['x,y,z']));
+  await expect(headOf(source)).rejects.toThrow('lines.csv: found no DICOM');
+});
