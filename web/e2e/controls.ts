@@ -1,6 +1,6 @@
 /** What the tests of vessels, measurements and sessions do with the page, by mouse or by keys. */
 import { readFileSync } from 'node:fs';
-import { type Browser, expect, type Locator } from '@playwright/test';
+import { type Browser, type BrowserContextOptions, expect, type Locator } from '@playwright/test';
 import { Viewer } from './page';
 
 export const rows = (viewer: Viewer): Locator => viewer.page.locator('aside > .vessel-rows > li');
@@ -21,8 +21,12 @@ export const button = (viewer: Viewer, words: string): Locator =>
 export const SIZE = { width: 1100, height: 720 };
 
 /** A phantom whose vessels were deleted. */
-export async function untraced(browser: Browser, phantom = 'y_junction'): Promise<Viewer> {
-  const viewer = await Viewer.open(browser, `?phantom=${phantom}&device=cpu`, { viewport: SIZE });
+export async function untraced(
+  browser: Browser,
+  phantom = 'y_junction',
+  options: BrowserContextOptions = {},
+): Promise<Viewer> {
+  const viewer = await Viewer.open(browser, `?phantom=${phantom}&device=cpu`, { viewport: SIZE, ...options });
   await expect(viewer.pane()).toBeVisible({ timeout: 50_000 });
   await viewer.press('v');
   const all = viewer.page.getByRole('button', { name: 'Delete all' });

@@ -167,6 +167,12 @@ export class Viewer {
     await this.frames();
   }
 
+  /** A touch of a finger, which hovers over nothing before. */
+  async tap(at: Pair, name: PaneName = 'turning'): Promise<void> {
+    await this.page.touchscreen.tap(...(await this.place(at, name)));
+    await this.frames();
+  }
+
   async doubleClick(at: Pair, name: PaneName = 'turning'): Promise<void> {
     const [x, y] = await this.place(at, name);
     await this.page.mouse.dblclick(x, y);

@@ -2,10 +2,12 @@
 import type { Answer, Asked, Message, Question } from '../src/core/asked';
 import { Failure } from '../src/core/failure';
 import type {
+  AfterEdit,
   DocumentVessel,
   Edit,
   Edited,
   EditRequest,
+  FirstClick,
   LineContent,
   ListedLine,
   NamedLine,
@@ -29,8 +31,12 @@ export class FakeTracing implements Asked {
   windows: Report['windows'] = null;
   private lastId = 100;
 
+  /** The names of the questions, in their order. */
+  readonly trips: Question[] = [];
+
   /** Questions are answered by the methods of their names. */
   ask<N extends Question>(name: N, message: Message<N>): Promise<Answer<N>> {
+    this.trips.push(name);
     return (this as unknown as Answering)[name](message) as Promise<Answer<N>>;
   }
 
@@ -62,7 +68,24 @@ export class FakeTracing implements Asked {
   }
 
   /** The least that the page relies on: clicks come and go, straight lines follow, and a click below the floor needs a bridge. */
-  async edit(request: EditRequest): Promise<Edited> {
+  async edit(request: EditRequest): Promise<AfterEdit> {
+    const edited = await this.made(request);
+    const { vessels } = edited.document;
+    const known = request.document.vessels.map(({ line }) => line);
+    const sure = vessels.filter(({ doubt }) => doubt === null);
+    const listed = sure.map(({ line, name, isHidden }) => ({ line, name, hidden: isHidden }));
+    return {
+      edited,
+      report: reportOf(listed.filter(({ hidden }) => !hidden)),
+      lines: vessels
+        .filter(({ line }) => !known.includes(line))
+        .map(({ line }) => ({ line, content: this.lines[line] as LineContent })),
+      facts: sure.map(({ line }) => ({ line, length: 10, calibre: null, part: 0, parent: null })),
+      pick: null,
+    };
+  }
+
+  private async made(request: EditRequest): Promise<Edited> {
     this.edits.push(request);
     await this.gate;
     const { document, edit, bridging } = request;
@@ -121,16 +144,20 @@ export class FakeTracing implements Asked {
     return { ...vessel, clicks, line: this.straight(clicks) };
   }
 
-  async check_click(click: Vector): Promise<null> {
+  async first_click({ click }: Message<'first_click'>): Promise<FirstClick> {
     if (click[2] < FLOOR) {
       throw new Failure('tracing', 'point', 'fat', 'lumen', '', { place: click, value: -80 });
     }
-    return null;
+    return { pick: { point: click, value: 300, vessel: null, arc_length: null }, whole: null };
   }
 
   async path({ from, to }: Message<'path'>): Promise<Answer<'path'>> {
     await this.gate;
     return to[2] < FLOOR ? null : [from, [to[0], from[1], from[2]], to];
+  }
+
+  async whole_vessel(): Promise<Answer<'whole_vessel'>> {
+    return null;
   }
 
   async line({ line }: Message<'line'>): Promise<LineContent> {

@@ -27,6 +27,8 @@ const handlers = {
   begin: vi.fn<Handlers['begin']>(),
   end: vi.fn<Handlers['end']>(),
   putBack: vi.fn<Handlers['putBack']>(),
+  step: vi.fn<NonNullable<Handlers['step']>>(),
+  leave: vi.fn<NonNullable<Handlers['leave']>>(),
 };
 
 function begin(where: 'turning' | 'flat' = 'turning') {
@@ -242,6 +244,17 @@ describe('wheel', () => {
     expect(trackpad).toBeGreaterThan(0.99);
     expect(far).toBeGreaterThan(0.8);
     expect(handlers.zoom.mock.calls[0]?.[1]).toEqual([40, 30]);
+  });
+
+  test('with Alt steps through what is under the pointer where a tool has such a row', () => {
+    Object.assign(handlers, { rows: () => 'tracing' });
+    wheel(100, { altKey: true });
+    expect([handlers.step.mock.calls, handlers.zoom.mock.calls]).toEqual([[[1]], []]);
+    expect(handlers.leave).not.toHaveBeenCalled();
+    // What turns or zooms a view changes what is under the pointer.
+    wheel(100);
+    expect([handlers.zoom.mock.calls.length, handlers.leave.mock.calls.length]).toEqual([1, 1]);
+    Object.assign(handlers, { rows: undefined });
   });
 
   test('goes one slice for each notch of a mouse, whatever a browser says of it', () => {

@@ -37,6 +37,13 @@ const FACTS: readonly LineFacts[] = [
   { line: 15, length: 5, calibre: null, part: 2, parent: 11 },
 ];
 
+/** What the engine knows of vessels that are sure. */
+const factsAmong = (vessels: readonly DocumentVessel[]): readonly LineFacts[] => {
+  const told = new Map(FACTS.map((one) => [one.line, one]));
+  const sure = vessels.filter(({ doubt }) => doubt === null);
+  return sure.map(({ line }) => told.get(line) ?? { line, length: 1, calibre: null, part: 9, parent: null });
+};
+
 const asked: string[] = [];
 
 /** Removes, accepts and leaves out as the engine does. */
@@ -46,7 +53,7 @@ function edited({ document, edit }: EditRequest): object {
     kind === 'accept'
       ? document.vessels.map((one) => (ids.includes(one.id) ? { ...one, doubt: null } : one))
       : document.vessels.filter((one) => !ids.includes(one.id));
-  return {
+  const after = {
     document: { ...document, vessels },
     words: kind,
     added: [],
@@ -54,6 +61,7 @@ function edited({ document, edit }: EditRequest): object {
     notes: [],
     told: null,
   };
+  return { edited: after, report: null, lines: [], facts: factsAmong(vessels), pick: null };
 }
 
 const engine = {

@@ -45,8 +45,8 @@ export async function opened(phantom: string, scale = 1): Promise<Opened> {
 export const EMPTY: VesselDocument = { vessels: [], stoppers: [], bridge: false };
 
 /** What comes of an edit of a document. */
-export const edited = (engine: Asked, edit: Edit, document = EMPTY): Promise<Edited> =>
-  engine.ask('edit', { document, edit, bridging: false });
+export const edited = async (engine: Asked, edit: Edit, document = EMPTY): Promise<Edited> =>
+  (await engine.ask('edit', { document, edit, bridging: false })).edited;
 
 /** The line of a vessel after an edit. */
 export const lineOf = ({ document }: Edited, n = 0): number => document.vessels[n]?.line ?? -1;

@@ -106,7 +106,7 @@ describe.skipIf(every.length === 0)('as Python', () => {
   test.each(every)('traces a mask of $phantom', async ({ phantom, mask, masked, notes }) => {
     const { engine } = await opened(phantom);
     const file = new File([readFileSync(mask)], 'mask.nii.gz');
-    const found = await engine.ask('edit', ADD_MASK, { mask: [{ path: 'mask.nii.gz', file }] });
+    const { edited: found } = await engine.ask('edit', ADD_MASK, { mask: [{ path: 'mask.nii.gz', file }] });
     expect(found.notes).toEqual(notes);
     expect(found.document.vessels.map(({ name }) => name)).toEqual(masked.map((_, n) => `Mask ${n + 1}`));
     for (const [n, truth] of masked.entries()) {

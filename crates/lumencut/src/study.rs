@@ -3,6 +3,7 @@
 //!
 //! Points are in world space (LPS, mm) unless their documentation says otherwise.
 
+pub mod after_edit;
 pub mod asking;
 pub mod brightest;
 pub mod centerline_files;
@@ -20,6 +21,7 @@ pub mod line_edits;
 pub mod line_facts;
 pub mod line_path;
 pub mod lines;
+pub mod lumens;
 pub mod masks;
 pub mod measure_messages;
 pub mod measuring;

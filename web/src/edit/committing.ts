@@ -2,10 +2,10 @@
  * Edits in turn: each is one step of the history or nothing at all. Those that need the engine show how far they are, and
  * can be stopped; where one is refused, those that wait behind it are dropped, since they were meant for what it would have made.
  */
-import { signal } from '@preact/signals';
+import { batch, signal } from '@preact/signals';
 import type { Asked } from '../core/asked';
 import { Failure } from '../core/failure';
-import type { DocumentVessel, Edit, Edited, GivenFile, Progress } from '../core/messages';
+import type { AfterEdit, DocumentVessel, Edit, Edited, GivenFile, Progress } from '../core/messages';
 import { placeCrossHair } from '../link/cross-hair';
 import { afterEdit } from '../state/changes';
 import type { Document } from '../state/document';
@@ -26,6 +26,12 @@ export const refusal = signal<Refusal | null>(null);
 /** How many edits under way look for many vessels: clicks meanwhile are no points of others. */
 export const searches = signal(0);
 const SEARCHES: readonly Edit['kind'][] = ['add_branches', 'find_vessels', 'add_mask'];
+
+/**
+ * What came of the last edit that the engine made, and what it shows since: it is taken from here, so that nothing more is asked. Also
+ * of one that was dropped meanwhile, after which the engine shows another tree than the document has.
+ */
+export const answered = signal<AfterEdit | null>(null);
 
 /** Work is shown as progress only where it takes longer than this (ms). */
 const SHOWN_AFTER = 250;
@@ -53,6 +59,10 @@ interface Step<T> {
   readonly words: string;
   readonly after: Document;
   readonly result: T;
+  /** What the engine answered; none of a change of the page's own. */
+  readonly answer?: AfterEdit;
+  /** Changes what goes with the document. */
+  readonly also?: () => void;
 }
 
 /** Gives what came of the work; null where it was not done. */
@@ -76,12 +86,13 @@ async function doEdit<T>(work: Work<T>, own: number, bridge: (() => void) | null
   forgetRefusal();
   const tell = teller(own);
   try {
-    const { words, after, result } = await work(tell.told);
+    const step = await work(tell.told);
     if (own !== generation) {
+      answered.value = step.answer ?? answered.value;
       return null;
     }
-    change(words, after);
-    return result;
+    take(step);
+    return step.result;
   } catch (error) {
     if (own === generation) {
       refuse(Failure.of(error), bridge);
@@ -90,6 +101,15 @@ async function doEdit<T>(work: Work<T>, own: number, bridge: (() => void) | null
   } finally {
     tell.end();
   }
+}
+
+/** Makes a step of what was done; whatever follows the document hears of it and of the answer at once. */
+function take({ words, after, answer, also }: Step<unknown>): void {
+  batch(() => {
+    answered.value = answer ?? answered.value;
+    change(words, after);
+    also?.();
+  });
 }
 
 function refuse(failure: Failure, bridge: (() => void) | null): void {
@@ -161,7 +181,7 @@ interface Beside {
   readonly mask?: readonly GivenFile[];
   /** Changes the vessels that came to the document. */
   readonly renamed?: (vessel: DocumentVessel) => DocumentVessel;
-  /** Hears what came of it, also where that needed a bridge first. */
+  /** Hears what came of it together with the document, also where that needed a bridge first. */
   readonly then?: (edited: Edited) => void;
   readonly bridging?: boolean;
 }
@@ -170,23 +190,25 @@ interface Beside {
  * An edit of vessels, which the engine makes of the document as it is in its turn; gives what came of it, null where it was not
  * done. What the page changes meanwhile, such as marks, stays.
  */
-export async function commit(engine: Asked, edit: Edit, beside: Beside = {}): Promise<Edited | null> {
+export function commit(engine: Asked, edit: Edit, beside: Beside = {}): Promise<AfterEdit | null> {
   const { mask, then, renamed = (vessel) => vessel, bridging = false } = beside;
   const files = mask && { mask };
-  const work: Work<Edited> = async (told) => {
+  const work: Work<AfterEdit> = async (told) => {
     const ask = ({ vessels, stoppers, bridge }: Document) =>
       engine.ask('edit', { document: { vessels, stoppers, bridge }, edit, bridging }, { told, ...files });
-    const edited = withNames(await latest(ask), renamed);
-    return { words: edited.words, after: afterEdit(document_.value, edited), result: edited };
+    const answer = await latest(ask);
+    // The engine shows the names that it gave: where others are given here, it is asked to show those.
+    const edited = withNames(answer.edited, renamed);
+    const after = afterEdit(document_.value, edited);
+    const also = () => {
+      hear(edited);
+      then?.(edited);
+    };
+    return { words: edited.words, after, result: answer, answer, also };
   };
   const again = () => void commit(engine, edit, { ...beside, bridging: true });
   const found = SEARCHES.includes(edit.kind) ? counted(work) : work;
-  const edited = await inTurn(edit.kind === 'add_branches' ? askedAbout(found) : found, again);
-  if (edited) {
-    hear(edited);
-    then?.(edited);
-  }
-  return edited;
+  return inTurn(edit.kind === 'add_branches' ? askedAbout(found) : found, again);
 }
 
 /** Work that counts among the searches while it is under way. */
@@ -224,14 +246,15 @@ function askedAbout<T>(work: Work<T>): Work<T> {
 }
 
 /** What comes of an edit of the vessels that there are when it comes: it is asked for again after a redo meanwhile. */
-async function latest(ask: (document: Document) => Promise<Edited>): Promise<Edited> {
+async function latest(ask: (document: Document) => Promise<AfterEdit>): Promise<AfterEdit> {
   for (;;) {
     const before = document_.value;
-    const edited = await ask(before);
+    const answer = await ask(before);
     const now = document_.value;
     if (now.vessels === before.vessels && now.stoppers === before.stoppers && now.bridge === before.bridge) {
-      return edited;
+      return answer;
     }
+    answered.value = answer;
   }
 }
 

@@ -5,7 +5,7 @@ import { followLines } from './lines';
 import { followTool } from './mode';
 import { followDocument } from './shown';
 import { followFacts } from './tidying';
-import { followWhole } from './whole';
+import { followWhole } from './whole-shown';
 
 export function followEdits(engine: Asked): void {
   followDocument(engine);

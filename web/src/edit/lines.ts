@@ -2,10 +2,11 @@
 import { effect, signal } from '@preact/signals';
 import type { Asked } from '../core/asked';
 import { Failure } from '../core/failure';
-import type { LineContent, LineId } from '../core/messages';
+import type { LineContent, LineId, NumberedLine } from '../core/messages';
 import { length, subtract } from '../core/vectors';
 import { document_ } from '../state/history';
 import { problem } from '../state/store';
+import { answered } from './committing';
 
 /** By the numbers of the lines; lines never change. Those of a study that was closed are forgotten. */
 export const contents = signal<ReadonlyMap<LineId, LineContent>>(new Map());
@@ -19,11 +20,26 @@ export function followLines(engine: Asked): () => void {
     if (lines.length === 0) {
       return;
     }
+    take(answered.value?.lines ?? [], lines);
     const missing = lines.filter((line) => !asked.has(line));
     if (missing.length > 0) {
       void load(engine, missing);
     }
   });
+}
+
+/** Takes over the lines that came with an edit. */
+function take(given: readonly NumberedLine[], wanted: readonly LineId[]): void {
+  const missing = given.filter(({ line }) => wanted.includes(line) && !asked.has(line));
+  if (missing.length > 0) {
+    for (const { line } of missing) {
+      asked.add(line);
+    }
+    contents.value = new Map([
+      ...contents.peek(),
+      ...missing.map(({ line, content }) => [line, content] as const),
+    ]);
+  }
 }
 
 async function load(engine: Asked, lines: readonly LineId[]): Promise<void> {

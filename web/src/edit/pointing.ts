@@ -2,42 +2,52 @@
 import { batch } from '@preact/signals';
 import type { Asked } from '../core/asked';
 import { Failure } from '../core/failure';
-import type { Vector } from '../core/messages';
+import type { AfterEdit, Pick, Vector } from '../core/messages';
 import { length, subtract } from '../core/vectors';
+import { document_ } from '../state/history';
 import { crossHair } from '../state/store';
 import { tell } from '../state/telling';
 import { active, tool } from '../state/tool';
 import { addBranches } from './branches';
-import { addClick, beginVessel, removeClick } from './clicks';
+import { addClick, beginVessel, begunId, removeClick } from './clicks';
 import { forgetRefusal, refusal, searches, tellRefusal } from './committing';
 import { anchor, candidate, coming, drawing, drawn, first, forgetDrawing, isDrawing } from './drawing';
 import { addStopper } from './stoppers';
+import { checked, only, whole } from './whole-shown';
 
 /** Places as near as this are one place (mm). */
 const SAME = 0.05;
 
 /** The vessel that is being begun, as long as it is traced for the first time. */
-let beginning: Promise<number | null> | null = null;
+let beginning: Promise<AfterEdit | null> | null = null;
 
-/** Sets a point of a vessel, a stopper, or where a tree begins; nothing while vessels are looked for. */
-export async function setPoint(engine: Asked, point: Vector): Promise<void> {
+/** Sets a point of a vessel, a stopper, or where a tree begins; gives what lies there, or null where that was not told. */
+export async function setPoint(engine: Asked, point: Vector): Promise<Pick | null> {
   candidate.value = null;
   if (searches.value > 0) {
     tell('No point was set: vessels are being looked for. Escape stops that.');
-  } else if (tool.value === 'stopper') {
-    await addStopper(engine, point);
-  } else if (tool.value === 'seed') {
-    await beginTree(engine, point);
-  } else if (anchor.value === null) {
-    forgetRefusal();
-    first.value = point;
-    await checkFirst(engine, point);
-  } else {
-    const own = { point, drawing: drawing.value };
-    coming.value = [...coming.value, own];
-    await goOn(engine, point);
-    coming.value = coming.value.filter((one) => one !== own);
+    return null;
   }
+  if (tool.value === 'stopper') {
+    return (await addStopper(engine, point))?.pick ?? null;
+  }
+  if (tool.value === 'seed') {
+    await beginTree(engine, point);
+    return null;
+  }
+  if (anchor.value === null) {
+    forgetRefusal();
+    batch(() => {
+      checked.value = point;
+      first.value = point;
+    });
+    return checkFirst(engine, point);
+  }
+  const own = { point, drawing: drawing.value };
+  coming.value = [...coming.value, own];
+  const answer = await goOn(engine, point);
+  coming.value = coming.value.filter((one) => one !== own);
+  return answer?.pick ?? null;
 }
 
 /** Looks for all branches from a place; where none are found another place can be clicked. */
@@ -47,39 +57,54 @@ async function beginTree(engine: Asked, point: Vector): Promise<void> {
   }
 }
 
-async function goOn(engine: Asked, point: Vector): Promise<void> {
+async function goOn(engine: Asked, point: Vector): Promise<AfterEdit | null> {
   if (drawn.value) {
-    await addClick(engine, drawn.value.id, point);
-  } else if (beginning) {
-    const id = await beginning;
-    await (id === null ? null : addClick(engine, id, point));
-  } else if (first.value) {
-    const own = drawing.value;
-    // A vessel that was ended while it was traced does not go on.
-    const goesOn = () => own === drawing.value;
-    beginning = beginVessel(engine, [first.value, point], (id) => {
-      if (goesOn()) {
-        batch(() => {
-          active.value = id;
-          first.value = null;
-        });
-      }
-    });
-    const begun = await beginning;
-    if (goesOn()) {
-      beginning = null;
-      // Where the first point is to blame, another one is to be set: no second one would help.
-      first.value = begun === null && !isBlamed(first.value) ? first.value : null;
-    }
+    return addClick(engine, drawn.value.id, point);
   }
+  if (beginning) {
+    const id = begunId(await beginning);
+    return id === null ? null : addClick(engine, id, point);
+  }
+  return first.value && begin(engine, [first.value, point]);
 }
 
-/** Takes a first point back at once that no vessel can begin at: no second one would make a vessel of it. */
-async function checkFirst(engine: Asked, point: Vector): Promise<void> {
-  const refused = await engine.ask('check_click', point).then(() => null, Failure.of);
-  if (refused && first.value === point) {
-    first.value = null;
-    tellRefusal(refused);
+/** Begins the vessel that goes on from its first point. */
+async function begin(engine: Asked, clicks: readonly [Vector, Vector]): Promise<AfterEdit | null> {
+  const own = drawing.value;
+  // A vessel that was ended while it was traced does not go on.
+  const goesOn = () => own === drawing.value;
+  beginning = beginVessel(engine, clicks, (id) => {
+    if (goesOn()) {
+      batch(() => {
+        active.value = id;
+        first.value = null;
+      });
+    }
+  });
+  const begun = await beginning;
+  if (goesOn()) {
+    beginning = null;
+    // Where the first point is to blame, another one is to be set: no second one would help.
+    first.value = begun === null && !isBlamed(first.value) ? first.value : null;
+  }
+  return begun;
+}
+
+/**
+ * Tells what a first point hit, and shows the whole vessel that it would add. One that no vessel can begin at is taken back at once: no
+ * second one would make a vessel of it.
+ */
+async function checkFirst(engine: Asked, point: Vector): Promise<Pick | null> {
+  try {
+    const told = await engine.ask('first_click', { click: point, vessels: document_.value.vessels });
+    whole.value = first.value === point && only.value === point ? told.whole : whole.value;
+    return told.pick;
+  } catch (error) {
+    if (first.value === point) {
+      first.value = null;
+      tellRefusal(Failure.of(error));
+    }
+    return null;
   }
 }
 

@@ -1,15 +1,15 @@
 /** The tree that is shown follows the document: the visible vessels, without the doubtful ones, whenever they change. */
-import { batch, effect, signal } from '@preact/signals';
+import { batch, effect, signal, untracked } from '@preact/signals';
 import type { Asked } from '../core/asked';
 import { Failure } from '../core/failure';
-import type { DocumentVessel, ListedLine, Report, VesselDocument } from '../core/messages';
+import type { AfterEdit, DocumentVessel, ListedLine, Report, VesselDocument } from '../core/messages';
 import type { Window } from '../core/plain';
 import { shownVessels } from '../state/changes';
 import { type Document, EMPTY } from '../state/document';
 import { begin, document_ } from '../state/history';
 import * as store from '../state/store';
 import { active } from '../state/tool';
-import { dropEdits } from './committing';
+import { answered, dropEdits } from './committing';
 
 /** The vessels of the tree that is shown: those of `store.report`, in the same order. */
 export const tree = signal<readonly DocumentVessel[]>([]);
@@ -78,11 +78,30 @@ export function showAgain(engine: Asked): Promise<void> {
 
 /** Shows the document's tree from now on; gives what ends it. */
 export function followDocument(engine: Asked): () => void {
+  let heard: AfterEdit | null = answered.peek();
   return effect(() => {
-    if (textOf(document_.value.vessels) !== shownText) {
-      void show(engine);
+    const [document, answer] = [document_.value, answered.value];
+    if (answer && answer !== heard) {
+      shownText = textOf(answer.edited.document.vessels);
     }
+    if (textOf(document.vessels) !== shownText) {
+      void show(engine);
+    } else if (answer && answer !== heard) {
+      untracked(() => void takeUp(engine, answer.report, document));
+    }
+    heard = answer;
   });
+}
+
+/** The store tells what the engine shows of a document; the cross-hair goes on where its vessel is gone. */
+async function takeUp(engine: Asked, report: Report, document: Document): Promise<void> {
+  const isLeft = batch(() => {
+    listedLines.value = linesOf(document.vessels);
+    return take(report, shownVessels(document));
+  });
+  if (isLeft) {
+    await goOn(engine);
+  }
 }
 
 let showing: Promise<void> | null = null;
@@ -104,17 +123,10 @@ async function showLatest(engine: Asked): Promise<void> {
       if (text === shownText) {
         break;
       }
-      let isLeft = false;
       const report = await engine.ask('show', listOf(document.vessels));
       if (study === store.report.value?.volume) {
         shownText = text;
-        batch(() => {
-          listedLines.value = linesOf(document.vessels);
-          isLeft = take(report, shownVessels(document));
-        });
-        if (isLeft) {
-          await goOn(engine);
-        }
+        await takeUp(engine, report, document);
       }
       study = store.report.value?.volume;
     }

@@ -6,6 +6,7 @@ import type { DocumentVessel, LineFacts, LineId } from '../core/messages';
 import { recover } from '../state/device';
 import { document_ } from '../state/history';
 import { markNone, shorterThan, thinnerThan } from '../state/tidy';
+import { answered } from './committing';
 import { isListOpen } from './list-open';
 import { pickedId } from './shown';
 import { remove } from './vessels';
@@ -21,11 +22,14 @@ export const factsOf = ({ line }: DocumentVessel): LineFacts | undefined => fact
 
 const latest = new Latest();
 
-/** Asks for what is known of the lines, while the list is open, from now on; gives what ends it. */
+/** Knows the facts of the lines from now on: an edit brings them, else they are asked for while the list is open. Gives what ends it. */
 export function followFacts(engine: Asked): () => void {
   return effect(() => {
     const lines = sure.value.map((vessel) => vessel.line);
-    if (isListOpen.value) {
+    const given = answered.value?.facts ?? [];
+    if (lines.length > 0 && given.map(({ line }) => line).join() === lines.join()) {
+      facts.value = new Map(given.map((one) => [one.line, one]));
+    } else if (isListOpen.value) {
       latest.run(() => ask(engine, lines));
     }
   });

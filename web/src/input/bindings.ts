@@ -37,6 +37,7 @@ export type Action =
   | 'window'
   | 'scroll'
   | 'scroll by ten'
+  | 'step'
   | 'pick'
   | 'move cross-hair'
   | 'maximise'
@@ -137,6 +138,7 @@ export const BINDINGS: readonly Binding[] = [
   other('flat', 'wheel', 'Ctrl', 'zoom', 'zoom at the pointer'),
   other('flat', 'touch drag', '', 'scroll', 'scroll'),
   other('tracing', 'click', '', 'set point', 'set a point of the vessel, or a stopper'),
+  other('tracing', 'wheel', 'Alt', 'step', 'step to the lumen behind the one under the pointer, or back'),
   other('tracing', 'double click', '', 'end vessel', 'end the vessel; on a curve add a point there'),
   {
     where: 'tracing',

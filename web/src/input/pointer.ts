@@ -26,6 +26,10 @@ export interface Handlers {
   end(): void;
   /** Further rows of the table that hold now, before those of the view. */
   rows?(): Where | null;
+  /** Steps through what lies one behind the other under the pointer. */
+  step?(by: number): void;
+  /** The pointer is over the view no longer, or what is under it has changed. */
+  leave?(): void;
   /** Escape while a drag is under way: all is as it was when it began. */
   putBack(): void;
 }
@@ -41,6 +45,7 @@ export function listen(element: HTMLElement, where: Where, handlers: Handlers): 
   element.addEventListener('pointermove', (event) => gestures.move(event), options);
   element.addEventListener('pointerup', (event) => gestures.up(event), options);
   element.addEventListener('pointercancel', (event) => gestures.cancel(event), options);
+  element.addEventListener('pointerleave', () => handlers.leave?.(), options);
   element.addEventListener('wheel', (event) => gestures.wheel(event), {
     passive: false,
     signal: stop.signal,
@@ -141,6 +146,7 @@ class Pointers {
     }
     if (!this.isDragging) {
       this.isDragging = true;
+      this.handlers.leave?.();
       this.handlers.begin();
     }
     this.held.set(event.pointerId, at);
@@ -224,8 +230,15 @@ class Pointers {
   wheel(event: WheelEvent): void {
     event.preventDefault();
     // A pinch on a trackpad comes as a wheel with Ctrl.
-    const modifier: Modifier = event.ctrlKey || event.metaKey ? 'Ctrl' : event.shiftKey ? 'Shift' : '';
-    const action = actionOf(this.where, 'wheel', null, modifier);
+    const rows = this.handlers.rows?.() ?? null;
+    const modifier = modifierOf(event);
+    const action =
+      (rows && actionOf(rows, 'wheel', null, modifier)) ?? actionOf(this.where, 'wheel', null, modifier);
+    if (action === 'step') {
+      this.handlers.step?.(this.steps.ofWheel(event));
+      return;
+    }
+    this.handlers.leave?.();
     if (action === 'zoom') {
       const pixels = alongWheel(event) * (event.deltaMode === WheelEvent.DOM_DELTA_LINE ? LINE : 1);
       const bounded = Math.max(-MOST_WHEEL, Math.min(MOST_WHEEL, pixels));

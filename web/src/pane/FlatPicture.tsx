@@ -166,6 +166,8 @@ function forwarded(handlers: () => Handlers): Handlers {
     end: () => handlers().end(),
     putBack: () => handlers().putBack(),
     rows: () => handlers().rows?.() ?? null,
+    step: (by) => handlers().step?.(by),
+    leave: () => handlers().leave?.(),
   };
 }
 

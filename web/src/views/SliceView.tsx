@@ -19,6 +19,7 @@ import {
 } from '../core/planes';
 import { add, cross, scale } from '../core/vectors';
 import { target } from '../edit/drawing';
+import { stepLumen } from '../edit/lumens';
 import { isTracing } from '../edit/mode';
 import type { Handlers } from '../input/pointer';
 import { placeCrossHair } from '../link/cross-hair';
@@ -28,10 +29,11 @@ import { dragWindow, windowBack } from '../state/actions';
 import * as store from '../state/store';
 import { useAsked } from './asked';
 import { EdgeLabels } from './EdgeLabels';
+import { LumenInset } from './LumenInset';
 import { ofPlane, type Projection } from './projection';
 import { TracedOverlay } from './TracedOverlay';
 import { HairLines } from './TurningOverlay';
-import { clickWithTool, followPointerAt, toolRows } from './tool-clicks';
+import { clickWithTool, followPointerAt, forgetPointer, toolRows } from './tool-clicks';
 
 export function SliceView({ name }: { readonly name: SliceName }) {
   const volume = store.report.value?.volume ?? null;
@@ -71,6 +73,7 @@ export function SliceView({ name }: { readonly name: SliceName }) {
           {projection && <TracedOverlay projection={projection} />}
           <SliceMeasures plane={plane} where={`in the ${name} slice`} />
           <HairLines at={pixelOn(plane, point)} />
+          <LumenInset view={name} size={plane.size} />
         </>
       )}
     </FlatPicture>
@@ -93,6 +96,8 @@ function sliceHandlers(
   const window = windowBack();
   return {
     rows: toolRows,
+    step: (by) => void stepLumen(by),
+    leave: forgetPointer,
     drag: (action, by) => {
       if (action === 'window') {
         dragWindow(by);

@@ -7,6 +7,7 @@ import { assumeOneMillimetre, hasMillimetres } from '../state/millimetres';
 import { camera, crossHair, report, states } from '../state/store';
 import { Cube } from './Cube';
 import { EdgeLabels } from './EdgeLabels';
+import { LumenInset } from './LumenInset';
 import { PickedOutline } from './PickedOutline';
 import { ofCamera } from './projection';
 import { TracedOverlay } from './TracedOverlay';
@@ -34,6 +35,7 @@ export function TurningOverlay() {
       {states.value.orientation && <Cube camera={seen} />}
       {!hasMillimetres.value && <NoMillimetres />}
       <PlaceTurnBar />
+      <LumenInset view="turning" size={seen.size} />
     </div>
   );
 }

@@ -5,6 +5,7 @@ import { engine } from '../client/shared';
 import { resized, zoomed } from '../core/camera';
 import type { Pair, Picture, Settings, Vector, View } from '../core/messages';
 import { cross } from '../core/vectors';
+import { stepLumen } from '../edit/lumens';
 import { isTracing } from '../edit/mode';
 import type { Action } from '../input/bindings';
 import { listen } from '../input/pointer';
@@ -16,7 +17,7 @@ import * as store from '../state/store';
 import { FrameLoop, type Shown } from './frame-loop';
 import { ofCamera } from './projection';
 import { TurningOverlay } from './TurningOverlay';
-import { clickWithTool, followPointerAt, type Pointed, toolRows } from './tool-clicks';
+import { clickWithTool, followPointerAt, forgetPointer, type Pointed, toolRows } from './tool-clicks';
 
 /** Radians that a slow turn advances in a second. */
 const TURN_PER_SECOND = 0.5;
@@ -184,6 +185,8 @@ const handlers = {
   zoom: actions.zoomTurning,
   scroll: () => undefined,
   rows: toolRows,
+  step: (by: number) => void stepLumen(by),
+  leave: forgetPointer,
   click: (action: Action, at: Pair) => {
     const view = pointed();
     if (view && clickWithTool(view, action, at)) {
@@ -218,7 +221,7 @@ function pointed(): Pointed | null {
     ? {
         name: 'turning',
         projection: ofCamera(view.camera, volume),
-        place: async (at) => (await engine.ask('brightest', { view, pixel: at })).point,
+        place: (at) => engine.ask('brightest', { view, pixel: at }),
       }
     : null;
 }

@@ -6,7 +6,7 @@ import { contents } from '../edit/lines';
 import { chosenDoubt, isTracing } from '../edit/mode';
 import { tree } from '../edit/shown';
 import { marked } from '../edit/tidying';
-import { whole } from '../edit/whole';
+import { whole } from '../edit/whole-shown';
 import { document_ } from '../state/history';
 import { DOUBTFUL } from '../state/palette';
 import { pickedVessel } from '../state/store';

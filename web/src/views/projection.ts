@@ -11,6 +11,8 @@ export interface Projection {
   readonly spacing: number;
   /** Whether all depths are seen at once. */
   readonly isThrough: boolean;
+  /** The direction of the rays through which all depths are seen; null in a slice. */
+  readonly along: Vector | null;
   pixel(point: Vector): Pair;
   /** How far a point is before or behind the plane of the view (mm, with its sign). */
   depth(point: Vector): number;
@@ -28,6 +30,7 @@ export function ofPlane(plane: Plane, volume: VolumeReport): Projection {
     size: plane.size,
     spacing: plane.pixel_spacing,
     isThrough: false,
+    along: null,
     pixel: (point) => pixelOn(plane, point),
     depth,
     at: (pixel, like) => add(pointOn(plane, pixel), scale(normal, depth(like))),
@@ -48,6 +51,7 @@ export function ofCamera(camera: Camera, volume: VolumeReport): Projection {
     size: camera.size,
     spacing: camera.pixel_spacing,
     isThrough: true,
+    along: camera.direction,
     pixel: (point) => pixelOf(camera, point),
     depth,
     at: (pixel, like) => add(onPlane(pixel), scale(camera.direction, depth(like))),

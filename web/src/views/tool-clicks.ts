@@ -2,9 +2,10 @@
 
 import { engine } from '../client/shared';
 import { Latest } from '../core/latest';
-import type { Pair, Vector } from '../core/messages';
+import type { Pair, Pick, Vector } from '../core/messages';
 import { addClickOnLine } from '../edit/clicks';
 import { anchor, candidate, drawn, first, target } from '../edit/drawing';
+import { lookForLumens, meant, pointed } from '../edit/lumens';
 import { chosenDoubt, isTracing } from '../edit/mode';
 import { acceptCandidate, endVessel, setPoint } from '../edit/pointing';
 import { takeWhole } from '../edit/whole';
@@ -23,8 +24,8 @@ export const toolRows = (): Where | null => (isTracing() ? 'tracing' : null);
 export interface Pointed {
   readonly name: ViewName;
   readonly projection: Projection;
-  /** The place at a pixel; in a projection it is to be looked at before it becomes a point. */
-  place(at: Pair): Promise<Vector> | Vector;
+  /** The place at a pixel of a slice; the brightest one on its ray, and what lies there, in a projection. */
+  place(at: Pair): Promise<Pick> | Vector;
 }
 
 /** Does what a click does with the tool in use; says whether it did anything. */
@@ -59,30 +60,41 @@ async function setAt(view: Pointed, at: Pair): Promise<void> {
   }
   try {
     if (projection.isThrough) {
-      await propose(view, await view.place(at));
+      await setThrough(view, at);
     } else {
       // The point is set before the engine answers anything: Enter may follow at once.
-      const point = view.place(at) as Vector;
-      void setPoint(engine, point);
-      await lookAt(view, point);
+      await setHere(view, view.place(at) as Vector);
     }
   } catch (error) {
     recover(error);
   }
 }
 
-/** A place of a projection is shown in the slices before it becomes a point, unless the tool was laid down meanwhile. */
-async function propose(view: Pointed, point: Vector): Promise<void> {
-  await lookAt(view, point);
+/** Sets a point, with the cross-hair there at once. */
+async function setHere(view: Pointed, point: Vector): Promise<void> {
+  crossHair.value = { point, value: null, vessel: null, arcLength: null };
+  tell(view, point, (await setPoint(engine, point)) ?? (await engine.ask('at', point)));
+}
+
+/** In a projection a click takes the lumen that is shown beside the pointer; without one it proposes the brightest place. */
+async function setThrough(view: Pointed, at: Pair): Promise<void> {
+  const isUnderPointer = looked?.view === view.name && isSame(looked.at, at);
+  await (isUnderPointer ? looked?.done : null);
+  const shown = isUnderPointer ? meant.value : null;
+  if (shown) {
+    await setHere(view, shown.point);
+    return;
+  }
+  const pick = (await view.place(at)) as Pick;
+  placeCrossHair(pick, view.name);
+  // It is looked at in the slices before it becomes a point, unless the tool was laid down meanwhile.
   if (isTracing()) {
-    candidate.value = point;
+    candidate.value = pick.point;
   }
 }
 
-/** Puts the cross-hair at a place at once, and tells what is there when that is known. */
-async function lookAt(view: Pointed, point: Vector): Promise<void> {
-  crossHair.value = { point, value: null, vessel: null, arcLength: null };
-  const pick = await engine.ask('at', point);
+/** Tells what is at a place, unless the cross-hair was put elsewhere meanwhile. */
+function tell(view: Pointed, point: Vector, pick: Pick): void {
   if (crossHair.value?.point === point) {
     placeCrossHair(pick, view.name);
   }
@@ -124,13 +136,42 @@ function chooseDoubtful({ projection }: Pointed, at: Pair): boolean {
 
 const following = new Latest();
 
-/** The live path follows the pointer; one place is asked for at a time. */
+/** What the pointer was last over, and when it is known what is there. */
+let looked: { readonly view: ViewName; readonly at: Pair; readonly done: Promise<void> } | null = null;
+
+const isSame = (a: Pair, b: Pair): boolean => Math.hypot(a[0] - b[0], a[1] - b[1]) < 1;
+
+/** The lumen beside the pointer and the live path follow it; one place is asked for at a time. */
 export function followPointerAt(view: Pointed, at: Pair): void {
-  if (tool.value !== 'trace' || anchor.value === null) {
+  if (tool.value !== 'trace') {
+    pointed.value = null;
     return;
   }
-  following.run(async () => {
-    // Beside the scan there is nothing that the path could lead to.
-    target.value = await Promise.resolve(view.place(at)).catch(() => null);
+  if (!view.projection.isThrough && anchor.value !== null) {
+    target.value = view.place(at) as Vector;
+  }
+  const done = new Promise<void>((resolve) => {
+    following.run(() => lookUnder(view, at).then(resolve, resolve));
   });
+  looked = { view: view.name, at, done };
+}
+
+async function lookUnder(view: Pointed, at: Pair): Promise<void> {
+  const { projection, name } = view;
+  const through = projection.along;
+  const point = projection.at(at, crossHair.value?.point ?? [0, 0, 0]);
+  const lumen = await lookForLumens(engine, [name, at], { point, along: through });
+  if (through && anchor.value !== null) {
+    // Beside the scan there is nothing that the path could lead to.
+    const brightest = () => Promise.resolve(view.place(at)).then(placeOf, () => null);
+    target.value = lumen?.point ?? (await brightest());
+  }
+}
+
+const placeOf = (place: Pick | Vector): Vector => ('point' in place ? place.point : place);
+
+/** The pointer has left the view, or it is turned or scrolled: what was under it is no longer there. */
+export function forgetPointer(): void {
+  pointed.value = null;
+  looked = null;
 }

@@ -1,7 +1,7 @@
 /** A mask of vessels beside the scan that is open: read as scans are, and traced. */
 import type { Answer, Beside, Message, Question } from '../core/asked';
 import { Failure } from '../core/failure';
-import type { Edited, GivenFile } from '../core/messages';
+import type { AfterEdit, GivenFile } from '../core/messages';
 import { type Engine, loadJudge } from '../core/module';
 import { ALL_OF_IT } from '../io/dicom/wanted';
 import { among, BlobSource } from '../io/source';
@@ -29,8 +29,9 @@ export async function askWithFiles<N extends Question>(
   try {
     const notes = await readMask(engine, mask, new Steps(told, signal));
     refuseStopped(name, signal);
-    const answer = ask(engine, name, message, beside) as Edited;
-    return { ...answer, notes: [...notes, ...answer.notes] } as Answer<N>;
+    const answer = ask(engine, name, message, beside) as AfterEdit;
+    const edited = { ...answer.edited, notes: [...notes, ...answer.edited.notes] };
+    return { ...answer, edited } as AfterEdit as Answer<N>;
   } finally {
     engine.end_mask();
   }

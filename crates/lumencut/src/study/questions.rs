@@ -4,17 +4,19 @@
 use lumencut_vessels::measure::profile::Profile;
 
 use crate::report::Stated;
+use crate::study::after_edit::{AfterEdit, FirstClick};
 use crate::study::asking::{Answer, Answering, Asking, Turn, WrittenFile, questions, read};
 use crate::study::centerline_files::AskedMessage;
 use crate::study::content::Report;
 use crate::study::document::{Document, DocumentVessel};
 use crate::study::doubts::{DoubtRow, doubt_rows};
-use crate::study::edits::{EditMessage, Edited};
+use crate::study::edits::EditMessage;
 use crate::study::failure::{Failure, Result};
 use crate::study::histogram::Histogram;
 use crate::study::labels::{LaidPicture, PictureLabels};
 use crate::study::line_facts::LineFacts;
 use crate::study::lines::{LineContent, ListedLine, NamedLine};
+use crate::study::lumens::{PointedLumen, PointedMessage};
 use crate::study::measure_messages::{
     ComparedMessage, DiameterMessage, GradeMessage, MarksMessage, ProfileMessage, SectionMessage,
     SpotMessage, StretchMessage, VesselMessage,
@@ -110,11 +112,17 @@ of_the_study {
     /// The document that the study begins with: the vessels that were opened, counted from 1.
     [Turn::First] begin_document(_nothing: ()) -> Document = study.begin_document();
 
-    /// What comes of an edit of vessels; one that adds a mask comes with the files of the mask, which a viewer reads first.
-    [Turn::Long("Tracing")] edit(message: EditMessage) -> Edited = study.edit(&message, asking.watch)?;
+    /// What comes of an edit of vessels, and all that is shown after it; one that adds a mask comes with the files of the mask, which a
+    /// viewer reads first.
+    [Turn::Long("Tracing")] edit(message: EditMessage) -> AfterEdit = study.edit_and_show(&message, asking.watch)?;
 
-    /// Refuses a place that no vessel can begin at: one outside of the scan, and one whose value alone shows that it is no lumen.
-    [Turn::First] check_click(click: Vector) -> () = study.check_click(click)?;
+    /// What a first click of a vessel hit, and the whole vessel that it would add beside the vessels of a list. Refuses a place that no
+    /// vessel can begin at: one outside of the scan, and one whose value alone shows that it is no lumen.
+    [Turn::First] first_click { click: Vector, vessels: Vec<DocumentVessel> } -> FirstClick =
+        study.first_click(click, &vessels)?;
+
+    /// The lumens that are pointed at, the nearest first: those along a ray, or the one at a place. None is refused.
+    [Turn::First] lumens(pointed: PointedMessage) -> Vec<PointedLumen> = study.lumens(&pointed)?;
 
     /// The way to the pointer, through the middles of voxels; null where none is found within 40 ms. Never refused for places
     /// without lumen.

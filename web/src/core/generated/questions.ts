@@ -6,6 +6,20 @@ export type Method = 'csr' | 'csr-paper' | 'cr' | 'mpcpr';
 export type StenosisMethod = 'nascet' | 'ecst' | 'area';
 export type Territory = 'carotid' | 'coronary';
 
+/** An edit that was made, and what is shown after it. */
+export type AfterEdit = {
+  /** What came of it. */
+  readonly edited: Edited;
+  /** What is open now: the vessels of the document that are not doubtful are shown, as `show` shows them. */
+  readonly report: Report;
+  /** The lines that came to the document. */
+  readonly lines: ReadonlyArray<NumberedLine>;
+  /** What is known of the lines that are not doubtful, as `line_facts` tells it. */
+  readonly facts: ReadonlyArray<LineFacts>;
+  /** What lies where the edit was made; none of an edit that has no place. */
+  readonly pick: Pick | null;
+};
+
 /** A camera: orthographic, its axes unit vectors. */
 export type Camera = {
   /** What is in the middle of the picture. */
@@ -246,6 +260,14 @@ export type Findings = {
   readonly distances: ReadonlyArray<string>;
 };
 
+/** What a first click of a vessel hit. */
+export type FirstClick = {
+  /** What lies there. */
+  readonly pick: Pick;
+  /** The whole vessel that it would add, as `whole_vessel` tells it. */
+  readonly whole: WholeVessel | null;
+};
+
 /** A flag of a section. */
 export type FlagLook = {
   /** What tables and reports call it, such as `no clear wall`. */
@@ -429,6 +451,14 @@ export type NotMeasured = {
   readonly words: string;
 };
 
+/** A line with its number. */
+export type NumberedLine = {
+  /** Its number. */
+  readonly line: number;
+  /** Its content. */
+  readonly content: LineContent;
+};
+
 /** A way to where the pointer is. */
 export type PathRequest = {
   /** The last click. */
@@ -489,6 +519,30 @@ export type Plane = {
   readonly size: Pair;
   /** The side of a pixel (mm). */
   readonly pixel_spacing: number;
+};
+
+/** Where a pointer is: a place, or the ray through it. */
+export type PointedAt = {
+  /** The place (LPS, mm). */
+  readonly point: Vector;
+  /** The direction of the ray, away from the viewer (a unit vector); none where the place itself is meant. */
+  readonly along: Vector | null;
+};
+
+/** A lumen that is pointed at. */
+export type PointedLumen = {
+  /** The place in it that is pointed at: on a ray the one that is nearest to its middle. */
+  readonly point: Vector;
+  /** Its middle. */
+  readonly center: Vector;
+  /** Its diameter (mm). */
+  readonly diameter: number;
+  /** The median of the values in its middle. */
+  readonly value: number;
+  /** The section across it, to the right. */
+  readonly right: Vector;
+  /** The section across it, downwards. */
+  readonly down: Vector;
 };
 
 /** The lumen of a vessel by its arc length. What was not measured is NaN, null in JSON. */
@@ -1046,15 +1100,23 @@ export type Questions = {
     readonly message: null;
     readonly answer: VesselDocument;
   };
-  /** What comes of an edit of vessels; one that adds a mask comes with the files of the mask, which a viewer reads first. */
+  /** What comes of an edit of vessels, and all that is shown after it; one that adds a mask comes with the files of the mask, which a viewer reads first. */
   readonly edit: {
     readonly message: EditRequest;
-    readonly answer: Edited;
+    readonly answer: AfterEdit;
   };
-  /** Refuses a place that no vessel can begin at: one outside of the scan, and one whose value alone shows that it is no lumen. */
-  readonly check_click: {
-    readonly message: Vector;
-    readonly answer: null;
+  /** What a first click of a vessel hit, and the whole vessel that it would add beside the vessels of a list. Refuses a place that no vessel can begin at: one outside of the scan, and one whose value alone shows that it is no lumen. */
+  readonly first_click: {
+    readonly message: {
+      readonly click: Vector;
+      readonly vessels: ReadonlyArray<DocumentVessel>;
+    };
+    readonly answer: FirstClick;
+  };
+  /** The lumens that are pointed at, the nearest first: those along a ray, or the one at a place. None is refused. */
+  readonly lumens: {
+    readonly message: PointedAt;
+    readonly answer: ReadonlyArray<PointedLumen>;
   };
   /** The way to the pointer, through the middles of voxels; null where none is found within 40 ms. Never refused for places without lumen. */
   readonly path: {
@@ -1265,7 +1327,8 @@ export const TURNS = {
   on_reformed: { when: 'later', words: null },
   begin_document: { when: 'first', words: null },
   edit: { when: 'first', words: 'Tracing' },
-  check_click: { when: 'first', words: null },
+  first_click: { when: 'first', words: null },
+  lumens: { when: 'first', words: null },
   path: { when: 'first', words: null },
   whole_vessel: { when: 'first', words: null },
   line: { when: 'first', words: null },

@@ -81,6 +81,13 @@ impl Probe<'_, '_> {
         })
     }
 
+    /// How far the walls on both sides of a place lie apart along a direction (mm), each at most `reach` away; none where one is not seen.
+    pub fn chord(&self, place: DVec3, direction: DVec3, reach: f64) -> Option<f64> {
+        let lumen = f64::from(self.voxels.at(place));
+        let side = |way| self.wall(place, way, lumen, self.step(None), reach).map(|(length, _)| length);
+        Some(side(direction)? + side(-direction)?)
+    }
+
     /// The distance of samples along a ray (mm).
     fn step(&self, guess: Option<f64>) -> f64 {
         let fine = 0.3 * self.voxels.smallest_side;

@@ -109,6 +109,15 @@ impl Surroundings {
         Ok(self.model_of(&hits, usual))
     }
 
+    /// The model of the lumen that one place lies in; none where [`Surroundings::model`] refuses it, found without looking for what
+    /// would mend that.
+    pub fn model_at(&self, voxels: &Voxels, place: DVec3) -> Option<LumenModel> {
+        let value = value_at(voxels, place);
+        let hit = self.hit(voxels, place, value);
+        let is_lumen = self.mistaken(value).is_none() && self.unlike(&hit, hit.lumen).is_none();
+        is_lumen.then(|| self.model_of(&[hit], hit.lumen))
+    }
+
     /// Refuses a click whose value alone shows that it lies in no lumen, whatever the others hit.
     ///
     /// # Errors

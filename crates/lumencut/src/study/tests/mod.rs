@@ -1,8 +1,10 @@
 //! What viewers rely on.
 
+mod after_edit;
 mod edits;
 mod finding;
 mod lines;
+mod lumens;
 mod masks;
 mod planes;
 mod pretty;

@@ -1,0 +1,74 @@
+//! The lumens that a pointer means: the one at a place, or those along the ray of a pixel, with the section across each.
+
+use glam::DVec3;
+use lumencut_vessels::trace::lumen::on_ray::lumens_on_ray;
+use lumencut_vessels::trace::lumen::seen::{SeenLumen, lumen_at};
+use serde::{Deserialize, Serialize};
+
+use crate::study::document::Place;
+use crate::study::failure::Result;
+use crate::study::held_volume::no_volume;
+use crate::study::open_study::Study;
+
+/// Where a pointer is: a place, or the ray through it.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS), ts(rename = "PointedAt"))]
+pub struct PointedMessage {
+    /// The place (LPS, mm).
+    pub point: Place,
+    /// The direction of the ray, away from the viewer (a unit vector); none where the place itself is meant.
+    pub along: Option<Place>,
+}
+
+/// A lumen that is pointed at.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub struct PointedLumen {
+    /// The place in it that is pointed at: on a ray the one that is nearest to its middle.
+    pub point: Place,
+    /// Its middle.
+    pub center: Place,
+    /// Its diameter (mm).
+    pub diameter: f64,
+    /// The median of the values in its middle.
+    pub value: f64,
+    /// The section across it, to the right.
+    pub right: Place,
+    /// The section across it, downwards.
+    pub down: Place,
+}
+
+impl Study {
+    /// The lumens that are pointed at: along a ray all of them, the nearest first, else the one that the place lies in.
+    ///
+    /// # Errors
+    /// `volume` where none is open.
+    pub fn lumens(&self, pointed: &PointedMessage) -> Result<Vec<PointedLumen>> {
+        let volume = self.content.held.as_ref().ok_or_else(no_volume)?.volume()?;
+        let point = DVec3::from_array(pointed.point);
+        let seen: Vec<(SeenLumen, DVec3)> = match pointed.along.map(DVec3::from_array) {
+            Some(along) => {
+                let met = lumens_on_ray(&volume, point, along);
+                met.into_iter().map(|one| (one, one.on_ray(point, along))).collect()
+            }
+            None => lumen_at(&volume, point).map(|one| (one, point)).into_iter().collect(),
+        };
+        Ok(seen.into_iter().map(|(one, place)| told(&one, place)).collect())
+    }
+}
+
+/// A lumen as it is shown: the front of the patient, or else the head, is up in the section across it.
+fn told(seen: &SeenLumen, place: DVec3) -> PointedLumen {
+    let upright = |to: DVec3| (-to).reject_from_normalized(seen.along);
+    let (front, head) = (upright(DVec3::NEG_Y), upright(DVec3::Z));
+    let down = if front.length() > 0.3 { front } else { head }.normalize();
+    let right = down.cross(seen.along);
+    PointedLumen {
+        point: place.to_array(),
+        center: seen.center.to_array(),
+        diameter: 2.0 * seen.radius,
+        value: seen.value,
+        right: right.to_array(),
+        down: down.to_array(),
+    }
+}

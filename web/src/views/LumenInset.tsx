@@ -1,0 +1,68 @@
+/** The section across the lumen under the pointer, beside it: what a click would take, with its diameter and its value. */
+import { useEffect, useRef } from 'preact/hooks';
+import { engine } from '../client/shared';
+import { Latest } from '../core/latest';
+import type { Pair, Plane, PointedLumen } from '../core/messages';
+import { pointed } from '../edit/lumens';
+import { isTracing } from '../edit/mode';
+import { hasMillimetres } from '../state/millimetres';
+import { isInverted, type ViewName, window_ } from '../state/store';
+
+/** The side of the picture, and how far it is from the pointer (CSS pixels). */
+const SIDE = 120;
+const AWAY = 18;
+/** How high it is with its words. */
+const HEIGHT = SIDE + 60;
+
+/** The picture is so many diameters wide, and no less than this (mm). */
+const DIAMETERS = 4;
+const LEAST = 16;
+
+export function LumenInset({ view, size }: { readonly view: ViewName; readonly size: Pair }) {
+  const now = pointed.value;
+  const lumen = now?.lumens[now.number];
+  if (!now || !lumen || now.view !== view || !isTracing()) {
+    return null;
+  }
+  const [x, y] = now.at;
+  const beside = (at: number, own: number, all: number) =>
+    at + AWAY + own > all ? at - AWAY - own : at + AWAY;
+  const style = { left: `${beside(x, SIDE, size[0])}px`, top: `${beside(y, HEIGHT, size[1])}px` };
+  const count = now.lumens.length;
+  return (
+    <div class="lumen-inset" style={style} data-testid="lumen-inset" role="status">
+      <Section lumen={lumen} />
+      <span>
+        lumen, {lumen.diameter.toFixed(1)}
+        {hasMillimetres.value && ' mm'}
+      </span>
+      <span>value {Math.round(lumen.value)}</span>
+      {count > 1 && (
+        <span>
+          {now.number + 1} of {count} · Alt+wheel
+        </span>
+      )}
+    </div>
+  );
+}
+
+function Section({ lumen }: { readonly lumen: PointedLumen }) {
+  const canvas = useRef<HTMLCanvasElement>(null);
+  const latest = useRef(new Latest());
+  const window = window_.value;
+  useEffect(() => {
+    const { center, right, down, diameter } = lumen;
+    const pixel_spacing = Math.max(DIAMETERS * diameter, LEAST) / SIDE;
+    const plane: Plane = { center, right, down, size: [SIDE, SIDE], pixel_spacing };
+    latest.current.run(async () => {
+      const picture = await engine.ask('slice', { plane, window }).catch(() => null);
+      const context = canvas.current?.getContext('2d');
+      if (picture && context) {
+        context.putImageData(new ImageData(picture.bytes, SIDE, SIDE), 0, 0);
+      }
+    });
+  }, [lumen, window]);
+  return (
+    <canvas ref={canvas} class={isInverted.value ? 'inverted' : ''} width={SIDE} height={SIDE} aria-hidden />
+  );
+}

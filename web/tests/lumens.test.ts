@@ -1,0 +1,70 @@
+/** The lumens under the pointer: the nearest one is meant first, and the wheel steps through them. */
+import { beforeEach, expect, test } from 'vitest';
+import type { Asked } from '../src/core/asked';
+import type { PointedAt, PointedLumen, Vector } from '../src/core/messages';
+import { lookForLumens, meant, pointed, stepLumen } from '../src/edit/lumens';
+import { actionOf } from '../src/input/bindings';
+import { ofCamera } from '../src/views/projection';
+import { CAMERA, expectNear } from './helpers';
+
+const lumen = (depth: number): PointedLumen => ({
+  point: [0, depth, 0],
+  center: [0, depth, 0.5],
+  diameter: 6,
+  value: 300,
+  right: [1, 0, 0],
+  down: [0, 0, -1],
+});
+const [NEAR, FAR] = [lumen(10), lumen(40)] as const;
+const ASKED: PointedAt = { point: [0, 0, 0], along: [0, 1, 0] };
+
+const engineOf = (lumens: readonly PointedLumen[] | null): Asked =>
+  ({ ask: () => (lumens ? Promise.resolve(lumens) : Promise.reject(new Error('no volume'))) }) as never;
+
+beforeEach(() => {
+  pointed.value = null;
+});
+
+test('the nearest lumen is meant, and steps go to those behind it and no farther', async () => {
+  const engine = engineOf([NEAR, FAR]);
+  expect(await lookForLumens(engine, ['turning', [3, 4]], ASKED)).toBe(NEAR);
+  expect(meant.value).toBe(NEAR);
+  expect([stepLumen(1), meant.value]).toEqual([true, FAR]);
+  expect([stepLumen(1), meant.value]).toEqual([true, FAR]);
+  expect([stepLumen(-3), meant.value]).toEqual([true, NEAR]);
+});
+
+test('the lumen that was stepped to stays meant while it is under the pointer, and then the nearest one is', async () => {
+  const engine = engineOf([NEAR, FAR]);
+  await lookForLumens(engine, ['turning', [3, 4]], ASKED);
+  stepLumen(1);
+  const further: PointedLumen = { ...FAR, center: [2, 40, 0.5] };
+  expect(await lookForLumens(engineOf([NEAR, further]), ['turning', [4, 4]], ASKED)).toBe(further);
+  const other: PointedLumen = { ...FAR, center: [9, 40, 0.5] };
+  expect(await lookForLumens(engineOf([NEAR, other]), ['turning', [9, 9]], ASKED)).toBe(NEAR);
+});
+
+test('where there is no lumen, or nothing is open, none is meant and nothing is stepped through', async () => {
+  for (const engine of [engineOf([]), engineOf(null)]) {
+    expect(await lookForLumens(engine, ['axial', [0, 0]], { ...ASKED, along: null })).toBeNull();
+    expect([meant.value, stepLumen(1)]).toEqual([null, false]);
+  }
+  await lookForLumens(engineOf([NEAR]), ['axial', [0, 0]], ASKED);
+  expect(stepLumen(1)).toBe(false);
+});
+
+test('while tracing, the wheel with Alt steps, and the wheel alone does what it did', () => {
+  expect(actionOf('tracing', 'wheel', null, 'Alt')).toBe('step');
+  expect(actionOf('tracing', 'wheel', null, '')).toBeNull();
+});
+
+test('the ray of a pixel runs along the camera through every place that is seen at it', () => {
+  const volume = { size: [1, 1, 1], world_from_index: [], corners: [], smallest_side: 1, scan: '' } as const;
+  const projection = ofCamera(CAMERA, volume);
+  const from = projection.at([120, 80], [0, 0, 0]);
+  const along = projection.along as Vector;
+  for (const depth of [0, 25]) {
+    const place = from.map((part, axis) => part + depth * (along[axis] ?? 0)) as unknown as Vector;
+    expectNear(projection.pixel(place), [120, 80]);
+  }
+});

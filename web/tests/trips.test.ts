@@ -1,0 +1,109 @@
+/** How often a click of the tracing tool asks the worker: once, whatever it shows. */
+import { afterEach, beforeEach, expect, test, vi } from 'vitest';
+import type { Vector } from '../src/core/messages';
+import { answered, dropEdits } from '../src/edit/committing';
+import { followPointer } from '../src/edit/drawing';
+import { contents, followLines, forgetLines } from '../src/edit/lines';
+import { isListOpen } from '../src/edit/list-open';
+import { endVessel, setPoint } from '../src/edit/pointing';
+import { beginStudy, followDocument, pickedId, tree } from '../src/edit/shown';
+import { factsOf, followFacts } from '../src/edit/tidying';
+import { hide } from '../src/edit/vessels';
+import { takeWhole } from '../src/edit/whole';
+import { followWhole } from '../src/edit/whole-shown';
+import { document_, undo } from '../src/state/history';
+import * as store from '../src/state/store';
+import { tool } from '../src/state/tool';
+import { documentOf, FakeTracing, reportOf } from './fake-tracing';
+
+// The page's own engine runs in a worker, which there is none of here.
+vi.mock('../src/client/shared', () => ({ engine: {} }));
+
+const [A, B, C]: Vector[] = [
+  [0, 0, 0],
+  [10, 0, 0],
+  [20, 5, 0],
+];
+
+let tracing: FakeTracing;
+let ends: (() => void)[];
+const idle = () => new Promise((resolve) => setTimeout(resolve, 5));
+
+/** What was asked since it was looked at last, when all is done. */
+async function trips(): Promise<readonly string[]> {
+  await idle();
+  return tracing.trips.splice(0);
+}
+
+beforeEach(() => {
+  tracing = new FakeTracing();
+  forgetLines();
+  store.report.value = reportOf([]);
+  store.pickedVessel.value = null;
+  beginStudy(documentOf());
+  isListOpen.value = true;
+  tool.value = 'trace';
+  endVessel();
+  const followers = [followDocument, followLines, followFacts, followPointer, followWhole];
+  ends = followers.map((follow) => follow(tracing));
+});
+
+afterEach(() => {
+  for (const end of ends) {
+    end();
+  }
+  isListOpen.value = false;
+  tool.value = 'look';
+  store.report.value = null;
+  beginStudy(null);
+});
+
+test('each click of a vessel is one trip, and its answer is all that the page shows', async () => {
+  expect((await setPoint(tracing, A as Vector))?.value).toBe(300);
+  expect(await trips()).toEqual(['first_click']);
+  for (const point of [B, C] as Vector[]) {
+    await setPoint(tracing, point);
+    expect(await trips()).toEqual(['edit']);
+    const [vessel] = document_.value.vessels;
+    expect(tree.value).toEqual(document_.value.vessels);
+    expect(contents.value.get(vessel?.line ?? -1)?.points.at(-1)).toEqual(point);
+    expect(vessel && factsOf(vessel)?.length).toBe(10);
+    expect(store.report.value?.vessels).toHaveLength(1);
+    expect(pickedId()).toBe(vessel?.id);
+  }
+});
+
+test('the whole vessel of a first click comes with what was hit, and is picked once it is taken', async () => {
+  await setPoint(tracing, A as Vector);
+  takeWhole(tracing);
+  expect(await trips()).toEqual(['first_click', 'edit']);
+});
+
+test('undo, and what the page changes itself, is shown as before', async () => {
+  await setPoint(tracing, A as Vector);
+  await setPoint(tracing, B as Vector);
+  await trips();
+  await hide(document_.value.vessels[0]?.id ?? -1, true);
+  expect(await trips()).toEqual(['show']);
+  undo();
+  expect(await trips()).toEqual(['show']);
+  undo();
+  expect(await trips()).toEqual(['show']);
+  expect(tree.value).toEqual([]);
+});
+
+test('after an edit that was dropped while the engine made it, the document is shown again', async () => {
+  await setPoint(tracing, A as Vector);
+  let open = () => {};
+  tracing.gate = new Promise((resolve) => {
+    open = resolve;
+  });
+  const setting = setPoint(tracing, B as Vector);
+  await idle();
+  dropEdits();
+  open();
+  await setting;
+  expect(await trips()).toEqual(['first_click', 'edit', 'show', 'whole_vessel']);
+  expect(answered.value?.edited.document.vessels).toHaveLength(1);
+  expect([document_.value.vessels, tree.value]).toEqual([[], []]);
+});
