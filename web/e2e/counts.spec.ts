@@ -42,7 +42,7 @@ test('from a scan without vessels to a clean tree and a saved finding in at most
   // Measuring: a branch of the tree is picked, and a place and a reference are marked on it.
   await rows(viewer).nth(1).getByRole('radio').click();
   await viewer.press('m');
-  await expect(button(viewer, 'Narrowest here')).toBeVisible({ timeout: 120_000 });
+  await expect(button(viewer, 'Narrowest here')).toBeVisible({ timeout: 300_000 });
   await button(viewer, 'Narrowest here').click();
   const chart = await viewer.page.getByTestId('chart').boundingBox();
   await viewer.page.mouse.click(
