@@ -80,11 +80,10 @@ impl Study {
         let Some(held) = &self.content.held else { return Ok(Vec::new()) };
         let volume = held.volume()?;
         let voxels = &Voxels::new(&volume);
-        if let Some([from, .., to]) = clicks {
-            if runs_across(voxels, [from, to].map(|click| DVec3::from_array(*click))) {
-                let words = "The way runs across the lumen, not along it: click in another slice.".to_owned();
-                return Ok(vec![DoubtfulPlace { words, at: None }]);
-            }
+        let ends = clicks.and_then(|clicks| Some([*clicks.first()?, *clicks.last()?].map(DVec3::from_array)));
+        if ends.is_some_and(|ends| runs_across(voxels, ends)) {
+            let words = "The way runs across the lumen, not along it: click in another slice.".to_owned();
+            return Ok(vec![DoubtfulPlace { words, at: None }]);
         }
         let lengths = arc_lengths(&line.points);
         let change = level_change(voxels, line).map(|n| {
