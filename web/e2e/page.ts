@@ -79,7 +79,7 @@ export class Viewer {
   }
 
   /** Waits for two frames: what a change asks for is known only after the next one. */
-  private async frames(): Promise<void> {
+  async frames(): Promise<void> {
     await this.page.evaluate(
       () =>
         new Promise((resolve) =>

@@ -107,16 +107,19 @@ test.describe('touch', () => {
   });
 });
 
+/** What axe finds that is serious. */
+async function seriousFaults({ page }: Viewer): Promise<readonly string[]> {
+  const { violations } = await new AxeBuilder({ page }).analyze();
+  return violations
+    .filter(({ impact }) => impact === 'serious' || impact === 'critical')
+    .map(({ id, nodes }) => `${id}: ${nodes.map(({ target }) => target.join(' ')).join(', ')}`);
+}
+
 for (const colorScheme of ['dark', 'light'] as const) {
   test(`axe finds no serious fault in the ${colorScheme} theme`, async ({ browser }) => {
     const viewer = await Viewer.open(browser, '?device=cpu', { colorScheme });
     const { page } = viewer;
-    const serious = async () => {
-      const { violations } = await new AxeBuilder({ page }).analyze();
-      return violations
-        .filter(({ impact }) => impact === 'serious' || impact === 'critical')
-        .map(({ id, nodes }) => `${id}: ${nodes.map(({ target }) => target.join(' ')).join(', ')}`);
-    };
+    const serious = () => seriousFaults(viewer);
     await expect(page.getByRole('button', { name: 'Aorta' })).toBeEnabled();
     await viewer.screenshot(`start-${colorScheme}`);
     expect(await serious()).toEqual([]);
@@ -174,3 +177,39 @@ test('the bar is one row in windows of the usual sizes', async ({ browser }) => 
   viewer.expectNoFault();
   await viewer.close();
 });
+
+/** Windows of the usual sizes: a tablet that is touched, three screens, and one at 200 % zoom. */
+const USUAL = [
+  { viewport: { width: 1024, height: 768 }, hasTouch: true },
+  { viewport: { width: 1280, height: 720 } },
+  { viewport: { width: 1440, height: 900 } },
+  { viewport: { width: 1920, height: 1080 } },
+  { viewport: { width: 720, height: 450 }, deviceScaleFactor: 2 },
+] as const;
+
+for (const options of USUAL) {
+  const { width, height } = options.viewport;
+  for (const colorScheme of ['dark', 'light'] as const) {
+    test(`axe finds no serious fault in any mode at ${width} × ${height} in the ${colorScheme} theme`, async ({
+      browser,
+    }) => {
+      test.setTimeout(120_000);
+      const viewer = await Viewer.open(browser, '?phantom=stenosis&device=cpu', { ...options, colorScheme });
+      await viewer.rest();
+      // Each key takes up a mode; tracing is laid down before the next one.
+      for (const [mode, key] of [
+        ['look', 'v'],
+        ['trace', 't'],
+        ['measure', 'm'],
+        ['report', 'e'],
+      ] as const) {
+        await viewer.press(key);
+        await viewer.frames();
+        await viewer.screenshot(`${mode}-${width}-${colorScheme}`);
+        expect(await seriousFaults(viewer), mode).toEqual([]);
+      }
+      viewer.expectNoFault();
+      await viewer.close();
+    });
+  }
+}
