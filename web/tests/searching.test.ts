@@ -85,14 +85,25 @@ test('of the vessels that were found first the widest is picked and seen best; l
   const asked: unknown[] = [];
   const found = Object.assign(tracing, {
     edit: async () => ({
-      document: withLines({ ...document_.value }, 20, 21, 22),
-      words: 'find',
-      added: [1, 2, 3],
-      without_marks: [],
-      notes: [],
+      edited: {
+        document: withLines({ ...document_.value }, 20, 21, 22),
+        words: 'find',
+        added: [1, 2, 3],
+        without_marks: [],
+        notes: [],
+        told: null,
+      },
+      report: null,
+      lines: [],
+      facts: [20, 21, 22].map((line, n) => ({
+        line,
+        length: 100 - n,
+        calibre: [3, 24, 7][n],
+        part: 0,
+        parent: null,
+      })),
+      pick: null,
     }),
-    line_facts: async ({ lines }: { lines: readonly number[] }) =>
-      lines.map((line, n) => ({ line, length: 100 - n, calibre: [3, 24, 7][n], part: 0, parent: null })),
     best_view: async (message: { line: number }) => {
       asked.push(message.line);
       return best;

@@ -5,7 +5,7 @@ import { flyToAnswer } from '../state/flight';
 import { document_ } from '../state/history';
 import { camera, notes } from '../state/store';
 import { tellFailure } from '../state/telling';
-import { commit, isDone } from './committing';
+import { answered, commit, isDone } from './committing';
 import { openList } from './list-open';
 import { maskOf, namedBySegment } from './segmentation';
 import { pickOnceShown } from './shown';
@@ -40,8 +40,7 @@ const sure = () => document_.value.vessels.filter((vessel) => vessel.doubt === n
 /** Picks the widest vessel, and turns the view to where most of it is seen. */
 async function showMain(engine: Asked): Promise<void> {
   try {
-    const facts = await engine.ask('line_facts', { lines: sure().map((vessel) => vessel.line) });
-    const main = widest(facts);
+    const main = widest(answered.value?.facts ?? []);
     const vessel = sure().find(({ line }) => line === main?.line);
     if (vessel && camera.value) {
       pickOnceShown(vessel.id);
