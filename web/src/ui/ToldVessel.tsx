@@ -1,5 +1,7 @@
 /** What is told of the vessel that was traced last: its length, what it joins, and where it is doubtful, to look at and to cut. */
+import { useSignal } from '@preact/signals';
 import { engine } from '../client/shared';
+import type { Told } from '../core/messages';
 import { tree } from '../edit/shown';
 import { told } from '../edit/telling';
 import { cut } from '../edit/vessels';
@@ -7,28 +9,38 @@ import { moveTo } from '../link/along';
 import { pickedVessel } from '../state/store';
 
 export function ToldVessel() {
-  if (!told.value) {
-    return null;
-  }
-  const { vessel, words, doubts } = told.value;
+  return told.value && <ToldOf key={told.value.words} told={told.value} />;
+}
+
+/** One doubt at a time: the bar has two lines. */
+function ToldOf({ told: { vessel, words, doubts } }: { readonly told: Told }) {
+  const number = useSignal(0);
+  const doubt = doubts[number.value];
+  const at = doubt?.at ?? null;
   return (
     <>
-      <span>{words}</span>
-      {doubts.map(({ words, at }) => (
+      <span>{doubt ? `${words} ${doubt.words}` : words}</span>
+      {at !== null && (
         <>
-          <span>{words}</span>
-          {at !== null && (
-            <>
-              <button type="button" onClick={() => goTo(vessel, at)}>
-                Go there
-              </button>
-              <button type="button" onClick={() => void cut(engine, vessel, at)}>
-                Cut there
-              </button>
-            </>
-          )}
+          <button type="button" onClick={() => goTo(vessel, at)}>
+            Go there
+          </button>
+          <button type="button" onClick={() => void cut(engine, vessel, at)}>
+            Cut there
+          </button>
         </>
-      ))}
+      )}
+      {doubts.length > 1 && (
+        <button
+          type="button"
+          title="What else is doubtful of this vessel"
+          onClick={() => {
+            number.value = (number.value + 1) % doubts.length;
+          }}
+        >
+          Next doubt ({number.value + 1} of {doubts.length})
+        </button>
+      )}
     </>
   );
 }
