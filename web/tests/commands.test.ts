@@ -173,9 +173,9 @@ describe('whole vessels', () => {
   test('are renamed, coloured, hidden and deleted', async () => {
     const id = await begun();
     await rename(id, 'SMA');
-    await recolor(id, '#56b4e9');
+    await recolor(id, '#cc79a7');
     await hide(id, true);
-    expect(document_.value.vessels).toMatchObject([{ name: 'SMA', color: '#56b4e9', isHidden: true }]);
+    expect(document_.value.vessels).toMatchObject([{ name: 'SMA', color: '#cc79a7', isHidden: true }]);
     await remove(tracing, [id]);
     expect(document_.value.vessels).toEqual([]);
   });
@@ -190,7 +190,7 @@ describe('whole vessels', () => {
   test('get their fields at once, without the engine', async () => {
     const id = await begun();
     const asked = tracing.edits.length;
-    await Promise.all([rename(id, 'SMA'), recolor(id, '#56b4e9'), hide(id, true)]);
+    await Promise.all([rename(id, 'SMA'), recolor(id, '#cc79a7'), hide(id, true)]);
     expect(tracing.edits).toHaveLength(asked);
     expect(undoWords.value).toBe('hide a vessel');
   });

@@ -1,15 +1,19 @@
-/** The colours of vessels: those of Okabe and Ito that stand out on a dark picture, told apart also by the colour-blind. */
+/** The colours of vessels: those of Okabe and Ito that stand out on a dark picture come first. None is yellow, orange or red, which warn. */
 import type { DocumentVessel } from '../core/messages';
 
 export const PALETTE: readonly (readonly [color: string, words: string])[] = [
-  ['#f0e442', 'yellow'],
   ['#56b4e9', 'sky blue'],
   ['#cc79a7', 'pink'],
   ['#00b98a', 'green'],
+  ['#b18cff', 'violet'],
+  ['#8fdc6a', 'light green'],
+  ['#ffa6dc', 'rose'],
+  ['#3f6fe0', 'blue'],
+  ['#8ff0e8', 'turquoise'],
+  ['#c44df0', 'purple'],
+  ['#2f8f9f', 'teal'],
+  ['#9aa8b6', 'grey'],
   ['#ffffff', 'white'],
-  ['#d5763f', 'copper'],
-  ['#5b8ff9', 'blue'],
-  ['#b8b06a', 'olive'],
 ];
 
 /** Of branches that were not accepted yet; no vessel has it. */

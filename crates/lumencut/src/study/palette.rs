@@ -1,8 +1,10 @@
-//! The colours of vessels: those of Okabe and Ito that stand out on a dark picture, told apart also by the colour-blind.
+//! The colours of vessels: those of Okabe and Ito that stand out on a dark picture come first. None is yellow, orange or red, which warn.
 
 /// The colours that vessels get, in this order. Hosts name them in their own words.
-pub const PALETTE: [&str; 8] =
-    ["#f0e442", "#56b4e9", "#cc79a7", "#00b98a", "#ffffff", "#d5763f", "#5b8ff9", "#b8b06a"];
+pub const PALETTE: [&str; 12] = [
+    "#56b4e9", "#cc79a7", "#00b98a", "#b18cff", "#8fdc6a", "#ffa6dc", "#3f6fe0", "#8ff0e8", "#c44df0",
+    "#2f8f9f", "#9aa8b6", "#ffffff",
+];
 
 /// The colour of the palette that the fewest vessels have, the first of several such.
 pub fn next_color(taken: &[&str]) -> &'static str {
@@ -28,5 +30,24 @@ mod tests {
     fn a_color_that_no_vessel_has_any_longer_is_free_again() {
         assert_eq!(next_color(&[PALETTE[0], PALETTE[2]]), PALETTE[1]);
         assert_eq!(next_color(&["#123456"]), PALETTE[0]);
+    }
+
+    /// Red, green and blue (0 to 1).
+    fn rgb(color: &str) -> [f64; 3] {
+        [1, 3, 5].map(|n| f64::from(u8::from_str_radix(&color[n..n + 2], 16).expect("hexadecimal")) / 255.0)
+    }
+
+    #[test]
+    fn no_color_is_one_that_warns_and_all_are_told_apart() {
+        for (n, color) in PALETTE.iter().enumerate() {
+            let [red, green, blue] = rgb(color);
+            // Yellow, orange and red have little blue beside much red.
+            assert!(blue > 0.6 * red, "{color}");
+            for other in &PALETTE[..n] {
+                let apart: f64 =
+                    rgb(other).iter().zip([red, green, blue]).map(|(a, b)| (a - b).powi(2)).sum();
+                assert!(apart.sqrt() > 0.25, "{color} and {other}");
+            }
+        }
     }
 }

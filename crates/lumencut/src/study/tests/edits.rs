@@ -93,7 +93,7 @@ fn two_clicks_begin_a_vessel_with_a_line_a_name_and_a_color() {
     assert_eq!((begun.words.as_str(), &begun.added), ("begin a vessel", &vec![1]));
     assert!(begun.without_marks.is_empty() && begun.notes.is_empty());
     let vessel = &begun.document.vessels[0];
-    assert_eq!((vessel.name.as_str(), vessel.color.as_str()), ("Vessel 1", "#f0e442"));
+    assert_eq!((vessel.name.as_str(), vessel.color.as_str()), ("Vessel 1", "#56b4e9"));
     assert_eq!(vessel.clicks, Some(vec![from, to]));
     let traced = points(&study, vessel.line);
     assert!(traced[0].distance(DVec3::from_array(from)) < 2.0 && traced.len() > 20);
@@ -258,7 +258,7 @@ fn both_parts_of_a_vessel_that_is_cut_take_its_place_without_marks() {
     assert_eq!(called(&cut.document), ["a", "vessel 2", "vessel 2 part 1", "c"]);
     assert_eq!(ids(&cut.document), [1, 2, 4, 3]);
     let [first, second] = [1, 2].map(|n| &cut.document.vessels[n]);
-    assert_eq!((first.color.as_str(), second.color.as_str()), ("#123456", "#56b4e9"));
+    assert_eq!((first.color.as_str(), second.color.as_str()), ("#123456", "#cc79a7"));
     let [first, second] = [first, second].map(|vessel| points(&study, vessel.line));
     assert_eq!(first.last(), second.first());
     let again = after(&mut study, &cut.document, &json!({"kind": "cut", "id": 2, "at": 2.0}));
