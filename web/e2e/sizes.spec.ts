@@ -70,6 +70,17 @@ test.describe('touch', () => {
       touchPoints: points.map(([x, y], id) => ({ x, y, id })),
     });
 
+  test('a tablet has the toolbar in one row', async ({ browser }) => {
+    const viewer = await Viewer.open(browser, '?phantom=y_junction&device=cpu', {
+      hasTouch: true,
+      viewport: { width: 1024, height: 768 },
+    });
+    await viewer.rest();
+    expect((await viewer.page.locator('header.toolbar').boundingBox())?.height).toBeLessThan(60);
+    await expect(viewer.page.getByRole('button', { name: 'Close the scan' })).toBeInViewport({ ratio: 1 });
+    await viewer.close();
+  });
+
   test('one finger rotates, two pinch', async ({ browser }) => {
     const viewer = await Viewer.open(browser, '?phantom=y_junction&device=cpu', {
       hasTouch: true,
