@@ -6,7 +6,7 @@ import { length, subtract } from '../core/vectors';
 import type { ViewName } from '../state/store';
 
 /** Where the pointer is, and which lumens are there. */
-interface Pointed {
+interface UnderPointer {
   readonly view: ViewName;
   readonly at: Pair;
   readonly lumens: readonly PointedLumen[];
@@ -14,7 +14,7 @@ interface Pointed {
   readonly number: number;
 }
 
-export const pointed = signal<Pointed | null>(null);
+export const pointed = signal<UnderPointer | null>(null);
 
 /** The lumen that a click takes. */
 export const meant = computed<PointedLumen | null>(() => pointed.value?.lumens[pointed.value.number] ?? null);
