@@ -135,7 +135,7 @@ export async function tabTo(viewer: Viewer, words: string | RegExp, back = false
 /** The tracing is done, and the tree of it is shown. */
 export async function traced(viewer: Viewer, count: number): Promise<void> {
   await expect(rows(viewer)).toHaveCount(count, { timeout: 30_000 });
-  await expect(viewer.page.locator('.trace-bar span')).not.toHaveText('Tracing …');
+  await expect(viewer.page.locator('.trace-bar').getByText('Tracing …')).toHaveCount(0);
   const last = rows(viewer).nth(count - 1);
   await expect(last.getByRole('radio')).toBeChecked();
   await expect(last.locator('.length')).not.toHaveText('0.0 mm');
