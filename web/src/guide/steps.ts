@@ -121,7 +121,8 @@ export function followGuide(): void {
     return effect(() => {
       if (store.report.value === null) {
         leaveGuide();
-      } else if (STEPS[step]?.isDone()) {
+      } else if (guideStep.peek() === step && STEPS[step]?.isDone()) {
+        // Where several things change at once this is asked again before the next step takes its place.
         nextStep();
       }
     });
