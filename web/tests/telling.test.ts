@@ -8,7 +8,7 @@ const VESSEL: DocumentVessel = {
   id: 3,
   line: 7,
   name: 'Vessel 1',
-  color: '#f0e442',
+  color: '#56b4e9',
   isHidden: false,
   clicks: null,
   doubt: null,

@@ -56,7 +56,7 @@ test('what is shown can be cut, joined and shown again', async () => {
   const { engine } = await opened('stenosis');
   const whole = await engine.ask('begin_document', null);
   expect(whole.vessels).toMatchObject([
-    { id: 1, color: '#f0e442', isHidden: false, clicks: null, doubt: null },
+    { id: 1, color: '#56b4e9', isHidden: false, clicks: null, doubt: null },
   ]);
   const cut = await edited(engine, { kind: 'cut', id: 1, at: 20 }, whole);
   expect([cut.words, cut.added, cut.without_marks]).toEqual(['cut a vessel', [2], [1]]);
