@@ -1,10 +1,9 @@
 /** A vessel of the list; the one that is picked shows what can be done with it. */
-import { batch } from '@preact/signals';
 import { useEffect, useRef, useState } from 'preact/hooks';
 import { engine } from '../client/shared';
 import type { DocumentVessel } from '../core/messages';
 import { lengthOf } from '../edit/lines';
-import { pickedId, tree } from '../edit/shown';
+import { pickedId, pickOnceShown, tree } from '../edit/shown';
 import { factsOf, marked, sure } from '../edit/tidying';
 import { isTreeShown } from '../edit/vessel-order';
 import { cut, hide, join, recolor, remove, rename } from '../edit/vessels';
@@ -14,7 +13,7 @@ import { recover } from '../state/device';
 import { document_ } from '../state/history';
 import { hasMillimetres } from '../state/millimetres';
 import { PALETTE } from '../state/palette';
-import { pickedPlace, pickedVessel, report } from '../state/store';
+import { pickedPlace, report } from '../state/store';
 import { lit } from '../state/tidy';
 import { active, tool } from '../state/tool';
 import { BestViewButton } from './BestViewButton';
@@ -223,14 +222,14 @@ function Means({ vessel }: RowProps) {
   );
 }
 
-/** Shows a vessel in all views, at half its length. */
+/** Shows a vessel in all views, at half its length; one that was hidden until now as soon as the engine shows it. */
 async function pick({ id }: DocumentVessel): Promise<void> {
+  pickOnceShown(id);
   const vessel = tree.value.findIndex((one) => one.id === id);
+  if (vessel < 0) {
+    return;
+  }
   const length = report.value?.vessels?.[vessel]?.length ?? 0;
-  batch(() => {
-    pickedVessel.value = vessel;
-    pickedPlace.value = length / 2;
-  });
   try {
     const [point] = await engine.ask('across', { vessel, at: length / 2 });
     const { value } = await engine.ask('at', point);
