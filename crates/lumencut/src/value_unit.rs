@@ -3,12 +3,10 @@
 use lumencut_core::math::statistics::quantile;
 use lumencut_core::settings::Window;
 use lumencut_core::volume::Volume;
+use lumencut_vessels::trace::lumen::surroundings::are_hounsfield;
+use lumencut_vessels::voxels::Voxels;
 
 use crate::populations::Looked;
-
-/// Fat and air are negative in Hounsfield units: at least this share of the voxels lies below the limit (HU).
-const DARK_SHARE: f64 = 0.01;
-const DARK: f64 = -50.0;
 
 /// Which part of the voxels is darker than metal: a stent fills little of a scan.
 const BELOW_METAL: f64 = 0.9999;
@@ -30,12 +28,11 @@ impl ValueUnit {
     pub fn of(volume: &Volume, lumen: Window) -> Self {
         let mut voxels = Looked::at(volume).voxels;
         voxels.sort_unstable_by(f64::total_cmp);
-        let dark = voxels.partition_point(|value| *value < DARK);
         let darkest = voxels.first().copied().unwrap_or_default();
         let brightest = quantile(&mut voxels, BELOW_METAL).unwrap_or(darkest);
         let white = lumen.level + lumen.width / 2.0 - darkest;
         Self {
-            is_hounsfield: dark > 0 && dark as f64 >= DARK_SHARE * voxels.len() as f64,
+            is_hounsfield: are_hounsfield(&Voxels::new(volume)),
             has_metal: white > 0.0 && brightest - darkest >= METAL * white,
         }
     }

@@ -87,7 +87,10 @@ export function followDocument(engine: Asked): () => void {
     if (textOf(document.vessels) !== shownText) {
       void show(engine);
     } else if (answer && answer !== heard) {
-      untracked(() => void takeUp(engine, answer.report, document));
+      untracked(() => {
+        const study = store.report.value?.volume;
+        takeUp(engine, answer.report, document).catch((error) => tellOf(study, error));
+      });
     }
     heard = answer;
   });
@@ -101,6 +104,13 @@ async function takeUp(engine: Asked, report: Report, document: Document): Promis
   });
   if (isLeft) {
     await goOn(engine);
+  }
+}
+
+/** Tells what went wrong, unless it was asked of a study that is closed meanwhile. */
+function tellOf(study: Report['volume'] | undefined, error: unknown): void {
+  if (study === store.report.value?.volume) {
+    store.problem.value = Failure.of(error);
   }
 }
 
@@ -131,10 +141,7 @@ async function showLatest(engine: Asked): Promise<void> {
       study = store.report.value?.volume;
     }
   } catch (error) {
-    // What was asked of a study that is closed meanwhile is not told.
-    if (study === store.report.value?.volume) {
-      store.problem.value = Failure.of(error);
-    }
+    tellOf(study, error);
   } finally {
     // Here and not later: no change comes between the last look at the document and this.
     showing = null;

@@ -3,6 +3,7 @@
 pub mod across;
 pub mod calm;
 pub mod cross_section;
+pub mod directions;
 pub mod level_change;
 pub mod lumen_model;
 pub mod on_ray;

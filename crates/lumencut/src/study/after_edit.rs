@@ -80,13 +80,12 @@ impl Study {
 
 /// The vessels of a document as they are shown: without those that are doubtful.
 fn listed(document: &Document) -> Vec<ListedLine> {
-    let sure = |vessel: &&DocumentVessel| vessel.doubt.is_none();
     let of = |vessel: &DocumentVessel| ListedLine {
         line: vessel.line,
         name: vessel.name.clone(),
         hidden: vessel.is_hidden,
     };
-    document.vessels.iter().filter(sure).map(of).collect()
+    document.vessels.iter().filter(|vessel| vessel.is_sure()).map(of).collect()
 }
 
 /// Where an edit is made: the click that it sets or moves, its seed or its stopper.

@@ -69,8 +69,9 @@ impl Tracer {
     ) -> Result<Vec<Traced>> {
         let voxels = &Voxels::new(volume);
         check(voxels, clicks)?;
-        let clicks = &self.snapped(voxels, clicks);
-        self.prepare(voxels, clicks)?;
+        let surroundings = self.surroundings_of(voxels, &all_of(clicks));
+        let clicks = &snapped(voxels, surroundings, clicks);
+        self.prepare(voxels, surroundings, clicks)?;
         let search = Search { voxels, clicks, stop, progress };
         if let Some(progress) = progress {
             progress.expect_views(clicks.vessels.iter().map(|points| points.len() - 1).sum());
@@ -111,25 +112,19 @@ impl Tracer {
     pub fn check_click(&self, volume: &Volume, click: DVec3) -> Result<()> {
         let voxels = &Voxels::new(volume);
         check_place(voxels, click, || (format!("point {}", in_words(click)), Clicked::Single))?;
-        let surroundings = self.surroundings.unwrap_or_else(|| Surroundings::of(voxels, &[click]));
+        let surroundings = self.surroundings_of(voxels, &[click]);
         let taken = surroundings.snapped(voxels, &[click]);
         surroundings.check_alone(voxels, taken[0])
     }
 
-    /// The clicks, those beside lumen moved into it.
-    fn snapped(&self, voxels: &Voxels, clicks: &Clicks) -> Clicks {
-        let all: Vec<DVec3> = clicks.vessels.iter().flatten().copied().collect();
-        let surroundings = self.surroundings.unwrap_or_else(|| Surroundings::of(voxels, &all));
-        let mut places = surroundings.snapped(voxels, &all).into_iter();
-        let vessels = clicks.vessels.iter().map(|points| places.by_ref().take(points.len()).collect());
-        Clicks { vessels: vessels.collect(), ..clicks.clone() }
+    /// What surrounds the clicks: what was known of them before, where there were some.
+    fn surroundings_of(&self, voxels: &Voxels, clicks: &[DVec3]) -> Surroundings {
+        self.surroundings.unwrap_or_else(|| Surroundings::of(voxels, clicks))
     }
 
     /// Makes the model of the lumen fit the clicks; what was kept under another model is forgotten.
-    fn prepare(&mut self, voxels: &Voxels, clicks: &Clicks) -> Result<()> {
-        let all: Vec<DVec3> = clicks.vessels.iter().flatten().copied().collect();
-        let surroundings = self.surroundings.unwrap_or_else(|| Surroundings::of(voxels, &all));
-        let model = surroundings.model(voxels, &all)?;
+    fn prepare(&mut self, voxels: &Voxels, surroundings: Surroundings, clicks: &Clicks) -> Result<()> {
+        let model = surroundings.model(voxels, &all_of(clicks))?;
         // Those of clicks that were refused would mislead the next ones.
         self.surroundings = Some(surroundings);
         let fits = |region: &Region| region.model.covers(&model);
@@ -274,4 +269,16 @@ const PARTS: usize = 1000;
 fn refusal(between: [DVec3; 2], way: &Way, model: &LumenModel) -> Error {
     let longest = way.gaps.iter().max_by(|a, b| a.length.total_cmp(&b.length));
     longest.map_or_else(|| no_way(between, model), |gap| no_lumen(between, gap, model))
+}
+
+/// The points of all vessels.
+fn all_of(clicks: &Clicks) -> Vec<DVec3> {
+    clicks.vessels.iter().flatten().copied().collect()
+}
+
+/// The clicks, those beside lumen moved into it.
+fn snapped(voxels: &Voxels, surroundings: Surroundings, clicks: &Clicks) -> Clicks {
+    let mut places = surroundings.snapped(voxels, &all_of(clicks)).into_iter();
+    let vessels = clicks.vessels.iter().map(|points| places.by_ref().take(points.len()).collect());
+    Clicks { vessels: vessels.collect(), ..clicks.clone() }
 }

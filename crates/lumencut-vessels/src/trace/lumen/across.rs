@@ -2,7 +2,8 @@
 
 use glam::DVec3;
 
-use crate::trace::lumen::own_axis::{DIRECTIONS, OwnLumen, direction};
+use crate::trace::lumen::directions::half_sphere;
+use crate::trace::lumen::own_axis::{DIRECTIONS, OwnLumen};
 use crate::voxels::Voxels;
 
 /// A way runs across where the lumen reaches at most this many times its width along it, and less than this part of its length.
@@ -21,7 +22,7 @@ pub fn runs_across(voxels: &Voxels, [from, to]: [DVec3; 2]) -> bool {
     if along < from.distance(to) {
         return false;
     }
-    let extents = (0..DIRECTIONS).map(|n| lumen.extent(direction(n), REACH_WIDTHS * along));
+    let extents = half_sphere(DIRECTIONS).map(|way| lumen.extent(way, REACH_WIDTHS * along));
     let (width, length) =
         extents.fold((f64::MAX, 0.0), |(least, most), extent| (extent.min(least), extent.max(most)));
     along <= MOST_WIDTHS * width && along < LEAST_SHARE * length

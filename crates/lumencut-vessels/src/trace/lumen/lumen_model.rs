@@ -73,6 +73,15 @@ pub fn quantile(sorted: &[f32], share: f64) -> f64 {
     sorted.get((last * share).round() as usize).map_or(f64::NAN, |value| f64::from(*value))
 }
 
+/// The noise of values beside each other, as neighbours differ where they differ little: most are not at the edge of a vessel.
+pub fn noise_of(neighbours: &[f32]) -> f64 {
+    let mut steps: Vec<f32> = neighbours.windows(2).map(|pair| (pair[1] - pair[0]).abs()).collect();
+    steps.retain(|step| step.is_finite());
+    steps.sort_unstable_by(f32::total_cmp);
+    // A quarter of the differences of two normal deviates is below this part of the standard deviation of one.
+    if steps.is_empty() { 0.0 } else { quantile(&steps, 0.25) / 0.451 }
+}
+
 /// The tissue around the lumen: bright for what is not lumen. Its values are sorted.
 pub fn tissue_level(tissue: &[f32], clicks: &[f64]) -> f64 {
     let median = quantile(tissue, 0.5);

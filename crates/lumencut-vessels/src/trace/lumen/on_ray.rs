@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::trace::lumen::lumen_model::quantile;
+use crate::trace::lumen::lumen_model::noise_of;
 use crate::trace::lumen::seen::{SeenLumen, lumen_in};
 use crate::trace::lumen::surroundings::Surroundings;
 use crate::voxels::Voxels;
@@ -75,7 +75,7 @@ fn depths(volume: &Volume, from: DVec3, along: DVec3) -> Option<(f64, f64)> {
 /// The stretches of a ray that are brighter than what lies before and behind them, those that stand out most, in the order along it.
 /// A stretch ends half way down to the lower of both sides' lowest values before something brighter comes.
 fn bright(values: &[f32]) -> Vec<Bright> {
-    let least = (TIMES_NOISE * noise(values)) as f32;
+    let least = (TIMES_NOISE * noise_of(values)) as f32;
     let mut found: Vec<Bright> = (0..values.len())
         .filter(|n| is_top(values, *n))
         .map(|n| {
@@ -109,13 +109,4 @@ fn is_top(values: &[f32], n: usize) -> bool {
 /// The lowest value to one side of a top, until something brighter comes; beyond the volume there is nothing lower.
 fn lowest_side<'a>(side: impl Iterator<Item = &'a f32>, top: f32) -> f32 {
     side.copied().take_while(|value| *value <= top).fold(top, f32::min)
-}
-
-/// The noise of a ray, as neighbours differ where they differ little.
-fn noise(values: &[f32]) -> f64 {
-    let mut steps: Vec<f32> = values.windows(2).map(|pair| (pair[1] - pair[0]).abs()).collect();
-    steps.retain(|step| step.is_finite());
-    steps.sort_unstable_by(f32::total_cmp);
-    // A quarter of the differences of two normal deviates is below this part of the standard deviation of one.
-    if steps.is_empty() { 0.0 } else { quantile(&steps, 0.25) / 0.451 }
 }

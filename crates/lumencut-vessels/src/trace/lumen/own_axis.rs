@@ -3,8 +3,9 @@
 
 use std::f64::consts::PI;
 
-use glam::{DMat3, DQuat, DVec3};
+use glam::{DQuat, DVec3};
 
+use crate::trace::lumen::directions::{half_sphere, longest_axis};
 use crate::trace::lumen::lumen_model::quantile;
 use crate::trace::lumen::surroundings::Surroundings;
 use crate::voxels::Voxels;
@@ -17,9 +18,6 @@ const REACH: f64 = 60.0;
 
 /// In how many directions across the axis the width is looked at.
 const TURNS: u32 = 12;
-
-/// How often the axis is turned towards that of the largest extent.
-const ROUNDS: usize = 50;
 
 /// The lumen around a place, as the values tell it.
 pub struct OwnLumen<'a, 'v> {
@@ -74,21 +72,8 @@ impl<'a, 'v> OwnLumen<'a, 'v> {
 
     /// The direction in which most of the lumen lies.
     fn axis(&self) -> DVec3 {
-        let mut sums = DMat3::ZERO;
-        for direction in (0..DIRECTIONS).map(direction) {
-            let outer = [direction.x, direction.y, direction.z].map(|part| direction * part);
-            sums += DMat3::from_cols(outer[0], outer[1], outer[2]) * self.extent(direction, REACH).powi(3);
-        }
+        let weighted = half_sphere(DIRECTIONS).map(|way| (way, self.extent(way, REACH).powi(3)));
         // Of no symmetry that the sums might have.
-        let start = DVec3::new(0.6, 0.5, 0.7);
-        (0..ROUNDS).fold(start, |axis, _| (sums * axis).normalize_or_zero())
+        longest_axis(weighted, DVec3::new(0.6, 0.5, 0.7)).unwrap_or_default()
     }
-}
-
-/// One of the directions.
-pub fn direction(n: u32) -> DVec3 {
-    let z = (f64::from(n) + 0.5) / f64::from(DIRECTIONS);
-    let turn = f64::from(n) * PI * (3.0 - 5.0_f64.sqrt());
-    let across = (1.0 - z * z).sqrt();
-    DVec3::new(across * turn.cos(), across * turn.sin(), z)
 }

@@ -1,16 +1,15 @@
 //! The lumen around one place: which way it runs, its middle and its radius, seen by nothing but the values around it.
 
-use std::f64::consts::TAU;
-
-use glam::{DMat3, DVec3};
+use glam::DVec3;
 
 use crate::trace::lumen::cross_section::{LumenSection, Probe, WIDEST};
+use crate::trace::lumen::directions::{half_sphere, longest_axis};
 use crate::trace::lumen::surroundings::Surroundings;
 use crate::voxels::Voxels;
 use lumencut_core::volume::Volume;
 
 /// In how many directions of a half sphere the walls are looked for, and with how many rays in a cross-section.
-const DIRECTIONS: usize = 60;
+const DIRECTIONS: u32 = 60;
 const RAYS: usize = 32;
 
 /// A lumen is followed lengthwise so many times as far as it is narrow: enough to tell along from across.
@@ -72,32 +71,14 @@ fn across(along: DVec3) -> [DVec3; 2] {
 
 /// The direction along which the walls around a place are farthest away; none where hardly a wall is seen.
 fn direction(probe: &Probe, place: DVec3) -> Option<DVec3> {
-    let chords: Vec<(DVec3, f64)> =
-        half_sphere().map(|way| (way, probe.chord(place, way, WIDEST).unwrap_or(f64::INFINITY))).collect();
+    let chords: Vec<(DVec3, f64)> = half_sphere(DIRECTIONS)
+        .map(|way| (way, probe.chord(place, way, WIDEST).unwrap_or(f64::INFINITY)))
+        .collect();
     let narrow = chords.iter().map(|(_, length)| *length).fold(f64::INFINITY, f64::min);
     if narrow.is_infinite() {
         return None;
     }
-    let spread = chords.iter().fold(DMat3::ZERO, |sum, (way, length)| {
-        let weight = length.min(LENGTHWISE * narrow).powi(4);
-        sum + DMat3::from_cols(*way * way.x, *way * way.y, *way * way.z) * weight
-    });
-    longest_axis(spread, chords)
-}
-
-/// The axis along which a spread is largest, from the longest chord on.
-fn longest_axis(spread: DMat3, chords: Vec<(DVec3, f64)>) -> Option<DVec3> {
-    let (start, _) = chords.into_iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
-    (0..40).try_fold(start, |axis, _| (spread * axis).try_normalize())
-}
-
-/// Directions that are spread evenly over half a sphere, by the golden angle.
-fn half_sphere() -> impl Iterator<Item = DVec3> {
-    let golden = TAU * (1.0 - 2.0 / (1.0 + 5.0_f64.sqrt()));
-    (0..DIRECTIONS).map(move |n| {
-        let z = (n as f64 + 0.5) / DIRECTIONS as f64;
-        let (sine, cosine) = (golden * n as f64).sin_cos();
-        let flat = (1.0 - z * z).sqrt();
-        DVec3::new(flat * cosine, flat * sine, z)
-    })
+    let (start, _) = *chords.iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
+    let weighted = chords.iter().map(|(way, length)| (*way, length.min(LENGTHWISE * narrow).powi(4)));
+    longest_axis(weighted, start)
 }

@@ -2,7 +2,9 @@
 
 use glam::DVec3;
 
-use crate::trace::lumen::lumen_model::{LumenModel, in_words, lower_median, quantile, tissue_level};
+use crate::trace::lumen::lumen_model::{
+    LumenModel, in_words, lower_median, noise_of, quantile, tissue_level,
+};
 use crate::voxels::Voxels;
 use lumencut_core::error::{Clicked, Error, ErrorKind, Result};
 
@@ -70,7 +72,7 @@ impl Surroundings {
     pub fn within(voxels: &Voxels, clicks: &[DVec3], reach: f64) -> Self {
         let samples = samples_around(voxels, clicks, reach);
         // Within the heart there is neither fat nor air: what the values are is told by all of the scan.
-        let is_hounsfield = are_hounsfield(&samples_around(voxels, clicks, f64::INFINITY));
+        let is_hounsfield = are_hounsfield(voxels);
         let first = if is_hounsfield { samples.partition_point(|v| f64::from(*v) < AIR) } else { 0 };
         let values: Vec<f64> = clicks.iter().map(|click| value_at(voxels, *click)).collect();
         let around = &samples[first..];
@@ -241,10 +243,11 @@ impl Surroundings {
     }
 }
 
-/// Whether some rising values look like Hounsfield units.
-fn are_hounsfield(samples: &[f32]) -> bool {
-    let dark = samples.partition_point(|value| f64::from(*value) < HOUNSFIELD_LIMIT);
-    dark as f64 >= HOUNSFIELD_SHARE * samples.len() as f64
+/// Whether the values of a scan look like Hounsfield units.
+pub fn are_hounsfield(voxels: &Voxels) -> bool {
+    let samples = samples_between(voxels, [0; 3], voxels.size.map(|n| n as i32 - 1));
+    let dark = samples.iter().filter(|value| f64::from(**value) < HOUNSFIELD_LIMIT).count();
+    dark > 0 && dark as f64 >= HOUNSFIELD_SHARE * samples.len() as f64
 }
 
 /// What of some rising values (HU) is no blood with contrast medium: in and beside the heart most of what is around a click is such
@@ -266,6 +269,13 @@ fn samples_around(voxels: &Voxels, clicks: &[DVec3], reach: f64) -> Vec<f32> {
             last[a] = last[a].max(low[a] + count[a] - 1);
         }
     }
+    let mut values = samples_between(voxels, first, last);
+    values.sort_unstable_by(f32::total_cmp);
+    values
+}
+
+/// Values of voxels within a box, by the indices of its corners.
+fn samples_between(voxels: &Voxels, first: [i32; 3], last: [i32; 3]) -> Vec<f32> {
     let count: f64 = (0..3).map(|a| f64::from(last[a] - first[a] + 1).max(1.0)).product();
     let step = (count / MOST_SAMPLES).cbrt().ceil().max(1.0) as usize;
     let mut values = Vec::new();
@@ -279,7 +289,6 @@ fn samples_around(voxels: &Voxels, clicks: &[DVec3], reach: f64) -> Vec<f32> {
             }
         }
     }
-    values.sort_unstable_by(f32::total_cmp);
     values
 }
 
@@ -296,14 +305,10 @@ fn value_at(voxels: &Voxels, click: DVec3) -> f64 {
     quantile(&values, 0.6)
 }
 
-/// The noise around a click, as neighbours differ where they differ little: most are not at the edge of a vessel.
+/// The noise around a click.
 fn noise(voxels: &Voxels, click: DVec3) -> f64 {
     let near = voxels.ball(click, (4.0 * voxels.smallest_side).max(3.0));
-    let mut steps: Vec<f32> = near.windows(2).map(|pair| (pair[1].1 - pair[0].1).abs()).collect();
-    steps.retain(|step| step.is_finite());
-    steps.sort_unstable_by(f32::total_cmp);
-    // A quarter of the differences of two normal deviates is below this part of the standard deviation of one.
-    if steps.is_empty() { 0.0 } else { quantile(&steps, 0.25) / 0.451 }
+    noise_of(&near.into_iter().map(|(_, value)| value).collect::<Vec<f32>>())
 }
 
 /// The median of the lumen around a click, and its spread.
