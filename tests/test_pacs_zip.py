@@ -57,10 +57,19 @@ def test_the_structured_report_is_that_of_python(tmp_path, marked):
     assert found.ContentSequence == own.ContentSequence
 
 
-def test_a_marked_place_is_written_though_it_is_not_graded(tmp_path):
-    found = groups(made(request(marked=Marked(12.0)), tmp_path)["report.dcm"])
+@pytest.mark.parametrize(
+    ("marked", "sites"),
+    [
+        (Marked(12.0), ["Site of Lumen Minimum"]),
+        (Marked(12.0, diameters=(24.0,)), ["Site of Lumen Minimum"]),
+        # A diameter that was noted says nothing of a narrowing.
+        (Marked(diameters=(24.0,)), []),
+    ],
+)
+def test_a_marked_place_is_written_though_it_is_not_graded(tmp_path, marked, sites):
+    found = groups(made(request(marked=marked), tmp_path)["report.dcm"])
     meanings = [code(child(one, "Finding")[0].ConceptCodeSequence)[2] for one in found]
-    assert meanings == ["Site of Lumen Minimum", "Centerline"]
+    assert meanings == [*sites, "Centerline"]
 
 
 def test_the_view_is_the_picture_that_is_shown(tmp_path):

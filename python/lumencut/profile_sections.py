@@ -60,7 +60,7 @@ class Mark:
     Attributes
     ----------
     name : str
-        What it is: the place of a stenosis, a reference, or the narrowest place.
+        What it is: the place of a stenosis, a reference, the narrowest place, or a noted diameter.
     arc_length, diameter : float
         Where it is, and the diameter of a circle of the same area there (mm).
     is_suggestion : bool
@@ -76,6 +76,11 @@ class Mark:
     def is_reference(self) -> bool:
         """Whether the place of a stenosis is compared with it."""
         return self.name == "reference"
+
+    @property
+    def is_noted(self) -> bool:
+        """Whether a reader noted the diameter alone, whatever is graded."""
+        return self.name == "noted diameter"
 
     @property
     def title(self) -> str:

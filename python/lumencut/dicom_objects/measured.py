@@ -116,8 +116,8 @@ def measured(
 
 
 def _marked_kinds(marks: Sequence[Mark]) -> dict[float, Coded]:
-    """What each marked place is; references of no place are none."""
-    at = next((mark.arc_length for mark in marks if not mark.is_reference), None)
+    """What each marked place is; references of no place are none, nor is a noted diameter."""
+    at = next((mark.arc_length for mark in marks if not (mark.is_reference or mark.is_noted)), None)
     if at is None:
         return {}
     beside = [mark.arc_length for mark in marks if mark.is_reference]
