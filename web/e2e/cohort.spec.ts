@@ -61,3 +61,26 @@ test('studies are filtered, ordered and rated, and the ratings outlive the page'
   await page.selectOption('#filter', 'redo');
   expect(await ids(page)).toEqual(['p1990']);
 });
+
+test('a click selects a tile; Enter and a double click open its picture in a new tab', async ({ page, context }) => {
+  await page.goto(address);
+  const tile = page.locator('li[data-id="p3"]');
+  await tile.locator('img').click();
+  await expect(tile).toBeFocused();
+  expect(page.url()).toBe(address);
+  expect(context.pages()).toHaveLength(1);
+  for (const act of [() => page.keyboard.press('Enter'), () => tile.locator('img').dblclick()]) {
+    const opening = context.waitForEvent('page');
+    await act();
+    const opened = await opening;
+    expect(opened.url()).toContain('sub-p3/sub-p3_view-anterior_desc-focus.png');
+    await opened.close();
+  }
+  await expect(tile).toBeFocused();
+  // A study that failed has no picture to open.
+  const failed = page.locator('li[data-id="p10"]');
+  await failed.locator('a').dblclick();
+  await expect(failed).toBeFocused();
+  expect(page.url()).toBe(address);
+  expect(context.pages()).toHaveLength(1);
+});

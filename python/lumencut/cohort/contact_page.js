@@ -111,13 +111,29 @@ function press(event) {
   const tile = event.target.closest?.('li');
   if (!tile || event.ctrlKey || event.metaKey || event.altKey) return;
   const direction = { ArrowRight: 'nextElementSibling', ArrowLeft: 'previousElementSibling' }[event.key];
-  if (direction) {
+  if (event.key === 'Enter') {
+    open(tile);
+    event.preventDefault();
+  } else if (direction) {
     neighbour(tile, direction)?.focus();
     event.preventDefault();
   } else if (event.key in kinds) {
     rate(tile, kinds[event.key]);
     neighbour(tile, 'nextElementSibling')?.focus();
   }
+}
+
+/** The picture of a tile, in a tab of its own; a study that failed has none. */
+function open(tile) {
+  const picture = tile.querySelector('a[href]');
+  if (picture) window.open(picture.href, '_blank', 'noopener');
+}
+
+/** A click selects a tile; with a key held it is left to the browser, which opens links in its own ways. */
+function select(event) {
+  if (event.ctrlKey || event.metaKey || event.shiftKey) return;
+  event.preventDefault();
+  event.target.closest('li')?.focus();
 }
 
 function save() {
@@ -138,4 +154,9 @@ document.querySelector('#search').addEventListener('input', filter);
 document.querySelector('#order').addEventListener('change', order);
 document.querySelector('#save').addEventListener('click', save);
 list.addEventListener('keydown', press);
+list.addEventListener('click', select);
+list.addEventListener('dblclick', (event) => {
+  const tile = event.target.closest('li');
+  if (tile) open(tile);
+});
 observer.observe(end);
