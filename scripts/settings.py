@@ -24,6 +24,7 @@ from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
 from lumencut._checked_settings import CheckedSettings
+from lumencut._pickles import by_name
 from lumencut.focus import Focus
 from lumencut.slab import Slab
 from lumencut.transfer import TransferFunction
@@ -32,6 +33,7 @@ from lumencut.window import Opacity, Window
 '''
 CLASS = '''
 
+@by_name
 @dataclass(frozen=True)
 class Settings(CheckedSettings):
     """How the cut surface is made and shown (Auzinger et al. 2013, section 3), and what is behind it.

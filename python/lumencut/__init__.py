@@ -245,5 +245,13 @@ def __getattr__(name: str) -> Any:
     return getattr(importlib.import_module(f"lumencut.{_MODULE[name]}"), name)
 
 
+def _restored(name: str, *arguments: Any) -> Any:
+    """Make an object of the class of this name, for pickles, which name this function and no other module."""
+    from lumencut._pickles import part
+
+    kind = __getattr__(name) if name in _MODULE else part(name)
+    return kind.__new__(kind, *arguments)
+
+
 def __dir__() -> list[str]:
     return sorted(__all__)

@@ -28,10 +28,6 @@ class FoundOnce(Generic[_T]):
         self._looked_at = b""
         self._found: dict[tuple[Any, ...], tuple[_T, Any]] = {}
 
-    def __reduce__(self) -> tuple[type[FoundOnce[_T]], tuple[()]]:
-        """Begin anew in copies of the volume."""
-        return FoundOnce, ()
-
     def __len__(self) -> int:
         """Return how many are kept."""
         return len(self._found)

@@ -7,6 +7,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from lumencut._found_once import FoundOnce
+
 
 class KeepsReadOnly:
     """A base whose read-only arrays are read-only again in what is unpickled or copied."""
@@ -14,7 +16,8 @@ class KeepsReadOnly:
     __slots__ = ()
 
     def __getstate__(self) -> tuple[dict[str, Any], list[str]]:
-        state = vars(self).copy()
+        # What was found in a volume is found again in its copies.
+        state = {name: value for name, value in vars(self).items() if not isinstance(value, FoundOnce)}
         arrays = ((name, value) for name, value in state.items() if isinstance(value, np.ndarray))
         return state, [name for name, array in arrays if not array.flags.writeable]
 

@@ -13,6 +13,7 @@ import numpy.typing as npt
 
 from lumencut import _lumencut
 from lumencut._checks import integers, number, numbers
+from lumencut._pickles import by_name
 from lumencut._values import Value, content_of
 from lumencut.errors import CameraError
 from lumencut.vessel import Vessel
@@ -26,6 +27,7 @@ VIEWS: dict[str, tuple[tuple[float, float, float], tuple[float, float, float]]] 
 Scene: TypeAlias = VesselTree | Vessel | Volume | Any
 
 
+@by_name
 @dataclass(frozen=True, eq=False)
 class Camera(Value):
     """An orthographic view; cameras with the same place, size and pixels are equal.

@@ -15,6 +15,7 @@ import numpy.typing as npt
 
 from lumencut import _lumencut
 from lumencut._checks import number
+from lumencut._pickles import by_name
 from lumencut.centerline_paths import CenterlinePaths
 from lumencut.errors import SettingsError, VesselTreeError
 from lumencut.vessel import Vessel
@@ -32,6 +33,7 @@ _DISC = 2.0
 _Points = npt.NDArray[np.float64]
 
 
+@by_name
 @dataclass(frozen=True)
 class CenterlineComparison:
     """What :func:`lumencut.compare_centerlines` found; shares are from 0 to 1, NaN where nothing counts.

@@ -7,8 +7,10 @@ import sys
 from dataclasses import dataclass
 
 from lumencut import _lumencut
+from lumencut._pickles import by_name
 
 
+@by_name
 @dataclass(frozen=True)
 class Device:
     """A GPU as its driver describes it.

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from enum import IntFlag
+from typing import Any
 
 
 class Flag(IntFlag):
@@ -11,6 +12,12 @@ class Flag(IntFlag):
     Sections with `BRANCH`, `OUTSIDE`, `NO_EDGE`, `RECENTERED` or `RESTLESS_LINE` are left out of what is
     narrowest, widest or suggested, and of references.
     """
+
+    def __reduce_ex__(self, protocol: Any) -> Any:
+        """Return what is pickled: the name of the class and the bits."""
+        import lumencut
+
+        return lumencut._restored, ("Flag", int(self))
 
     #: The diameter is below 1.5 times the width (FWHM) of the point spread.
     AT_LIMIT = 1

@@ -6,9 +6,11 @@ from dataclasses import dataclass
 
 from lumencut import _lumencut
 from lumencut._checks import number
+from lumencut._pickles import by_name
 from lumencut.errors import SettingsError
 
 
+@by_name
 @dataclass(frozen=True)
 class Focus:
     """The cut surface around the vessels, amid the context (after the VesselGlyph of Straka et al. 2004).

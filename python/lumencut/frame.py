@@ -14,6 +14,7 @@ import numpy.typing as npt
 
 from lumencut import _lumencut
 from lumencut._files import WRITABLE, checked_path, replace_whole
+from lumencut._pickles import by_name
 from lumencut._values import KeepsReadOnly
 from lumencut.camera import Camera
 from lumencut.errors import FormatError, SettingsError, VolumeError
@@ -33,6 +34,7 @@ IMAGES = ("image", "depth", "vessel", "distance", "value", "context")
 _IMAGES = ("image", "depth", "vessel", "distance", "position", "value", "context", "folded")
 
 
+@by_name
 @dataclass(frozen=True, eq=False, repr=False)
 class Frame(KeepsReadOnly):
     """The images of one view, each (H, W) from the top row down.

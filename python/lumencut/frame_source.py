@@ -6,6 +6,7 @@ from collections import Counter
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, cast
 
+from lumencut._pickles import by_name
 from lumencut.dicom_objects.study import Origin
 from lumencut.settings import Settings
 from lumencut.transfer import TransferFunction
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
 VesselEnd = tuple[str, tuple[float, float, float]]
 
 
+@by_name
 @dataclass(frozen=True)
 class FrameSource:
     """What a frame was made from.

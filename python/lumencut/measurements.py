@@ -7,6 +7,7 @@ from typing import Any, SupportsIndex
 
 from lumencut import _lumencut
 from lumencut._checks import number
+from lumencut._pickles import by_name
 from lumencut._wall_level import Wall, wall_level
 from lumencut.errors import SettingsError, VesselTreeError
 from lumencut.profile import Profile
@@ -16,6 +17,7 @@ from lumencut.volume import Volume
 from lumencut.volume_files.memory import as_volume
 
 
+@by_name
 class Measurements:
     """The measured vessels of one volume and tree: each is measured when it is first asked for, and kept.
 

@@ -11,6 +11,7 @@ import numpy.typing as npt
 
 from lumencut import _lumencut
 from lumencut._checks import number
+from lumencut._pickles import by_name
 from lumencut._wall_level import Wall, wall_level
 from lumencut.errors import MeasuringError, SettingsError, VesselTreeError
 from lumencut.profile import Profile
@@ -116,6 +117,7 @@ def _told_by_tree(
     )
 
 
+@by_name
 @dataclass(frozen=True)
 class CrossSection:
     """The volume in a plane across a vessel; :func:`cross_section` makes it.

@@ -6,6 +6,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any, Literal, NamedTuple, TypeAlias
 
+from lumencut._pickles import by_name
+
 MendName: TypeAlias = Literal[
     "bridge", "every_second", "cpu", "windows", "threshold", "fewer_pixels", "doubtful", "smaller_radius",
     "coordinates", "unit", "place",
@@ -61,6 +63,7 @@ def as_option(option: Option) -> str:
     return f"{name} {option.value}" if isinstance(option.value, str) else name
 
 
+@by_name
 @dataclass(frozen=True)
 class Mend:
     """A step that mends an error; as a text it is worded for Python.

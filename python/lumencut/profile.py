@@ -11,6 +11,7 @@ import numpy.typing as npt
 
 from lumencut import _lumencut
 from lumencut._checks import choice, number, numbers
+from lumencut._pickles import by_name
 from lumencut.errors import MeasuringError, SettingsError
 from lumencut.profile_numbers import ProfileNumbers
 from lumencut.profile_outputs import ProfileOutputs
@@ -20,6 +21,7 @@ from lumencut.stenosis import METHODS, Method, Stenosis
 _Floats = npt.NDArray[np.float64]
 
 
+@by_name
 class Spot(NamedTuple):
     """A place on a vessel: its arc length and the diameter there, both in mm."""
 
@@ -27,6 +29,7 @@ class Spot(NamedTuple):
     diameter: float
 
 
+@by_name
 class Stretch(NamedTuple):
     """The length of a stretch of a vessel (mm): along it, and straight from end to end."""
 
@@ -39,6 +42,7 @@ class Stretch(NamedTuple):
         return self.length / self.straight if self.straight > 0 else math.inf
 
 
+@by_name
 class Angle(float):
     """An angle in radians, with its degrees."""
 
@@ -48,6 +52,7 @@ class Angle(float):
         return math.degrees(self)
 
 
+@by_name
 class CArm(NamedTuple):
     """How a C-arm is turned (radians): LAO and cranial above 0, RAO and caudal below."""
 
@@ -59,6 +64,7 @@ class CArm(NamedTuple):
         return _lumencut.c_arm_words(self.lao, self.cranial)
 
 
+@by_name
 class Profile(ProfileNumbers, ProfileOutputs):
     """The lumen of one vessel by its arc length; :func:`lumencut.measure` makes it.
 

@@ -2,12 +2,19 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import numpy.typing as npt
 
 from lumencut import _lumencut
 from lumencut.dicom_objects.study import Origin
+from lumencut.errors import MeasuringError
+from lumencut.scan_details import ScanDetails
 from lumencut.vessel import Vessel
+
+#: The version of what is pickled of a profile.
+_VERSION = 1
 
 _Floats = npt.NDArray[np.float64]
 
@@ -26,6 +33,23 @@ class ProfileNumbers:
         self._center, self._normal = _locked(core.center), _locked(core.normal)
         self._axes = _locked(core.axes)
         self._contour, self._levels = _locked(core.contour), _locked(core.levels)
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Return what is copied or pickled: plain values, by names that stay."""
+        return {
+            "version": _VERSION,
+            "stored": _lumencut.stored_profile(self._core),
+            "scan": _lumencut.scan_of(self._core),
+            "vessel": self._vessel,
+            "origin": self._origin,
+        }
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        if state["version"] != _VERSION:
+            found = f"version {state['version']}"
+            raise MeasuringError("stored profile", found, f"version {_VERSION}", "measure the vessel again")
+        core = _lumencut.restored_profile(state["stored"], ScanDetails(*state["scan"]))
+        ProfileNumbers.__init__(self, core, state["vessel"], state["origin"])
 
     @property
     def arc_length(self) -> _Floats:

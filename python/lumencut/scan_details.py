@@ -4,7 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from lumencut._pickles import by_name
 
+
+@by_name
 @dataclass(frozen=True)
 class ScanDetails:
     """What a file tells of how its scan was made; None of what it does not tell, or not alike for all slices.

@@ -4,7 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from lumencut._pickles import by_name
 
+
+@by_name
 @dataclass(frozen=True)
 class SeriesReport:
     """One DICOM series of a folder.

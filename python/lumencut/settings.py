@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
 from lumencut._checked_settings import CheckedSettings
+from lumencut._pickles import by_name
 from lumencut.focus import Focus
 from lumencut.slab import Slab
 from lumencut.transfer import TransferFunction
@@ -20,6 +21,7 @@ ContextName: TypeAlias = Literal["mida", "dvr", "mip", "minip", "average"]
 ContextFromName: TypeAlias = Literal["cut", "whole"]
 
 
+@by_name
 @dataclass(frozen=True)
 class Settings(CheckedSettings):
     """How the cut surface is made and shown (Auzinger et al. 2013, section 3), and what is behind it.

@@ -7,9 +7,11 @@ from typing import Literal
 
 from lumencut import _lumencut
 from lumencut._checks import choice, number
+from lumencut._pickles import by_name
 from lumencut.errors import SettingsError
 
 
+@by_name
 @dataclass(frozen=True)
 class Slab:
     """A thick cut surface.

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Literal, TypeAlias
+from typing import Any, Literal, TypeAlias
 
 from lumencut import _lumencut
+from lumencut._pickles import by_name
 
 Method: TypeAlias = Literal["nascet", "ecst", "area"]
 
@@ -12,6 +13,7 @@ Method: TypeAlias = Literal["nascet", "ecst", "area"]
 METHODS: tuple[Method, ...] = ("nascet", "ecst", "area")
 
 
+@by_name
 class Stenosis:
     """A stenosis at a place that the caller named; :meth:`Profile.stenosis` makes it.
 
@@ -21,6 +23,13 @@ class Stenosis:
     def __init__(self, graded: _lumencut.Stenosis) -> None:
         self._graded = graded
         self._numbers = graded.numbers()
+
+    def __getstate__(self) -> Any:
+        """Return what is copied or pickled: plain values."""
+        return _lumencut.stored_stenosis(self._graded)
+
+    def __setstate__(self, state: Any) -> None:
+        Stenosis.__init__(self, _lumencut.restored_stenosis(state))
 
     @property
     def percent(self) -> float:

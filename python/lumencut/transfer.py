@@ -8,11 +8,13 @@ from typing import Any, TypeAlias
 
 from lumencut import _lumencut
 from lumencut._checks import integers, number
+from lumencut._pickles import by_name
 from lumencut.errors import SettingsError
 
 ControlPoint: TypeAlias = tuple[float, tuple[int, int, int], float]
 
 
+@by_name
 @dataclass(frozen=True)
 class TransferFunction:
     """Colour and opacity by intensity: linear between control points, constant beyond the outermost ones.

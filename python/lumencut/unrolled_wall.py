@@ -11,6 +11,7 @@ import numpy.typing as npt
 
 from lumencut import _lumencut
 from lumencut._checks import choice
+from lumencut._pickles import by_name
 from lumencut.errors import MeasuringError, SettingsError
 from lumencut.planar_reformation import one_angle
 from lumencut.profile import Profile
@@ -38,6 +39,7 @@ _SHOWN = {
 _DIMMED = 0.55
 
 
+@by_name
 @dataclass(frozen=True)
 class Ostium:
     """Where another vessel of the tree opens into the mapped one.

@@ -9,11 +9,13 @@ import numpy.typing as npt
 
 from lumencut import _lumencut
 from lumencut._checks import numbers
+from lumencut._pickles import by_name
 from lumencut._values import Value, content_of
 from lumencut._vessel_checks import marks, radii, shares
 from lumencut.errors import VesselTreeError
 
 
+@by_name
 class Vessel(Value):
     """One unbranched centerline; vessels with the same points, radii, name, confidence and bridges are equal.
 

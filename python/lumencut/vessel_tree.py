@@ -11,6 +11,7 @@ import numpy.typing as npt
 from lumencut import _lumencut
 from lumencut._checks import integers, number
 from lumencut._measured_radii import measured_radii
+from lumencut._pickles import by_name
 from lumencut._values import Value
 from lumencut._vessel_edits import joined, parts_of
 from lumencut._vessel_names import all_named, the_one_named
@@ -21,6 +22,7 @@ from lumencut.vessel import Vessel
 from lumencut.vessel_gap import Gap
 
 
+@by_name
 class VesselTree(Value):
     """A set of vessels that may share end points; a vessel's index is its id.
 

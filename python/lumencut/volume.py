@@ -13,6 +13,7 @@ import numpy.typing as npt
 
 from lumencut._checks import flag
 from lumencut._found_once import FoundOnce
+from lumencut._pickles import by_name
 from lumencut._values import KeepsReadOnly
 from lumencut.dicom_objects.study import Origin, Study
 from lumencut.errors import VolumeError
@@ -27,6 +28,7 @@ _UNIT_TOLERANCE = 1e-3
 _FARTHEST = 1e9
 
 
+@by_name
 class Volume(KeepsReadOnly):
     """Voxels of any integer or float type on any invertible affine grid, shared with the caller's array.
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from lumencut import _lumencut
 from lumencut._checks import choice, number
+from lumencut._pickles import by_name
 from lumencut.errors import SettingsError, VesselTreeError
 
 if TYPE_CHECKING:
@@ -19,6 +20,7 @@ WINDOW_NAMES = tuple(name for name, _, _ in _lumencut.WINDOW_PRESETS)
 _FIXED = {name: fixed for name, _, fixed in _lumencut.WINDOW_PRESETS if fixed is not None}
 
 
+@by_name
 @dataclass(frozen=True)
 class Window:
     """Intensities shown from black to white: ``level`` ± ``width`` / 2, in the volume's unit (HU for CT)."""
@@ -155,6 +157,7 @@ class Window:
         return cls(*shown._windows.once(shown._voxels, name, tree, find))
 
 
+@by_name
 @dataclass(frozen=True)
 class Opacity:
     """A linear ramp: intensities up to ``transparent`` are not shown, from ``opaque`` on they are opaque."""

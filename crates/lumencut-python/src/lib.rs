@@ -30,6 +30,7 @@ mod scan_details;
 mod session_file;
 mod settings;
 mod spiral;
+mod stored_profile;
 mod told_by_tree;
 mod tracing;
 mod tree;
@@ -142,6 +143,10 @@ fn _lumencut(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(volume::contains, module)?)?;
     module.add_function(wrap_pyfunction!(volume::sample, module)?)?;
     module.add_function(wrap_pyfunction!(profile_files::scan_of, module)?)?;
+    module.add_function(wrap_pyfunction!(stored_profile::restored_profile, module)?)?;
+    module.add_function(wrap_pyfunction!(stored_profile::restored_stenosis, module)?)?;
+    module.add_function(wrap_pyfunction!(stored_profile::stored_profile, module)?)?;
+    module.add_function(wrap_pyfunction!(stored_profile::stored_stenosis, module)?)?;
     module.add_function(wrap_pyfunction!(scan_details::scan_words, module)?)?;
     module.add_function(wrap_pyfunction!(mask_tracing::correspondence, module)?)?;
     module.add_function(wrap_pyfunction!(mask_tracing::trace_mask, module)?)?;

@@ -13,6 +13,7 @@ from typing import Literal
 
 from lumencut._checks import choice, integers, number
 from lumencut._files import WRITABLE, checked_path
+from lumencut._pickles import by_name
 from lumencut.cohort.child import Outcome
 from lumencut.cohort.engine import side_by_side
 from lumencut.cohort.job import Job
@@ -36,6 +37,7 @@ Engine = Callable[[Sequence[Job], Path], Iterator[Outcome | None]]
 _LEAST_MEMORY = 256 << 20
 
 
+@by_name
 @dataclass(frozen=True)
 class BatchSummary:
     """How a batch ended.

@@ -25,8 +25,9 @@ _ORDERS = {
 #: So many tiles are shown at first, as the script has it too.
 _AT_ONCE = 200
 _HELP = (
-    "Click a tile to select it, then rate it: g good, r redo, x exclude, u none. Arrows move to the next tile; "
-    "Enter or a double click opens the picture in a new tab. Ratings stay in this browser until they are saved. Narrowest places are suggestions to look at. "
+    "Click a tile to select it, then rate it: g good, r redo, x exclude, u none. Arrows select the next; "
+    "Enter or a double click opens the picture in a new tab. Ratings stay in this browser until they are "
+    "saved. Narrowest places are suggestions to look at. "
     "Lumencut is not a medical device."
 )
 

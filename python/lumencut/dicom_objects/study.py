@@ -9,6 +9,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Any
 
+from lumencut._pickles import by_name
+
 #: Who the patient is, and what is known of that; empty under `anonymous`.
 PATIENT = (
     *("PatientName", "PatientID", "IssuerOfPatientID", "PatientBirthDate", "PatientSex", "PatientAge"),
@@ -46,6 +48,7 @@ UNPAIRED = (
 READ = (*PATIENT, *VISIT, *SCAN, *ACQUISITION, "SeriesInstanceUID", "FrameOfReferenceUID")
 
 
+@by_name
 @dataclass(frozen=True)
 class Study:
     """What is repeated of the study of a scan.
@@ -72,6 +75,7 @@ class Study:
         return "" if value is None else str(value)
 
 
+@by_name
 @dataclass(frozen=True)
 class Origin:
     """Where a picture comes from, as far as its DICOM object tells.

@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from lumencut._files import WRITABLE, checked_path, write_text
+from lumencut._pickles import by_name
 from lumencut.camera import Camera
 from lumencut.errors import FileError, VolumeError
 from lumencut.evaluation.methods import METHODS
@@ -22,6 +23,7 @@ Row = dict[str, str | float | int | None]
 _WORST = "lumen_within_0.05_mm_percent"
 
 
+@by_name
 @dataclass(frozen=True, eq=False, repr=False)
 class Evaluation:
     """What :func:`lumencut.evaluate` found.

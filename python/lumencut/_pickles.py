@@ -1,0 +1,53 @@
+"""Pickles of public values: they name a class by its public name, so that they survive a move of modules."""
+
+from __future__ import annotations
+
+import importlib
+from typing import Any, TypeVar
+
+#: Where the classes live that public values hold and that are not public themselves.
+_PARTS = {
+    "Angle": "profile",
+    "CArm": "profile",
+    "FrameSource": "frame_source",
+    "Origin": "dicom_objects.study",
+    "Spot": "profile",
+    "Stretch": "profile",
+    "Study": "dicom_objects.study",
+}
+
+_Kind = TypeVar("_Kind", bound=type)
+
+
+def by_name(kind: _Kind) -> _Kind:
+    """Have objects of a class pickled by the name of the class: a decorator.
+
+    The name is public, or one of the parts listed in this file. A subclass is pickled by its own path.
+    """
+
+    def reduced(self: Any, protocol: Any) -> Any:
+        import lumencut
+
+        # What makes an object, the class and its arguments; then the state.
+        whole: Any = object.__reduce_ex__(self, max(protocol, 2))
+        make, arguments, *state = whole
+        if type(self) is not kind:
+            return (make, arguments, *state)
+        return (lumencut._restored, (kind.__name__, *arguments[1:]), *state)
+
+    setattr(kind, "__reduce_ex__", reduced)  # noqa: B010 - to a class of any kind
+    return kind
+
+
+def part(name: str) -> type:
+    """Return the class of a part by its name.
+
+    Raises
+    ------
+    AttributeError
+        For a name that is no part.
+    """
+    if name not in _PARTS:
+        raise AttributeError(f"module 'lumencut' has no attribute {name!r}")
+    found: type = getattr(importlib.import_module(f"lumencut.{_PARTS[name]}"), name)
+    return found
