@@ -62,7 +62,10 @@ test('studies are filtered, ordered and rated, and the ratings outlive the page'
   expect(await ids(page)).toEqual(['p1990']);
 });
 
-test('a click selects a tile; Enter and a double click open its picture in a new tab', async ({ page, context }) => {
+test('a click selects a tile; Enter and a double click open its picture in a new tab', async ({
+  page,
+  context,
+}) => {
   await page.goto(address);
   const tile = page.locator('li[data-id="p3"]');
   await tile.locator('img').click();

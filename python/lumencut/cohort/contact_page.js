@@ -112,7 +112,7 @@ function press(event) {
   if (!tile || event.ctrlKey || event.metaKey || event.altKey) return;
   const direction = { ArrowRight: 'nextElementSibling', ArrowLeft: 'previousElementSibling' }[event.key];
   if (event.key === 'Enter') {
-    open(tile);
+    openPicture(tile);
     event.preventDefault();
   } else if (direction) {
     neighbour(tile, direction)?.focus();
@@ -124,7 +124,7 @@ function press(event) {
 }
 
 /** The picture of a tile, in a tab of its own; a study that failed has none. */
-function open(tile) {
+function openPicture(tile) {
   const picture = tile.querySelector('a[href]');
   if (picture) window.open(picture.href, '_blank', 'noopener');
 }
@@ -157,6 +157,6 @@ list.addEventListener('keydown', press);
 list.addEventListener('click', select);
 list.addEventListener('dblclick', (event) => {
   const tile = event.target.closest('li');
-  if (tile) open(tile);
+  if (tile) openPicture(tile);
 });
 observer.observe(end);
