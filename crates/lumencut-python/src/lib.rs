@@ -80,6 +80,7 @@ fn _lumencut(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(reforming::spiral_reach, module)?)?;
     module.add_function(wrap_pyfunction!(cpr::feature_window, module)?)?;
     module.add_function(wrap_pyfunction!(cpr::picture, module)?)?;
+    module.add_function(wrap_pyfunction!(cpr::straightened_mark, module)?)?;
     module.add_function(wrap_pyfunction!(device::devices, module)?)?;
     module.add_function(wrap_pyfunction!(dicom::describe_dicom, module)?)?;
     module.add_function(wrap_pyfunction!(dicom::judge_dicom, module)?)?;

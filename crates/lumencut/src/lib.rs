@@ -43,6 +43,7 @@ mod samples;
 pub mod scale_bar;
 pub mod scan_details;
 pub mod spiral_lengths;
+pub mod straightened_sides;
 pub mod study;
 mod text;
 #[cfg(test)]
