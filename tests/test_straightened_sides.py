@@ -11,6 +11,7 @@ import pytest
 import lumencut
 from dicom_scenes import series
 from lumencut import Vessel, Volume, straightened_volume
+from ramp_scenes import ramp_volumes
 from test_cli_dicom import run
 
 #: Directions (LPS) of straight vessels, with the letters of i, j and k of the straightened volume.
@@ -25,23 +26,11 @@ ALONG = {
     "down and to the right": ((-0.5, 0.2, -0.7), "LPI"),
     "across, upwards": ((0.8, -0.2, 0.5), "SPL"),
 }
-#: The axes (LPS) of a grid that lies oblique in the patient.
-TURN = nibabel.eulerangles.euler2mat(0.3, -0.2, 0.25)
 
 
 @pytest.fixture(scope="module")
 def ramps():
-    """Three volumes on one oblique grid: the value of a voxel is its place along x, y or z (mm, LPS)."""
-    size, spacing = 81, 1.25
-    affine = np.eye(4)
-    affine[:3, :3] = TURN * spacing
-    affine[:3, 3] = -affine[:3, :3] @ np.full(3, (size - 1) / 2)
-    index = np.stack(np.meshgrid(*[np.arange(size)] * 3, indexing="ij"), axis=-1)
-    world = index @ affine[:3, :3].T + affine[:3, 3]
-    return [
-        Volume(np.ascontiguousarray(world[..., axis].T, np.float32), world_from_index=affine)
-        for axis in range(3)
-    ]
+    return ramp_volumes()
 
 
 def straight(along):

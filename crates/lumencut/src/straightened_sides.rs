@@ -4,16 +4,10 @@ use glam::DVec3;
 use lumencut_core::math::frames::MovingFrame;
 use lumencut_core::reformations::cpr::Straightened;
 
-use crate::letters::sides;
+use crate::letters::{PREFERRED, nearest_axes, sides};
 
 /// Readers are warned where a true axis turns farther than this from its stated side (degrees).
 const MOST_TURN: f64 = 45.0;
-
-/// Frames whose cosines differ by less are equally near: rounding does not choose between them.
-const SAME: f64 = 1e-6;
-
-/// The axes of the patient in the order in which equally near ones are preferred: along the body first.
-const PREFERRED: [DVec3; 6] = [DVec3::NEG_Z, DVec3::Z, DVec3::X, DVec3::NEG_X, DVec3::Y, DVec3::NEG_Y];
 
 /// The letters of sides with the words for them.
 const SIDES: [(char, &str); 6] =
@@ -40,7 +34,7 @@ impl StraightenedSides {
     /// The signed axes of the patient nearest to the frame at the middle of the vessel, with the handedness of the frame. Along
     /// the vessel the frame is compared with them every `step` mm.
     pub fn of(space: &Straightened, step: f64, is_stated: bool) -> Self {
-        let stated = nearest(axes(space.frame(space.length() / 2.0)));
+        let stated = nearest_axes(axes(space.frame(space.length() / 2.0)));
         let sections = (space.length() / step).floor() as usize;
         let places = (0..=sections).map(|n| n as f64 * step).chain([space.length()]);
         let least = places.flat_map(|at| cosines(axes(space.frame(at)), stated)).fold(1.0_f64, f64::min);
@@ -115,21 +109,6 @@ fn axes(frame: MovingFrame) -> [DVec3; 3] {
 
 fn cosines(one: [DVec3; 3], other: [DVec3; 3]) -> [f64; 3] {
     [0, 1, 2].map(|axis| one[axis].dot(other[axis]))
-}
-
-/// Of the axes of the patient with the handedness of a frame (`across` × `tangent` = `ahead`) those that it turns least from.
-fn nearest(frame: [DVec3; 3]) -> [DVec3; 3] {
-    let (mut best, mut most) = (frame, f64::NEG_INFINITY);
-    for along in PREFERRED {
-        for ahead in PREFERRED.into_iter().filter(|axis| axis.dot(along) == 0.0) {
-            let stated = [along.cross(ahead), ahead, along];
-            let sum: f64 = cosines(frame, stated).iter().sum();
-            if sum > most + SAME {
-                (best, most) = (stated, sum);
-            }
-        }
-    }
-    best
 }
 
 /// The word for a side.
