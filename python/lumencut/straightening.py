@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from lumencut import _lumencut
 from lumencut._checks import number, numbers
 from lumencut._files import WRITABLE, checked_path
 from lumencut._reformation_checks import check_vessel
@@ -28,6 +29,9 @@ _MOST_VOXELS = 1 << 29
 #: Voxels that are sampled together.
 _TOGETHER = 1 << 20
 
+#: What viewers show next to each image of the series, after its sides.
+_PLACE = "Position and sides are those of a patient whose vessel is straight"
+
 
 class StraightenedVolume:
     """A vessel and its surroundings, straightened; made by :func:`lumencut.straightened_volume`.
@@ -36,14 +40,25 @@ class StraightenedVolume:
     ----------
     volume : Volume
         float32 voxels [k, j, i], NaN outside the volume they come from. Slice k is the section across the
-        vessel at arc length k times the spacing. Its own coordinates (mm) are those of a patient whose vessel
-        is straight and runs downwards from the origin: i to the right in a straightened CPR from the same
-        side, j away from its viewer, k downwards.
+        vessel at arc length k times the spacing. i runs to the right in a straightened CPR from the same
+        side, j away from its viewer, k along the vessel. Its own coordinates (mm) are those of a patient
+        whose vessel is straight and begins at the origin: i, j and k state the signed axes of the patient
+        that are nearest to the true ones at the middle of the vessel, with the same handedness.
+    sides : str
+        The letters of the sides that i, j and k state, such as ``"RPS"`` for a vessel that runs to the head.
+    notes : tuple of str
+        What must be known of these sides, a sentence each: that the vessel runs across the body at its
+        middle, that along it a true axis is more than 45° off its side, or that the scan states no
+        orientation.
     """
 
-    def __init__(self, volume: Volume, surface: PlanarReformation) -> None:
+    def __init__(self, volume: Volume, surface: PlanarReformation, mark: str) -> None:
         self.volume: Volume = volume
-        self._core, self._surface = surface._core, surface
+        found = _lumencut.straightened_mark(mark)
+        assert found is not None, "the core reads what it writes"
+        self.sides: str = found[0]
+        self.notes: tuple[str, ...] = tuple(found[1])
+        self._core, self._surface, self._mark = surface._core, surface, mark
 
     @property
     def arc_length(self) -> npt.NDArray[np.float64]:
@@ -71,7 +86,8 @@ class StraightenedVolume:
 
         A name without an ending is a folder, which must not be there yet: a series of derived CT or MR images
         is written into it, one for each section, with a frame of reference of its own. The letters of sides
-        that viewers show on them are those of the straightened patient.
+        that viewers show on them are those of the straightened patient. Each file also says its
+        :attr:`notes`, which ``lumencut info`` repeats.
 
         Parameters
         ----------
@@ -92,7 +108,7 @@ class StraightenedVolume:
         place = checked_path(path, WRITABLE)
         if place.suffix:
             check_dicom_alone(place, study=study, anonymous=anonymous)
-            write_volume(self.volume, place)
+            write_volume(self.volume, place, self._mark)
             return
         from lumencut.dicom_objects.straightened_series import write_straightened
 
@@ -100,7 +116,8 @@ class StraightenedVolume:
         found = surface._study(study, anonymous=anonymous)
         is_whole = surface._known_volume().dtype.kind in "iu"
         about = (surface.recipe, surface.settings, surface.shown_window)
-        write_straightened(place, self.volume, about, found, is_whole=is_whole)
+        said = ". ".join([self._mark, _PLACE, *self.notes])
+        write_straightened(place, self.volume, about, found, said, is_whole=is_whole)
 
     def __repr__(self) -> str:
         """Return the size."""
@@ -109,9 +126,8 @@ class StraightenedVolume:
     @functools.cached_property
     def _grid(self) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
         """Across, ahead and along (mm) from i, j and k: scale and origin."""
-        affine = self.volume.world_from_index
-        # The vessel runs downwards.
-        return np.abs(np.diag(affine)[:3]), affine[:3, 3] * (1, 1, -1)
+        affine, step = self.volume.world_from_index, self.volume.spacing
+        return step, (affine[:3, :3] / step).T @ affine[:3, 3]
 
 
 def straightened_volume(
@@ -166,7 +182,14 @@ def straightened_volume(
     step = surface.pixel_spacing
     side = (np.arange(columns) - columns // 2) * step
     array = np.empty((sections, columns, columns), np.float32)
-    made = StraightenedVolume(Volume(array, world_from_index=_affine(step, side[0])), surface)
+    axes, mark = surface._core.straightened_sides(step, source.states_orientation)
+    straight = Volume(
+        array,
+        world_from_index=_affine(np.array(axes), step, side[0]),
+        states_spacing=source.states_spacing,
+        states_orientation=source.states_orientation,
+    )
+    made = StraightenedVolume(straight, surface, mark)
     together = max(1, _TOGETHER // columns**2)
     for first in range(0, sections, together):
         k = np.arange(first, min(first + together, sections))
@@ -176,8 +199,12 @@ def straightened_volume(
     return made
 
 
-def _affine(step: float, first: float) -> npt.NDArray[np.float64]:
-    """World from index of a straightened volume: the vessel runs downwards from the origin."""
-    affine = np.diag([step, step, -step, 1.0])
-    affine[:2, 3] = first
+def _affine(axes: npt.NDArray[np.float64], step: float, first: float) -> npt.NDArray[np.float64]:
+    """World from index of a straightened volume, whose vessel begins at the origin.
+
+    Rows of `axes` are the directions (LPS) of i, j and k; `first` is the place of the first i and j (mm).
+    """
+    affine = np.eye(4)
+    affine[:3, :3] = axes.T * step
+    affine[:3, 3] = (axes[0] + axes[1]) * first
     return affine

@@ -17,8 +17,17 @@ from lumencut.volume import Volume
 _RAS_FROM_LPS = np.diag([-1.0, -1.0, 1.0, 1.0])
 
 
-def write_volume(volume: Volume, path: str | os.PathLike[str]) -> None:
+def write_volume(volume: Volume, path: str | os.PathLike[str], mark: str = "") -> None:
     """Write a volume as ``.nrrd``, ``.nii`` or ``.nii.gz``; the file appears only once it is whole.
+
+    Parameters
+    ----------
+    volume : Volume
+        The volume.
+    path : path-like
+        The file.
+    mark : str, default ""
+        A short text (at most 79 letters of ASCII) on what the file holds, for the field of its header.
 
     Raises
     ------
@@ -30,17 +39,18 @@ def write_volume(volume: Volume, path: str | os.PathLike[str]) -> None:
     path = checked_path(path, WRITABLE)
     name = path.name.lower()
     if name.endswith(".nrrd"):
-        replace_whole(path, lambda whole: _write_nrrd(volume, whole))
+        replace_whole(path, lambda whole: _write_nrrd(volume, whole, mark))
     elif name.endswith((".nii", ".nii.gz")):
-        replace_whole(path, lambda whole: _write_nifti(volume, whole, is_packed=name.endswith(".gz")))
+        replace_whole(path, lambda whole: _write_nifti(volume, whole, mark, is_packed=name.endswith(".gz")))
     else:
         raise FormatError(str(path), f"the ending {path.suffix!r}", ".nrrd, .nii or .nii.gz")
 
 
-def _write_nrrd(volume: Volume, whole: Path) -> None:
+def _write_nrrd(volume: Volume, whole: Path, mark: str) -> None:
     import nrrd
 
     header: dict[str, Any] = {
+        **({"content": mark} if mark else {}),
         "space": "left-posterior-superior",
         "space directions": volume.world_from_index[:3, :3].T,
         "space origin": volume.world_from_index[:3, 3],
@@ -50,12 +60,13 @@ def _write_nrrd(volume: Volume, whole: Path) -> None:
         nrrd.write(file, volume.array.T, header, index_order="F")
 
 
-def _write_nifti(volume: Volume, whole: Path, *, is_packed: bool) -> None:
+def _write_nifti(volume: Volume, whole: Path, mark: str, *, is_packed: bool) -> None:
     from nibabel import nifti1
 
     # Its functions state no types.
     library: Any = nifti1
     image = library.Nifti1Image(volume.array.T, _RAS_FROM_LPS @ volume.world_from_index)
     image.header.set_xyzt_units("mm")
+    image.header["descrip"] = mark.encode()
     content = image.to_bytes()
     whole.write_bytes(gzip.compress(content) if is_packed else content)

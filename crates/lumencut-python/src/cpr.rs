@@ -9,6 +9,7 @@ use lumencut::math::centerline_path::CenterlinePath;
 use lumencut::named::Named;
 use lumencut::pipeline;
 use lumencut::reformations::cpr::{self, CprMode, Roll, Straightened, View};
+use lumencut::straightened_sides::StraightenedSides;
 use lumencut::vessel_tree::Vessel;
 use numpy::{PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::prelude::*;
@@ -82,11 +83,24 @@ impl Cpr {
     ) -> PyResult<Bound<'py, PyArray2<f64>>> {
         self.straightened(py, &points, |space, point| space.straightened_from_world(point))
     }
+
+    /// The directions (LPS) of i, j and k that a straightened volume of so long voxels (mm) states, and the mark of its files,
+    /// by whether the scan states its orientation.
+    fn straightened_sides(&self, step: f64, is_stated: bool) -> PyResult<([[f64; 3]; 3], String)> {
+        let sides = StraightenedSides::of(self.space()?, step, is_stated);
+        Ok((sides.axes().map(|axis| axis.to_array()), sides.mark()))
+    }
 }
 
 impl Cpr {
     fn with_layout(cpr: cpr::Cpr) -> PyClassInitializer<Self> {
         PyClassInitializer::from(Layout(Arc::new(cpr.clone()))).add_subclass(Self(cpr))
+    }
+
+    fn space(&self) -> PyResult<&Straightened> {
+        let wrong =
+            || Error::new(ErrorKind::Settings, "mode of the CPR", "a CPR of another mode", "'straightened'");
+        self.0.straightened().ok_or_else(|| to_python(wrong()))
     }
 
     fn straightened<'py>(
@@ -95,11 +109,7 @@ impl Cpr {
         points: &PyReadonlyArray2<'py, f64>,
         map: impl Fn(&Straightened, DVec3) -> DVec3 + Sync,
     ) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let Some(space) = self.0.straightened() else {
-            let found = "a CPR of another mode";
-            let error = Error::new(ErrorKind::Settings, "mode of the CPR", found, "'straightened'");
-            return Err(to_python(error));
-        };
+        let space = self.space()?;
         let points = points_of(points)?;
         let mapped =
             py.detach(|| pool::install(|| points.par_iter().map(|p| map(space, *p)).collect::<Vec<_>>()))?;
@@ -127,4 +137,10 @@ pub fn picture<'py>(
 #[pyo3(signature = (feature, level, window))]
 pub fn feature_window(feature: &str, level: Option<f64>, window: [f64; 2]) -> PyResult<[f64; 2]> {
     Feature::named(feature, level).map(|feature| feature.window(window)).map_err(to_python)
+}
+
+/// The letters of the sides that the mark of a straightened volume states, and what its readers must know; None for another text.
+#[pyfunction]
+pub fn straightened_mark(text: &str) -> Option<(String, Vec<String>)> {
+    StraightenedSides::read(text).map(|sides| (sides.letters().to_owned(), sides.notes()))
 }

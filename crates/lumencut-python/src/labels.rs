@@ -18,6 +18,15 @@ pub fn edge_letters(right: [f64; 3], down: [f64; 3]) -> Vec<(&'static str, Strin
     vec![("left", found.left), ("right", found.right), ("top", found.top), ("bottom", found.bottom)]
 }
 
+/// The sides that three axes of a grid (LPS) run to, a letter each, and by how much one is off its side at most (radians).
+#[pyfunction]
+pub fn grid_letters(directions: [[f64; 3]; 3]) -> (String, f64) {
+    let directions = directions.map(DVec3::from_array);
+    let sides = letters::nearest_axes(directions);
+    let off = directions.iter().zip(sides).map(|(one, side)| one.angle_between(side)).fold(0.0, f64::max);
+    (letters::grid_letters(directions), off)
+}
+
 /// Length (mm), words and pixels of the scale bar of a picture of this width (pixels) and side of a pixel (mm).
 #[pyfunction]
 pub fn scale_bar(width: f64, pixel_spacing: f64) -> Option<(f64, String, f64)> {

@@ -81,11 +81,13 @@ fn _lumencut(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(reforming::spiral_reach, module)?)?;
     module.add_function(wrap_pyfunction!(cpr::feature_window, module)?)?;
     module.add_function(wrap_pyfunction!(cpr::picture, module)?)?;
+    module.add_function(wrap_pyfunction!(cpr::straightened_mark, module)?)?;
     module.add_function(wrap_pyfunction!(device::devices, module)?)?;
     module.add_function(wrap_pyfunction!(dicom::describe_dicom, module)?)?;
     module.add_function(wrap_pyfunction!(dicom::judge_dicom, module)?)?;
     module.add_function(wrap_pyfunction!(camera::check_camera, module)?)?;
     module.add_function(wrap_pyfunction!(labels::edge_letters, module)?)?;
+    module.add_function(wrap_pyfunction!(labels::grid_letters, module)?)?;
     module.add_function(wrap_pyfunction!(labels::scale_bar, module)?)?;
     module.add_function(wrap_pyfunction!(labels::sides, module)?)?;
     module.add_function(wrap_pyfunction!(line_edits::cut, module)?)?;

@@ -9,6 +9,12 @@ const LEAST_PART: f64 = 0.2;
 /// Parts that agree to this many steps of one are equal; the order of the axes decides between them, not rounding.
 const STEPS: f64 = 1e6;
 
+/// Axes whose cosines differ by less are equally near: rounding does not choose between them.
+const SAME: f64 = 1e-6;
+
+/// The signed axes of the patient (LPS) in the order in which equally near ones are preferred: along the body first.
+pub const PREFERRED: [DVec3; 6] = [DVec3::NEG_Z, DVec3::Z, DVec3::X, DVec3::NEG_X, DVec3::Y, DVec3::NEG_Y];
+
 /// The sides of the patient at the low and the high end of each axis (LPS).
 const SIDES: [[char; 2]; 3] = [['R', 'L'], ['A', 'P'], ['I', 'S']];
 
@@ -43,6 +49,28 @@ pub fn sides(direction: DVec3) -> String {
     order.sort_by(|a, b| size(*b).total_cmp(&size(*a)));
     let named = order.into_iter().filter(|axis| parts[*axis].abs() >= LEAST_PART);
     named.map(|axis| SIDES[axis][usize::from(parts[axis] > 0.0)]).collect()
+}
+
+/// The signed axes of the patient nearest to three directions (LPS, of any length above 0), with their handedness: each axis once.
+pub fn nearest_axes(directions: [DVec3; 3]) -> [DVec3; 3] {
+    let [first, second, third] = directions.map(DVec3::normalize_or_zero);
+    let handedness = if first.cross(second).dot(third) < 0.0 { -1.0 } else { 1.0 };
+    let (mut best, mut most) = (directions, f64::NEG_INFINITY);
+    for along in PREFERRED {
+        for ahead in PREFERRED.into_iter().filter(|axis| axis.dot(along) == 0.0) {
+            let across = ahead.cross(along) * handedness;
+            let sum = first.dot(across) + second.dot(ahead) + third.dot(along);
+            if sum > most + SAME {
+                (best, most) = ([across, ahead, along], sum);
+            }
+        }
+    }
+    best
+}
+
+/// The sides that the axes of a grid run to, a letter each: those of the nearest axes of the patient.
+pub fn grid_letters(directions: [DVec3; 3]) -> String {
+    nearest_axes(directions).map(sides).concat()
 }
 
 #[cfg(test)]

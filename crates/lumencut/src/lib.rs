@@ -44,6 +44,7 @@ pub mod scale_bar;
 pub mod scan_details;
 pub mod spiral_lengths;
 pub mod stored_profile;
+pub mod straightened_sides;
 pub mod study;
 mod text;
 #[cfg(test)]

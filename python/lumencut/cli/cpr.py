@@ -11,7 +11,7 @@ import click
 from lumencut.cli import options, reformations
 from lumencut.cli.dicom import study_of
 from lumencut.cli.parameters import SIZE
-from lumencut.cli.report import busy, detail, say
+from lumencut.cli.report import busy, detail, say, warn
 from lumencut.cli.tangential import MODE as TANGENTIAL
 from lumencut.cli.tangential import check_view, tangential
 
@@ -159,3 +159,5 @@ def _write_volume(path: Path, voxels: Volume, vessel: Vessel, chosen: dict[str, 
         )
         made.save(path, **({} if path.suffix else study_of(chosen)))
     say(f"{path}: {made.volume!r}")
+    for note in made.notes:
+        warn(note)

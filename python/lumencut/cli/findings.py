@@ -26,8 +26,6 @@ _ORIGINS = {
 }
 #: Of centerline smoothing: how much of it a tree is tried with (radii).
 _TRIED_SMOOTHING = 0.5
-#: Letters of the directions that grow along x, y, z in LPS, and of their opposites.
-_LETTERS = (("L", "R"), ("P", "A"), ("S", "I"))
 
 
 def of_volume(path: Path, **chosen: Any) -> dict[str, Any]:
@@ -124,11 +122,10 @@ def orientation(affine: npt.NDArray[np.float64]) -> str:
     """Where i, j, k run, as letters: LPS is an axial stack from the feet to the head."""
     import numpy as np
 
-    columns = affine[:3, :3] / np.linalg.norm(affine[:3, :3], axis=0)
-    main = [int(np.abs(column).argmax()) for column in columns.T]
-    cosines = columns[main, range(3)]
-    letters = "".join(_LETTERS[axis][int(cosine < 0)] for axis, cosine in zip(main, cosines, strict=True))
-    angle = float(np.degrees(np.arccos(min(float(np.abs(cosines).min()), 1.0))))
+    from lumencut import _lumencut
+
+    letters, off = _lumencut.grid_letters(np.ascontiguousarray(affine[:3, :3].T))
+    angle = float(np.degrees(off))
     return f"{letters}, oblique by {angle:.1f}°" if angle > 0.05 else letters
 
 

@@ -22,6 +22,7 @@ def write_straightened(
     volume: Volume,
     about: tuple[ReformationRecipe, Settings, Window | None],
     study: Study,
+    comments: str,
     *,
     is_whole: bool,
 ) -> None:
@@ -37,6 +38,8 @@ def write_straightened(
         How it was made, and the window in which it is shown first.
     study : Study
         Where it belongs.
+    comments : str
+        What is said of its sides.
     is_whole : bool
         Whether the voxels of the scan are whole numbers.
 
@@ -52,8 +55,9 @@ def write_straightened(
     recipe, settings, window = about
     picture = reformed_picture(np.empty((0, 0, 4), np.uint8), recipe, settings, {}, None)
     scaling = scaling_of(volume.array, is_whole=is_whole)
-    told = "Sections across the vessel; position and sides are those of a patient whose vessel is straight."
-    said = About("CPR straightened", picture.words, f"{picture.settings} {scaling}", told, window, scaling)
+    said = About(
+        "CPR straightened", picture.words, f"{picture.settings} {scaling}", comments, window, scaling
+    )
     affine = volume.world_from_index
     right, down = (affine[:3, axis] / np.linalg.norm(affine[:3, axis]) for axis in (0, 1))
     step, along = float(volume.spacing[0]), float(volume.spacing[2])

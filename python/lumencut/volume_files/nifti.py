@@ -14,6 +14,7 @@ from lumencut.errors import FormatError
 from lumencut.volume_files.opened import Filled, Progress, VolumeFile, shown, unfollowed
 from lumencut.volume_files.payload import Codec, first_bytes, read_voxels
 from lumencut.volume_files.rescale import is_integral, rescaled
+from lumencut.volume_files.straightened_notes import note_sides
 
 LPS_FROM_RAS = np.diag([-1.0, -1.0, 1.0, 1.0])
 
@@ -47,6 +48,7 @@ def open_nifti(path: Path) -> VolumeFile:
     size = _size(path, header)
     dtype = np.dtype(header.get_data_dtype())
     _mend(header, notes)
+    note_sides(bytes(header["descrip"]).decode("latin-1"), notes, remarks)
     affine = LPS_FROM_RAS @ _best_affine(path, header)
     affine[:3] *= millimetres(header, notes)
     _note_forms(header, size, notes)

@@ -12,6 +12,7 @@ from lumencut._files import checked_path
 from lumencut.errors import FormatError
 from lumencut.volume_files.opened import Filled, Progress, VolumeFile, decoded, inside, shown
 from lumencut.volume_files.payload import Codec, read_numbers, read_voxels
+from lumencut.volume_files.straightened_notes import note_sides
 
 _TO_LPS = {
     "left-posterior-superior": (1.0, 1.0, 1.0),
@@ -58,8 +59,10 @@ _TYPES = {name: code for code, names in _NAMES.items() for name in names.split("
 
 def open_nrrd(path: Path) -> VolumeFile:
     """Read the header of an NRRD file, attached or detached."""
-    header, end = _header(path)
+    header, end, content = _header(path)
     notes: list[str] = []
+    remarks: list[str] = []
+    note_sides(content, notes, remarks)
     axes = _spatial_axes(path, header)
     sizes = [int(size) for size in header["sizes"]]
     size = (sizes[axes[0]], sizes[axes[1]], sizes[axes[2]])
@@ -80,15 +83,15 @@ def open_nrrd(path: Path) -> VolumeFile:
         return read_voxels(data_path, size[::-1], dtype, start=begin, codec=codec, skip=skip, filled=filled)
 
     return VolumeFile(
-        path, "NRRD", size, dtype, shown(space) or "none stated", affine, load, notes,
+        path, "NRRD", size, dtype, shown(space) or "none stated", affine, load, notes, remarks=remarks,
         states_spacing=_states_spacing(header, axes),
         states_orientation="space directions" in header and _patient_space(header) in _TO_LPS,
         settled_type=dtype.newbyteorder("="),
     )  # fmt: skip
 
 
-def _header(path: Path) -> tuple[dict[str, Any], int]:
-    """The fields that place and describe the voxels, and the byte behind the header.
+def _header(path: Path) -> tuple[dict[str, Any], int, str]:
+    """The fields that place and describe the voxels, the byte behind the header, and the field "content".
 
     pynrrd parses them. It never sees the other fields nor the key/value pairs, where whoever wrote the file
     may have put anything: it refuses files for what is in them, and quotes it.
@@ -100,11 +103,13 @@ def _header(path: Path) -> tuple[dict[str, Any], int]:
     if not head.startswith(b"NRRD"):
         raise FormatError(str(path), "a compressed NRRD file", "a plain one", "decompress it first")
     stated: dict[str, str] = {}
+    content = ""
     lines, end = _lines(path, head)
     for line in lines[1:]:
         name, colon, value = decoded(line).partition(":")
         name = " ".join(name.lower().split())
         name = _WITH_BLANK.get(name, name)
+        content = value.strip() if name == "content" else content
         if line.startswith(b"#") or not colon or value.startswith("=") or name not in _FIELDS:
             continue
         if name in stated:
@@ -120,7 +125,7 @@ def _header(path: Path) -> tuple[dict[str, Any], int]:
             raise FormatError(str(path), "a newer or no NRRD version", "NRRD0001 to NRRD0005") from None
         found = "a field of the header that cannot be read"
         raise FormatError(str(path), found, "numbers as NRRD writes them") from None
-    return dict(parsed), end
+    return dict(parsed), end, content
 
 
 def _lines(path: Path, head: bytes) -> tuple[list[bytes], int]:

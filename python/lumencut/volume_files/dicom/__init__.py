@@ -19,9 +19,10 @@ from lumencut.volume_files.dicom.headers import is_dicom
 from lumencut.volume_files.dicom.judging import Wanted, described, judged
 from lumencut.volume_files.dicom.segmentation import open_segmentation, wanted_segmentation
 from lumencut.volume_files.dicom.sources import is_zip
-from lumencut.volume_files.dicom.study import study_of
+from lumencut.volume_files.dicom.study import comments_of, study_of
 from lumencut.volume_files.dicom.values import load, settled_type
 from lumencut.volume_files.opened import Filled, Progress, VolumeFile, refusing
+from lumencut.volume_files.straightened_notes import note_sides
 
 __all__ = ["Wanted", "is_dicom", "is_zip", "list_dicom_series", "open_dicom", "opened"]
 
@@ -34,6 +35,7 @@ def open_dicom(path: Path, wanted: Wanted, progress: Progress) -> VolumeFile:
 def opened(path: Path, wanted: Wanted, read: Callable[[list[str]], Sequence[File]]) -> VolumeFile:
     """Make one volume of the files that `read` gives, which takes the notes; `path` names them."""
     notes: list[str] = []
+    remarks: list[str] = []
     with refusing(path, "DICOM", notes):
         files = read(notes)
         segmentation = wanted_segmentation(path, files, wanted)
@@ -45,13 +47,14 @@ def opened(path: Path, wanted: Wanted, read: Callable[[list[str]], Sequence[File
             )
         series = judged(path, files, wanted, notes)
     stack, space = series.stack, "LPS (as every DICOM)"
+    note_sides(comments_of(stack.slices[0].image), notes, remarks)
 
     def voxels(progress: Progress, filled: Filled) -> npt.NDArray[Any]:
         return load(stack, notes, progress, filled)
 
     return VolumeFile(
         path, "DICOM", stack.size, series.stored, space, stack.world_from_index, voxels, notes,
-        filled=stack.missing, details=series.details, scan=series.scan,
+        remarks=remarks, filled=stack.missing, details=series.details, scan=series.scan,
         frame_of_reference=str(stack.slices[0].image.header.get("FrameOfReferenceUID") or ""),
         study=study_of([one.image for one in stack.slices]), settled_type=settled_type(stack),
     )  # fmt: skip

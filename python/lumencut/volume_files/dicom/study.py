@@ -15,6 +15,7 @@ from lumencut.volume_files.dicom.headers import Image
 from lumencut.volume_files.opened import refusing
 
 _EXPECTED = "a DICOM folder, file or zip archive"
+_IMAGE_COMMENTS = 0x00204000
 
 
 def study_of(images: Sequence[Image]) -> Study:
@@ -36,6 +37,14 @@ def study_of(images: Sequence[Image]) -> Study:
         studies[study] = None
     instances = tuple((kind, uid) for uid, kind in seen.items() if uid and kind)
     return Study(header, instances, len(studies))
+
+
+def comments_of(image: Image) -> str:
+    """Return the comments of an image, which may name a patient; empty where they cannot be read."""
+    try:
+        return str(image.source.attributes([_IMAGE_COMMENTS]).get("ImageComments") or "")
+    except Exception:  # what pydicom raises for damaged values is nearly everything
+        return ""
 
 
 def study_below(path: str | os.PathLike[str]) -> Study:

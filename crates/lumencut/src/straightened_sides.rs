@@ -1,0 +1,121 @@
+//! The sides of the patient that a straightened volume states: the axes nearest to its true frame at the middle of the vessel.
+
+use glam::DVec3;
+use lumencut_core::math::frames::MovingFrame;
+use lumencut_core::reformations::cpr::Straightened;
+
+use crate::letters::{PREFERRED, nearest_axes, sides};
+
+/// Readers are warned where a true axis turns farther than this from its stated side (degrees).
+const MOST_TURN: f64 = 45.0;
+
+/// The letters of sides with the words for them.
+const SIDES: [(char, &str); 6] =
+    [('R', "right"), ('L', "left"), ('A', "front"), ('P', "back"), ('I', "feet"), ('S', "head")];
+
+/// What stands before the letters, and after the angle, of [`StraightenedSides::mark`].
+const MARK: [&str; 2] = ["Lumencut straightened vessel; sides ", " deg off"];
+
+/// What stands between them where the scan does not state its orientation, and where it does.
+const BETWEEN: [&str; 2] = [" if the scan is LPS; up to ", " at its middle; up to "];
+
+/// The sides that the axes of a straightened volume state.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StraightenedSides {
+    /// The sides that i (across the section), j (into the picture) and k (along the vessel) run to, as letters.
+    letters: String,
+    /// How far a true axis turns from its stated side anywhere along the vessel (tenths of a degree).
+    turn: u32,
+    /// Whether the scan states its orientation.
+    is_stated: bool,
+}
+
+impl StraightenedSides {
+    /// The signed axes of the patient nearest to the frame at the middle of the vessel, with the handedness of the frame. Along
+    /// the vessel the frame is compared with them every `step` mm.
+    pub fn of(space: &Straightened, step: f64, is_stated: bool) -> Self {
+        let stated = nearest_axes(axes(space.frame(space.length() / 2.0)));
+        let sections = (space.length() / step).floor() as usize;
+        let places = (0..=sections).map(|n| n as f64 * step).chain([space.length()]);
+        let least = places.flat_map(|at| cosines(axes(space.frame(at)), stated)).fold(1.0_f64, f64::min);
+        let turn = (least.clamp(-1.0, 1.0).acos().to_degrees() * 10.0).round() as u32;
+        Self { letters: stated.map(sides).concat(), turn, is_stated }
+    }
+
+    /// What [`StraightenedSides::mark`] says, where a text begins with it.
+    pub fn read(text: &str) -> Option<Self> {
+        let rest = text.trim_start().strip_prefix(MARK[0])?;
+        let (is_stated, between) =
+            [false, true].into_iter().zip(BETWEEN).find(|(_, words)| rest.contains(words))?;
+        let (letters, rest) = rest.split_once(between)?;
+        let turn: f64 = rest.split_once(MARK[1])?.0.parse().ok()?;
+        let is_sound = letters.chars().count() == 3
+            && letters.chars().all(|letter| word(letter).is_some())
+            && (0.0..=180.0).contains(&turn);
+        is_sound.then(|| Self { letters: letters.to_owned(), turn: (turn * 10.0).round() as u32, is_stated })
+    }
+
+    /// The sides as letters, such as `LPI`.
+    pub fn letters(&self) -> &str {
+        &self.letters
+    }
+
+    /// The directions (LPS) that the sides stand for.
+    pub fn axes(&self) -> [DVec3; 3] {
+        let axis = |letter: char| PREFERRED.into_iter().find(|axis| sides(*axis).starts_with(letter));
+        let mut letters = self.letters.chars();
+        [(); 3].map(|()| letters.next().and_then(axis).unwrap_or_default())
+    }
+
+    /// A short text that files carry; at most 79 letters of ASCII.
+    pub fn mark(&self) -> String {
+        let ([before, after], between) = (MARK, BETWEEN[usize::from(self.is_stated)]);
+        format!("{before}{}{between}{:.1}{after}", self.letters, self.degrees())
+    }
+
+    /// What a reader of the volume must know of its sides; nothing where they are true enough along the whole vessel.
+    pub fn notes(&self) -> Vec<String> {
+        let mut notes = Vec::new();
+        if !self.is_stated {
+            let words =
+                "the scan states no orientation: sides of the straightened vessel are those of a scan in LPS";
+            notes.push(words.to_owned());
+        }
+        let along = self.letters.chars().nth(2).unwrap_or_default();
+        if !matches!(along, 'I' | 'S') {
+            let side = word(along).unwrap_or_default();
+            notes.push(format!(
+                "the vessel runs across the body at its middle: its sections follow each other to the patient's {side}"
+            ));
+        }
+        if self.degrees() > MOST_TURN {
+            let off = self.degrees();
+            notes.push(format!(
+                "sides of the straightened vessel are true at its middle; along the vessel they are up to {off:.1}° off"
+            ));
+        }
+        notes
+    }
+
+    fn degrees(&self) -> f64 {
+        f64::from(self.turn) / 10.0
+    }
+}
+
+/// The directions of i, j and k.
+fn axes(frame: MovingFrame) -> [DVec3; 3] {
+    [frame.across, frame.ahead, frame.tangent]
+}
+
+fn cosines(one: [DVec3; 3], other: [DVec3; 3]) -> [f64; 3] {
+    [0, 1, 2].map(|axis| one[axis].dot(other[axis]))
+}
+
+/// The word for a side.
+fn word(letter: char) -> Option<&'static str> {
+    SIDES.iter().find(|(known, _)| *known == letter).map(|(_, word)| *word)
+}
+
+#[cfg(test)]
+#[path = "tests/straightened_sides.rs"]
+mod tests;
