@@ -19,6 +19,8 @@ pub struct Line {
     pub name: Option<String>,
     /// How sure each point is, 0 to 1, where the line was traced; it is written and not read.
     pub confidence: Option<Vec<f64>>,
+    /// The number of the list of points that was parted into this line and others at its long steps.
+    pub list: Option<usize>,
 }
 
 /// The lines of one file.

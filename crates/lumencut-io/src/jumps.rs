@@ -16,9 +16,9 @@ impl Centerlines {
         let count = self.lines.len();
         let lines = std::mem::take(&mut self.lines);
         let mut kept = 0;
-        for line in lines {
+        for (list, line) in lines.into_iter().enumerate() {
             let ends = ends_at_jumps(&line, &mut kept);
-            self.lines.extend(parted(line, ends));
+            self.lines.extend(parted(line, list, ends));
         }
         let parts = self.lines.len();
         let kind = format!("steps more than {JUMP} times as long as the usual one");
@@ -56,7 +56,7 @@ fn ends_at_jumps(line: &Line, kept: &mut usize) -> Vec<usize> {
     jumps.into_iter().map(|i| moved[i] + 1).chain(whole).collect()
 }
 
-fn parted(line: Line, ends: Vec<usize>) -> Vec<Line> {
+fn parted(line: Line, list: usize, ends: Vec<usize>) -> Vec<Line> {
     if ends.len() == 1 {
         return vec![line];
     }
@@ -69,6 +69,7 @@ fn parted(line: Line, ends: Vec<usize>) -> Vec<Line> {
             radius: line.radius.as_ref().map(|radius| radius[range].to_vec()),
             group: line.group,
             name: line.name.clone(),
+            list: Some(list),
             ..Line::default()
         }
     };

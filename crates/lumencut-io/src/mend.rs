@@ -15,11 +15,13 @@ pub enum Mend {
     Unit(Vec<Unit>),
     /// State space and unit of the coordinates, which fit the volume in none.
     Place,
+    /// Put the points of each line into their order along the vessel.
+    Reorder,
 }
 
 impl Mend {
     /// The name of every mend of this crate.
-    pub const NAMES: [&str; 3] = ["coordinates", "unit", "place"];
+    pub const NAMES: [&str; 4] = ["coordinates", "unit", "place", "reorder"];
 
     /// The name by which every host knows it.
     #[must_use]
@@ -28,6 +30,7 @@ impl Mend {
             Self::Coordinates => "coordinates",
             Self::Unit(_) => "unit",
             Self::Place => "place",
+            Self::Reorder => "reorder",
         }
     }
 
@@ -37,6 +40,7 @@ impl Mend {
         match self {
             Self::Coordinates | Self::Place => Space::ALL.map(Space::name).to_vec(),
             Self::Unit(units) => units.iter().map(|unit| unit.name()).collect(),
+            Self::Reorder => Vec::new(),
         }
     }
 }
@@ -50,6 +54,7 @@ impl fmt::Display for Mend {
             Self::Place => {
                 write!(f, "state the space, {values}, and the unit if the file belongs to this volume")
             }
+            Self::Reorder => f.write_str("put the points in order along the vessel"),
         }
     }
 }
@@ -60,9 +65,10 @@ mod tests {
 
     #[test]
     fn every_mend_has_its_name_and_its_choice() {
-        let all = [Mend::Coordinates, Mend::Unit(vec![Unit::Centimetre, Unit::Metre]), Mend::Place];
+        let all =
+            [Mend::Coordinates, Mend::Unit(vec![Unit::Centimetre, Unit::Metre]), Mend::Place, Mend::Reorder];
         assert_eq!(all.each_ref().map(Mend::name), Mend::NAMES);
-        let values = [vec!["lps", "ras"], vec!["cm", "m"], vec!["lps", "ras"]];
+        let values = [vec!["lps", "ras"], vec!["cm", "m"], vec!["lps", "ras"], vec![]];
         assert_eq!(all.each_ref().map(Mend::values), values);
     }
 

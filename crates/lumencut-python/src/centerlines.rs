@@ -1,11 +1,14 @@
 //! Centerline files for `lumencut.centerlines`.
 
 use lumencut::centerlines::{Centerlines, Error, Line, Space, Unit, junctions};
+use lumencut::line_doubts::{DoubtedLine, LineDoubt, beside_doubts_of, order_doubts_of};
 use lumencut::mends::Mend;
+use lumencut::reordering::{in_order, parted_doubt};
 use numpy::{PyArray1, PyArray2, ndarray::Array2};
 use pyo3::prelude::*;
 
-use crate::errors::mended;
+use crate::errors::{advised, mended};
+use crate::tree::{VesselArrays, points_of};
 
 type Vessel<'py> = (Bound<'py, PyArray2<f64>>, Option<Bound<'py, PyArray1<f64>>>, Option<String>);
 
@@ -49,14 +52,65 @@ impl CenterlineFile {
         self.lines.conventional_unit.unwrap_or(Unit::Millimetre).name()
     }
 
+    /// What is doubtful where a list of points was parted into lines.
+    fn parted_doubts<'py>(&self, py: Python<'py>) -> PyResult<Vec<Doubt<'py>>> {
+        told(py, py.detach(|| parted_doubt(&self.lines)).into_iter().collect())
+    }
+
     /// `(vessels, notes)`: the vessels that the lines form, each `(points (n, 3), radius (n,) or None, name or
-    /// None)`, in mm in the file's space, where one unit of the file is `mm_per_unit`.
-    fn vessels<'py>(&self, py: Python<'py>, mm_per_unit: f64) -> PyResult<(Vec<Vessel<'py>>, Vec<String>)> {
+    /// None)`, in mm in the file's space, where one unit of the file is `mm_per_unit`. With `reorder` the points of each line
+    /// are put into their order first.
+    fn vessels<'py>(
+        &self,
+        py: Python<'py>,
+        mm_per_unit: f64,
+        reorder: bool,
+    ) -> PyResult<(Vec<Vessel<'py>>, Vec<String>)> {
         let lines = self.lines.clone();
-        let placed = py.detach(|| lines.scaled(mm_per_unit).map(junctions::vessels));
+        let ordered = |lines| if reorder { in_order(lines) } else { Ok(lines) };
+        let placed = py.detach(|| lines.scaled(mm_per_unit).and_then(ordered).map(junctions::vessels));
         let placed = placed.map_err(|error| raised(error.in_file(&self.name)))?;
         Ok((placed.lines.into_iter().map(|line| vessel(py, line)).collect(), placed.notes))
     }
+}
+
+/// What is doubtful about a line: the number of its vessel, a word for programs, what was found, and what mends it.
+type Doubt<'py> = (usize, &'static str, String, Bound<'py, PyAny>);
+
+fn told<'py>(py: Python<'py>, doubts: Vec<LineDoubt>) -> PyResult<Vec<Doubt<'py>>> {
+    let told = |doubt: LineDoubt| {
+        let advice = if doubt.mend.is_some() { "" } else { doubt.advice };
+        Ok((doubt.vessel, doubt.kind, doubt.found, advised(py, advice, doubt.mend.as_ref())?))
+    };
+    doubts.into_iter().map(told).collect()
+}
+
+/// A vessel by its points (n, 3) and radii (n,), and its name.
+type NamedVessel<'py> = (VesselArrays<'py>, Option<String>);
+
+/// What is doubtful about vessels: the order of the points of each, and with `beside` also those that lie side by side.
+#[pyfunction]
+#[allow(clippy::needless_pass_by_value)]
+pub fn line_doubts<'py>(
+    py: Python<'py>,
+    vessels: Vec<NamedVessel<'py>>,
+    beside: bool,
+) -> PyResult<Vec<Doubt<'py>>> {
+    let mut owned = Vec::with_capacity(vessels.len());
+    for ((points, radius), name) in &vessels {
+        let radius = radius.as_ref().map(|radius| radius.as_array().to_vec());
+        owned.push((points_of(points)?, radius, name.clone().unwrap_or_default()));
+    }
+    let doubts = py.detach(|| {
+        let lines: Vec<DoubtedLine> = owned
+            .iter()
+            .map(|(points, radius, name)| DoubtedLine { points, radius: radius.as_deref(), name })
+            .collect();
+        let mut doubts = order_doubts_of(&lines);
+        doubts.extend(if beside { beside_doubts_of(&lines) } else { Vec::new() });
+        doubts
+    });
+    told(py, doubts)
 }
 
 /// The exception that stands for an error of a file.

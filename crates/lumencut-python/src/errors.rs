@@ -41,9 +41,14 @@ fn made<'py>(
     [subject, found, expected, advice]: [&str; 4],
     mended_by: Option<&Mend>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let mends: Vec<_> = mended_by.iter().map(|mend| (mend.name(), mend.values())).collect();
-    let mend = py.import("lumencut.mends")?.getattr("told")?.call1((advice, mends))?;
+    let mend = advised(py, advice, mended_by)?;
     py.import("lumencut.errors")?.getattr(class)?.call1((subject, found, expected, mend))
+}
+
+/// Advice and a mend as a text that hosts can word.
+pub fn advised<'py>(py: Python<'py>, advice: &str, mended_by: Option<&Mend>) -> PyResult<Bound<'py, PyAny>> {
+    let mends: Vec<_> = mended_by.iter().map(|mend| (mend.name(), mend.values())).collect();
+    py.import("lumencut.mends")?.getattr("told")?.call1((advice, mends))
 }
 
 /// Adds the names of all mends.

@@ -40,5 +40,5 @@ pub fn write_centerlines<'py>(
 fn line((points, radius, name, confidence): NamedVessel) -> PyResult<Line> {
     let points = points_of(&points)?;
     let [radius, confidence] = [radius, confidence].map(|numbers| numbers.map(|n| n.as_array().to_vec()));
-    Ok(Line { points, radius, group: None, name, confidence })
+    Ok(Line { points, radius, name, confidence, ..Line::default() })
 }

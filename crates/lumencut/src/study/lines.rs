@@ -77,9 +77,9 @@ impl Line {
         centerlines::Line {
             points: self.points.clone(),
             radius: self.known_radius(),
-            group: None,
             name: (!name.is_empty()).then(|| name.to_owned()),
             confidence: self.confidence.clone(),
+            ..centerlines::Line::default()
         }
     }
 

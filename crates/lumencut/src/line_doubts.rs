@@ -1,0 +1,150 @@
+//! What is doubtful about centerlines, whoever made them: points in another order than along the vessel, points far from all
+//! others, missing parts, and two lines of one vessel.
+//!
+//! Lines in order give no doubt, however tortuous they are, where their points are nearer to their neighbours than to other
+//! stretches.
+
+use glam::DVec3;
+
+use crate::mends::{Mend, OfCenterlines};
+use crate::text::{fixed, rounded};
+
+mod nearby;
+mod order;
+mod shortest_tree;
+mod side_by_side;
+
+pub(crate) use order::found_order;
+use order::{Disorder, LongStep, OrderDoubt, order_doubts};
+use side_by_side::side_by_side;
+
+/// A vessel that is looked at.
+#[derive(Clone, Copy, Debug)]
+pub struct DoubtedLine<'a> {
+    /// Its points (mm).
+    pub points: &'a [DVec3],
+    /// The radius at each (mm), where known.
+    pub radius: Option<&'a [f64]>,
+    /// Its name; empty where it has none.
+    pub name: &'a str,
+}
+
+/// Something doubtful about a vessel.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LineDoubt {
+    /// The number of the vessel among those that were looked at.
+    pub vessel: usize,
+    /// What it is, in a word for programs: `order`, `gap`, `far` or `beside`.
+    pub kind: &'static str,
+    /// What was found and what it may mean, in words.
+    pub found: String,
+    /// What a reader can do, in words.
+    pub advice: &'static str,
+    /// What a host can do instead.
+    pub mend: Option<Mend>,
+}
+
+impl LineDoubt {
+    /// What was found and what to do, in one sentence that names no options.
+    pub fn words(&self) -> String {
+        format!("{}; {}", self.found, self.advice)
+    }
+}
+
+/// What is doubtful about each vessel by itself, in their order.
+pub fn order_doubts_of(lines: &[DoubtedLine]) -> Vec<LineDoubt> {
+    let mut found = Vec::new();
+    for (vessel, line) in lines.iter().enumerate() {
+        let doubts = order_doubts(line.points);
+        found.extend(doubts.iter().map(|doubt| order_doubt(vessel, doubt, line)));
+    }
+    found
+}
+
+/// The vessels that lie side by side as two lines of one vessel.
+pub fn beside_doubts_of(lines: &[DoubtedLine]) -> Vec<LineDoubt> {
+    let told = |(first, second, length): (usize, usize, f64)| {
+        let names = [first, second].map(|vessel| called(vessel, &lines[vessel]));
+        let found = format!(
+            "{} and {} lie side by side over {} mm: perhaps two lines of one vessel",
+            names[0],
+            names[1].strip_prefix("vessel ").unwrap_or(&names[1]),
+            length.round()
+        );
+        LineDoubt {
+            vessel: first,
+            kind: "beside",
+            found: found.replacen("vessel ", "vessels ", 1),
+            advice: "leave one of them out",
+            mend: None,
+        }
+    };
+    side_by_side(lines).into_iter().map(told).collect()
+}
+
+/// How a vessel is called in words.
+fn called(vessel: usize, line: &DoubtedLine) -> String {
+    if line.name.is_empty() { format!("vessel {vessel}") } else { format!("vessel {vessel} ({})", line.name) }
+}
+
+fn order_doubt(vessel: usize, doubt: &OrderDoubt, line: &DoubtedLine) -> LineDoubt {
+    let called = &called(vessel, line);
+    let (kind, found, advice, mend) = match doubt {
+        OrderDoubt::Disorder(disorder) => {
+            let mend = disorder.is_found.then(|| OfCenterlines::Reorder.into());
+            ("order", disordered(called, disorder), "sort its points along the vessel", mend)
+        }
+        OrderDoubt::Gap(step) => {
+            let found = format!("{called}: a gap of {}: perhaps a part is missing", long(step));
+            ("gap", found, "look whether it is one vessel", None)
+        }
+        OrderDoubt::Stray(points, distance) => {
+            let advice = "remove what does not belong to the vessel";
+            ("far", strayed(called, points, *distance, line), advice, None)
+        }
+    };
+    LineDoubt { vessel, kind, found, advice, mend }
+}
+
+fn disordered(called: &str, disorder: &Disorder) -> String {
+    let [length, short] = disorder.lengths.map(mm);
+    let is_too_long = disorder.lengths[0] > 2.0 * disorder.lengths[1];
+    match &disorder.step {
+        Some(step) if !is_too_long => {
+            format!("{called}: a step of {}: perhaps its points are in another order", long(step))
+        }
+        _ => format!(
+            "{called} is {length} mm long, a path through its points {short} mm: perhaps they are in another order"
+        ),
+    }
+}
+
+/// A long step in words.
+fn long(step: &LongStep) -> String {
+    let times = (step.length / step.usual).round();
+    format!("{} mm after point {}, {times} times the usual one", mm(step.length), step.after)
+}
+
+/// A length with one digit behind the point, and a short one with three digits.
+fn mm(length: f64) -> String {
+    if length < 10.0 { rounded(length, 3) } else { fixed(length, 1) }
+}
+
+fn strayed(called: &str, points: &[usize], distance: f64, line: &DoubtedLine) -> String {
+    let distance = mm(distance);
+    if let [one] = points {
+        let place = line.points[*one].to_array().map(|x| rounded(x, 4)).join(", ");
+        return format!("{called}: point {one} at ({place}) lies far from all others, {distance} mm");
+    }
+    let few: Vec<String> = points.iter().take(5).map(usize::to_string).collect();
+    let more = if points.len() > few.len() { ", …" } else { "" };
+    let numbers = few.join(", ");
+    format!(
+        "{called}: {} points ({numbers}{more}) lie far from all others, {distance} mm or more",
+        points.len()
+    )
+}
+
+#[cfg(test)]
+#[path = "tests/line_doubts.rs"]
+mod tests;

@@ -1,0 +1,130 @@
+//! The points of a line in a tree of boxes, which answers which of them lie near a place.
+
+use glam::DVec3;
+
+/// Boxes of this many points are not divided again.
+const LEAF: usize = 8;
+
+/// A box around points: the rows `from..to` of the order of the tree.
+struct Node {
+    low: DVec3,
+    high: DVec3,
+    from: usize,
+    to: usize,
+    /// The numbers of the boxes that it is divided into; the first one is the next box.
+    second: Option<usize>,
+}
+
+/// Points and the boxes around them; a box stands before those that it is divided into.
+pub(super) struct Nearby<'a> {
+    points: &'a [DVec3],
+    order: Vec<usize>,
+    nodes: Vec<Node>,
+}
+
+impl<'a> Nearby<'a> {
+    /// Divides points into boxes of equal counts.
+    pub fn new(points: &'a [DVec3]) -> Self {
+        let mut nearby = Self { points, order: (0..points.len()).collect(), nodes: Vec::new() };
+        if !points.is_empty() {
+            nearby.divide(0, points.len());
+        }
+        nearby
+    }
+
+    fn divide(&mut self, from: usize, to: usize) {
+        let points = self.points;
+        let part = &mut self.order[from..to];
+        let (low, high) = part
+            .iter()
+            .fold((DVec3::MAX, DVec3::MIN), |(low, high), n| (low.min(points[*n]), high.max(points[*n])));
+        let number = self.nodes.len();
+        self.nodes.push(Node { low, high, from, to, second: None });
+        if to - from <= LEAF {
+            return;
+        }
+        let sides = (high - low).to_array();
+        let axis = (0..3).fold(0, |widest, axis| if sides[axis] > sides[widest] { axis } else { widest });
+        let middle = part.len() / 2;
+        part.select_nth_unstable_by(middle, |a, b| points[*a][axis].total_cmp(&points[*b][axis]));
+        self.divide(from, from + middle);
+        self.nodes[number].second = Some(self.nodes.len());
+        self.divide(from + middle, to);
+    }
+
+    /// Calls `hear` with the number of every point at most `reach` from a place, until it returns false.
+    pub fn within(&self, place: DVec3, reach: f64, mut hear: impl FnMut(usize) -> bool) {
+        let mut open: Vec<usize> = if self.nodes.is_empty() { Vec::new() } else { vec![0] };
+        while let Some(number) = open.pop() {
+            let node = &self.nodes[number];
+            if node.distance(place) > reach {
+                continue;
+            }
+            if let Some(second) = node.second {
+                open.extend([second, number + 1]);
+                continue;
+            }
+            for n in &self.order[node.from..node.to] {
+                if self.points[*n].distance(place) <= reach && !hear(*n) {
+                    return;
+                }
+            }
+        }
+    }
+
+    /// For each box the piece that all its points belong to, where there is one.
+    pub fn pieces_of_boxes(&self, piece: &[usize]) -> Vec<Option<usize>> {
+        let mut found = vec![None; self.nodes.len()];
+        for (number, node) in self.nodes.iter().enumerate().rev() {
+            found[number] = match node.second {
+                Some(second) => found[number + 1].filter(|one| found[second] == Some(*one)),
+                None => {
+                    let own = &self.order[node.from..node.to];
+                    let first = piece[own[0]];
+                    own.iter().all(|n| piece[*n] == first).then_some(first)
+                }
+            };
+        }
+        found
+    }
+
+    /// The nearest point of another piece than that of point `n`, nearer than `bound`, and its distance.
+    pub fn nearest_of_others(
+        &self,
+        n: usize,
+        piece: &[usize],
+        boxes: &[Option<usize>],
+        bound: f64,
+    ) -> Option<(f64, usize)> {
+        let (place, own) = (self.points[n], piece[n]);
+        let (mut best, mut found) = (bound, None);
+        let mut open = vec![0];
+        while let Some(number) = open.pop() {
+            let node = &self.nodes[number];
+            if boxes[number] == Some(own) || node.distance(place) > best {
+                continue;
+            }
+            if let Some(second) = node.second {
+                let halves = [number + 1, second];
+                let is_first_nearer =
+                    self.nodes[halves[0]].distance(place) <= self.nodes[halves[1]].distance(place);
+                open.extend(if is_first_nearer { [halves[1], halves[0]] } else { halves });
+                continue;
+            }
+            for other in self.order[node.from..node.to].iter().copied().filter(|m| piece[*m] != own) {
+                let distance = self.points[other].distance(place);
+                // Of points at the same distance the first one counts: so the tree has no circle.
+                if distance < best || (distance == best && found.is_none_or(|(_, before)| other < before)) {
+                    (best, found) = (distance, Some((distance, other)));
+                }
+            }
+        }
+        found
+    }
+}
+
+impl Node {
+    fn distance(&self, place: DVec3) -> f64 {
+        place.distance(place.clamp(self.low, self.high))
+    }
+}

@@ -1,0 +1,250 @@
+//! The order of a line's points: whether the given one is doubtful, and the one that is found without doubt.
+
+use glam::DVec3;
+use lumencut_core::math::statistics::{median, quantile};
+
+use super::nearby::Nearby;
+use super::shortest_tree::ShortestTree;
+
+/// A step is long that is so many times as long as the usual one.
+pub(super) const LONG_STEP: f64 = 20.0;
+/// A step is long only beyond this part of the extent of the line.
+const LONG_PART: f64 = 0.05;
+/// A line is too long that is so many times as long as a short path through its points.
+const TOO_LONG: f64 = 2.0;
+/// Beside an order that is found without doubt a line is too long already by this factor.
+const LONGER_THAN_FOUND: f64 = 1.2;
+/// Steps are regular where the longest is at most so many times the usual one, and long ones so many times short ones.
+const REGULAR: f64 = 3.0;
+/// A point away from both its neighbours, so many times the usual step, stands out of the line.
+const SPIKE: f64 = 5.0;
+/// In an order without doubt no step is so many times as long as the usual one.
+const LONGEST_FOUND: f64 = 5.0;
+/// Points of another stretch of the line make an order doubtful up to this distance, in longest steps.
+const CLEARANCE: f64 = 1.5;
+/// A stretch is another one where the way to it is so many times as long as the straight distance.
+const OTHER_STRETCH: f64 = 4.0;
+/// Where so many points are near one, no order is without doubt.
+const MOST_NEAR: usize = 256;
+/// Lines of fewer points do not tell what step is usual.
+const FEWEST_POINTS: usize = 5;
+/// Of fewer points none stands out.
+const FEWEST_WITH_SPIKE: usize = 8;
+
+/// What is doubtful about the order of a line.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum OrderDoubt {
+    /// The points seem to stand in another order than along the vessel.
+    Disorder(Disorder),
+    /// A part seems to be missing at a long step.
+    Gap(LongStep),
+    /// Points far from all others, and the distance of the nearest of them.
+    Stray(Vec<usize>, f64),
+}
+
+/// What speaks against the order of a line.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Disorder {
+    /// The longest step, where it is too long.
+    pub step: Option<LongStep>,
+    /// The length of the line and of a short path through its points.
+    pub lengths: [f64; 2],
+    /// Whether an order is found without doubt.
+    pub is_found: bool,
+}
+
+/// A step that is far longer than others.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct LongStep {
+    /// The point before it.
+    pub after: usize,
+    /// Its length.
+    pub length: f64,
+    /// The length of the usual step.
+    pub usual: f64,
+}
+
+/// What is doubtful about the order of points; nothing of a line in order.
+pub(super) fn order_doubts(points: &[DVec3]) -> Vec<OrderDoubt> {
+    if points.len() < FEWEST_POINTS || is_regular(points) {
+        return Vec::new();
+    }
+    let nearby = Nearby::new(points);
+    let tree = ShortestTree::new(points, &nearby);
+    let (strays, distance) = strays(points, &tree, &nearby);
+    if strays.is_empty() {
+        return disorder(points, &tree, &nearby).into_iter().collect();
+    }
+    let kept: Vec<usize> = (0..points.len()).filter(|n| strays.binary_search(n).is_err()).collect();
+    let rest: Vec<DVec3> = kept.iter().map(|n| points[*n]).collect();
+    let of_rest = order_doubts(&rest).into_iter().map(|doubt| doubt.among(&kept));
+    std::iter::once(OrderDoubt::Stray(strays, distance)).chain(of_rest).collect()
+}
+
+impl OrderDoubt {
+    /// The same for a line of which only the `kept` points were looked at.
+    fn among(self, kept: &[usize]) -> Self {
+        let moved = |step: LongStep| LongStep { after: kept[step.after], ..step };
+        match self {
+            Self::Disorder(found) => {
+                Self::Disorder(Disorder { step: found.step.map(moved), is_found: false, ..found })
+            }
+            Self::Gap(step) => Self::Gap(moved(step)),
+            Self::Stray(points, distance) => {
+                Self::Stray(points.into_iter().map(|n| kept[n]).collect(), distance)
+            }
+        }
+    }
+}
+
+/// The numbers of the points in the order along the vessel, where it is without doubt: the shortest path through them, with
+/// steps that are alike, on which every point is nearest to its neighbours, seen from either end.
+pub(crate) fn found_order(points: &[DVec3]) -> Option<Vec<usize>> {
+    if points.len() < FEWEST_POINTS {
+        return None;
+    }
+    let nearby = Nearby::new(points);
+    found(points, &ShortestTree::new(points, &nearby), &nearby)
+}
+
+fn found(points: &[DVec3], tree: &ShortestTree, nearby: &Nearby) -> Option<Vec<usize>> {
+    if !tree.is_path() {
+        return None;
+    }
+    let order = tree.path();
+    let mut steps: Vec<f64> =
+        order.windows(2).map(|pair| points[pair[0]].distance(points[pair[1]])).collect();
+    let along: Vec<f64> = std::iter::once(0.0)
+        .chain(steps.iter().scan(0.0, |sum, step| {
+            *sum += step;
+            Some(*sum)
+        }))
+        .collect();
+    let mut rank = vec![0; points.len()];
+    order.iter().enumerate().for_each(|(place, n)| rank[*n] = place);
+    let longest = steps.iter().copied().fold(0.0, f64::max);
+    let reach = CLEARANCE * longest;
+    let is_clear =
+        (0..order.len()).all(|at| is_clear((points, nearby), (&order, &rank), &along, (at, reach)));
+    let is_even = median(&mut steps).is_some_and(|usual| longest <= LONGEST_FOUND * usual);
+    (is_clear && is_even).then_some(order)
+}
+
+/// Whether the neighbours of a point in an order are the nearest points on either side, and no other stretch is near.
+fn is_clear(
+    (points, nearby): (&[DVec3], &Nearby),
+    (order, rank): (&[usize], &[usize]),
+    along: &[f64],
+    (at, reach): (usize, f64),
+) -> bool {
+    let place = points[order[at]];
+    let step = |to: Option<usize>| to.and_then(|to| order.get(to)).map(|n| place.distance(points[*n]));
+    let (before, after) = (step(at.checked_sub(1)), step(Some(at + 1)));
+    let (mut is_clear, mut count) = (true, 0);
+    nearby.within(place, reach, |n| {
+        let (other, distance) = (rank[n], place.distance(points[n]));
+        let nearest = if other < at { before } else { after };
+        let is_next = other.abs_diff(at) <= 1;
+        let is_same_stretch = (along[other] - along[at]).abs() <= OTHER_STRETCH * distance;
+        count += 1;
+        is_clear = is_next || (is_same_stretch && nearest.is_none_or(|step| distance > step));
+        is_clear &= count <= MOST_NEAR;
+        is_clear
+    });
+    is_clear
+}
+
+/// Whether the steps of a line are about alike, as no disorder leaves them.
+fn is_regular(points: &[DVec3]) -> bool {
+    let mut steps: Vec<f64> = steps(points).filter(|step| *step > 0.0).collect();
+    let longest = steps.iter().copied().fold(0.0, f64::max);
+    let parts = [0.05, 0.5, 0.95].map(|part| quantile(&mut steps, part).unwrap_or(0.0));
+    let [short, usual, long] = parts;
+    longest <= REGULAR * usual && long <= REGULAR * short
+}
+
+fn steps(points: &[DVec3]) -> impl Iterator<Item = f64> + '_ {
+    points.windows(2).map(|pair| pair[0].distance(pair[1]))
+}
+
+/// The usual distance of neighbours along the vessel, and the length beyond which a step is long.
+fn usual_and_long(points: &[DVec3], tree: &ShortestTree) -> (f64, f64) {
+    let mut edges: Vec<f64> = tree.edges.iter().map(|edge| edge.2).filter(|length| *length > 0.0).collect();
+    let usual = median(&mut edges).unwrap_or(0.0);
+    (usual, (LONG_STEP * usual).max(LONG_PART * extent(points)))
+}
+
+fn extent(points: &[DVec3]) -> f64 {
+    let corners = points.iter().fold((DVec3::MAX, DVec3::MIN), |(low, high), p| (low.min(*p), high.max(*p)));
+    corners.0.distance(corners.1)
+}
+
+/// Points far from all others, and the distance of the nearest of them.
+fn strays(points: &[DVec3], tree: &ShortestTree, nearby: &Nearby) -> (Vec<usize>, f64) {
+    let (usual, long) = usual_and_long(points, tree);
+    let piece = tree.pieces(long);
+    let mut members = vec![Vec::new(); points.len()];
+    piece.iter().enumerate().for_each(|(n, piece)| members[*piece].push(n));
+    let largest = members.iter().map(Vec::len).max().unwrap_or(0);
+    let is_few =
+        |part: &&Vec<usize>| !part.is_empty() && part.len() <= 5 && 10 * part.len() <= largest.max(10);
+    let is_run = |part: &&Vec<usize>| part.len() > 1 && part.windows(2).all(|pair| pair[1] == pair[0] + 1);
+    let few = members.iter().filter(is_few).filter(|part| !is_run(part) && part.len() < largest);
+    let mut strays: Vec<usize> = few.flatten().copied().collect();
+    let far = (SPIKE * usual).max(LONG_PART * extent(points));
+    strays.extend((0..points.len()).filter(|n| is_spike(points, nearby, [usual, far], *n)));
+    strays.sort_unstable();
+    strays.dedup();
+    if 3 * strays.len() > points.len() {
+        return (Vec::new(), 0.0);
+    }
+    let is_stray = |n: &usize| strays.binary_search(n).is_ok();
+    let leaving = tree.edges.iter().filter(|(a, b, _)| is_stray(a) != is_stray(b));
+    let distance = leaving.map(|edge| edge.2).fold(f64::INFINITY, f64::min);
+    (strays, distance)
+}
+
+/// Whether a point stands out of a line that goes on behind it as if it were not there.
+fn is_spike(points: &[DVec3], nearby: &Nearby, [usual, far]: [f64; 2], n: usize) -> bool {
+    if points.len() < FEWEST_WITH_SPIKE || n == 0 || n + 1 == points.len() {
+        return false;
+    }
+    let [before, place, after] = [points[n - 1], points[n], points[n + 1]];
+    if before.distance(place) <= far
+        || place.distance(after) <= far
+        || before.distance(after) > REGULAR * usual
+    {
+        return false;
+    }
+    let mut is_alone = true;
+    nearby.within(place, far, |other| {
+        is_alone = other == n;
+        is_alone
+    });
+    is_alone
+}
+
+/// What speaks against the order of a line without strays.
+fn disorder(points: &[DVec3], tree: &ShortestTree, nearby: &Nearby) -> Option<OrderDoubt> {
+    let (usual, long) = usual_and_long(points, tree);
+    let length: f64 = steps(points).sum();
+    let short: f64 = tree.path().windows(2).map(|pair| points[pair[0]].distance(points[pair[1]])).sum();
+    let found = found(points, tree, nearby);
+    let (after, longest) =
+        steps(points).enumerate().fold((0, 0.0), |most, step| if step.1 > most.1 { step } else { most });
+    let step = (longest > long).then_some(LongStep { after, length: longest, usual });
+    let is_too_long = length > TOO_LONG * short
+        || (found.is_some() && longest > REGULAR * usual && length > LONGER_THAN_FOUND * short);
+    if !is_too_long {
+        let step = step?;
+        let piece = tree.pieces(long);
+        let is_gap = (1..points.len())
+            .filter(|n| points[n - 1].distance(points[*n]) > long)
+            .all(|n| piece[n - 1] != piece[n]);
+        if is_gap {
+            return Some(OrderDoubt::Gap(step));
+        }
+    }
+    let disorder = Disorder { step, lengths: [length, short.min(length)], is_found: found.is_some() };
+    Some(OrderDoubt::Disorder(disorder))
+}

@@ -1,0 +1,135 @@
+//! Pairs of vessels that lie side by side in one lumen: two lines of one vessel.
+
+use std::collections::BTreeMap;
+
+use glam::DVec3;
+use lumencut_core::math::arc_length::{arc_lengths, point_at};
+
+use super::DoubtedLine;
+use super::nearby::Nearby;
+
+/// Lines nearer to each other than this (mm) are of one vessel where no radius is known.
+const NEAR: f64 = 0.5;
+/// And where it is known, nearer than this part of the smaller radius.
+const NEAR_PART: f64 = 0.5;
+/// Lines are looked at every so many mm.
+const STEP: f64 = 1.0;
+/// And at so many places at most, in all.
+const MOST_PLACES: f64 = 200_000.0;
+/// A stretch side by side is at least so long (mm) …
+const SHORTEST: f64 = 10.0;
+/// … and so many radii, as lines that meet part slowly.
+const SHORTEST_RADII: f64 = 6.0;
+
+/// A place on a vessel.
+struct Spot {
+    vessel: usize,
+    along: f64,
+    radius: Option<f64>,
+}
+
+/// Two vessels, the lower number first, and over how many mm they lie side by side.
+pub(super) fn side_by_side(lines: &[DoubtedLine]) -> Vec<(usize, usize, f64)> {
+    if lines.len() < 2 {
+        return Vec::new();
+    }
+    let (points, spots, step) = spots(lines);
+    let nearby = Nearby::new(&points);
+    // For each pair the stretch under way and the longest one: where it begins and ends, and the mean radius.
+    let mut runs: BTreeMap<(usize, usize), Runs> = BTreeMap::new();
+    for (n, spot) in spots.iter().enumerate() {
+        let mut others: Vec<(usize, f64)> = Vec::new();
+        let most = near(spot.radius, spot.radius).hypot(step);
+        nearby.within(points[n], most, |m| {
+            let other = &spots[m];
+            if other.vessel != spot.vessel {
+                let radius = smaller(spot.radius, other.radius);
+                let distance = distance_to_line(points[n], &points, &spots, m);
+                if distance <= near(spot.radius, other.radius)
+                    && !others.iter().any(|one| one.0 == other.vessel)
+                {
+                    others.push((other.vessel, radius.unwrap_or(0.0)));
+                }
+            }
+            true
+        });
+        for (other, radius) in others {
+            runs.entry((spot.vessel, other)).or_default().add(spot.along, radius, 1.5 * step);
+        }
+    }
+    let long = runs.into_iter().filter_map(|((a, b), runs)| Some((a.min(b), a.max(b), runs.longest()?)));
+    let mut pairs: BTreeMap<(usize, usize), f64> = BTreeMap::new();
+    for (a, b, length) in long {
+        let most = pairs.entry((a, b)).or_default();
+        *most = most.max(length);
+    }
+    pairs.into_iter().map(|((a, b), length)| (a, b, length)).collect()
+}
+
+/// Stretches of a vessel beside another one.
+#[derive(Default)]
+struct Runs {
+    /// Begin, end and largest radius of each.
+    found: Vec<[f64; 3]>,
+}
+
+impl Runs {
+    fn add(&mut self, along: f64, radius: f64, gap: f64) {
+        match self.found.last_mut() {
+            Some(last) if along - last[1] <= gap => *last = [last[0], along, last[2].max(radius)],
+            _ => self.found.push([along, along, radius]),
+        }
+    }
+
+    /// The length of the longest one that is long enough.
+    fn longest(&self) -> Option<f64> {
+        let lengths = self.found.iter().map(|[from, to, radius]| (to - from, radius));
+        let long = lengths.filter(|(length, radius)| *length >= SHORTEST.max(SHORTEST_RADII * **radius));
+        long.map(|(length, _)| length).max_by(f64::total_cmp)
+    }
+}
+
+/// Places along all vessels, and how far they are apart.
+fn spots(lines: &[DoubtedLine]) -> (Vec<DVec3>, Vec<Spot>, f64) {
+    let along: Vec<Vec<f64>> = lines.iter().map(|line| arc_lengths(line.points)).collect();
+    let length = |along: &Vec<f64>| along.last().copied().unwrap_or(0.0);
+    let step = STEP.max(along.iter().map(length).sum::<f64>() / MOST_PLACES);
+    let (mut points, mut spots) = (Vec::new(), Vec::new());
+    for (vessel, (line, along)) in lines.iter().zip(&along).enumerate() {
+        if line.points.is_empty() {
+            continue;
+        }
+        for n in 0..=(length(along) / step) as usize {
+            let at = n as f64 * step;
+            points.push(point_at(line.points, along, at));
+            let next = along.partition_point(|one| *one < at).min(line.points.len() - 1);
+            let radius = line.radius.and_then(|radius| radius.get(next)).copied();
+            spots.push(Spot { vessel, along: at, radius: radius.filter(|radius| *radius > 0.0) });
+        }
+    }
+    (points, spots, step)
+}
+
+/// How near lines of these radii lie in one lumen.
+fn near(one: Option<f64>, other: Option<f64>) -> f64 {
+    smaller(one, other).map_or(NEAR, |radius| NEAR.min(radius).max(NEAR_PART * radius))
+}
+
+fn smaller(one: Option<f64>, other: Option<f64>) -> Option<f64> {
+    match (one, other) {
+        (Some(one), Some(other)) => Some(one.min(other)),
+        _ => one.or(other),
+    }
+}
+
+/// The distance of a place from the line through spot `m` and those before and behind it.
+fn distance_to_line(place: DVec3, points: &[DVec3], spots: &[Spot], m: usize) -> f64 {
+    let is_same = |other: usize| spots.get(other).is_some_and(|spot| spot.vessel == spots[m].vessel);
+    let ends = [m.checked_sub(1), Some(m + 1)].into_iter().flatten().filter(|other| is_same(*other));
+    let to_segment = |other: usize| {
+        let (from, along) = (points[m], points[other] - points[m]);
+        let part = ((place - from).dot(along) / along.length_squared()).clamp(0.0, 1.0);
+        if part.is_finite() { place.distance(from + along * part) } else { place.distance(from) }
+    };
+    ends.map(to_segment).fold(place.distance(points[m]), f64::min)
+}
