@@ -11,7 +11,7 @@ use crate::unit::Unit;
 pub struct Line {
     /// The points in the file's own space and unit; at least two, finite, no two neighbours equal.
     pub points: Vec<DVec3>,
-    /// The radius at each point in the unit of the points, finite and ≥ 0, where the file has one.
+    /// The radius at each point in the unit of the points, finite and ≥ 0, where the file has one; 0 where it states none.
     pub radius: Option<Vec<f64>>,
     /// The group that a branch splitter gave this line; lines of one group run along the same vessel.
     pub group: Option<i64>,
@@ -81,14 +81,36 @@ impl Centerlines {
         }
     }
 
+    /// Takes radii that are NaN as unknown, and notes how many: a line without any radius has none, and 0 stands for single ones.
+    fn without_nan_radii(mut self) -> Self {
+        let (mut unknown, mut all) = (0, 0);
+        for line in &mut self.lines {
+            let nan = line.radius.iter().flatten().filter(|radius| radius.is_nan()).count();
+            line.radius = line.radius.take().filter(|radius| nan < radius.len());
+            let Some(radius) = &mut line.radius else { continue };
+            all += radius.len();
+            unknown += nan;
+            radius.iter_mut().filter(|radius| radius.is_nan()).for_each(|radius| *radius = 0.0);
+        }
+        if unknown > 0 {
+            self.notes.push(format!("{unknown} of {all} radii are not stated: unknown there"));
+        }
+        self
+    }
+
     /// Takes radii that are 0 everywhere as missing, as programs write them that know none, and notes it.
-    pub(crate) fn without_zero_radii(mut self) -> Self {
+    pub(crate) fn without_zero_radii(self) -> Self {
+        let mut zero = self.without_nan_radii();
+        zero.drop_zero_radii();
+        zero
+    }
+
+    fn drop_zero_radii(&mut self) {
         let mut radii = self.lines.iter().filter_map(|line| line.radius.as_ref()).flatten().peekable();
         if radii.peek().is_some() && radii.all(|radius| *radius == 0.0) {
             self.lines.iter_mut().for_each(|line| line.radius = None);
             self.notes.push("every radius is 0: taken as missing".into());
         }
-        self
     }
 
     /// Notes what numbers that nothing names may be instead: indices of voxels, or a fourth column that is no
@@ -114,7 +136,7 @@ impl Centerlines {
     /// For points or radii that are no places and sizes, and where no line is left.
     pub(crate) fn tidy(self) -> Result<Self> {
         let limit = Limit::of(self.unit);
-        let mut out = self.checked(&limit)?;
+        let mut out = self.without_nan_radii().checked(&limit)?;
         match out.lines.iter().filter(|line| line.radius.is_none()).count() {
             0 => {}
             n if n == out.lines.len() => out.notes.push("no radius in the file".into()),

@@ -2,14 +2,13 @@
 
 use crate::centerlines::{Centerlines, Line};
 use crate::error::{Error, Result, excerpt};
+use crate::placed_points::{has_place, note_left_out};
 use crate::space::Space;
 use crate::text::{self, Separator};
 use crate::unit::Unit;
 
 /// The columns where the file names none.
 const COLUMNS: &str = "id,x,y,z,ow,ox,oy,oz,vis,sel,lock,label,desc,associatedNodeID";
-/// What 3D Slicer writes behind the named columns for a point that is being placed or lost its place; 2 has one.
-const UNPLACED: [&str; 3] = ["0", "1", "3"];
 
 /// The points of a fiducial list as one line, in mm by definition of the format.
 ///
@@ -34,8 +33,10 @@ pub fn read(bytes: &[u8]) -> Result<Centerlines> {
     }
     let mut line = Line::default();
     let (mut hidden, mut without_place) = (0, 0);
-    for (number, row) in text::data_lines(bytes) {
-        let fields = text::fields(&row, Separator::Character(','));
+    let separator = Separator::Character(',');
+    for row in text::rows(text::data_lines(bytes), separator) {
+        let (number, row) = row?;
+        let fields = text::fields(&row, separator);
         let [Some(x), Some(y), Some(z)] = columns.xyz.map(|column| fields.get(column).copied()) else {
             return Err(Error::truncated(
                 format!("line {number}"),
@@ -43,7 +44,9 @@ pub fn read(bytes: &[u8]) -> Result<Centerlines> {
                 "the columns of the header",
             ));
         };
-        if fields.get(columns.count).is_some_and(|status| UNPLACED.contains(status)) {
+        // 3D Slicer writes the status of a point behind the named columns.
+        let status = fields.get(columns.count).copied().unwrap_or_default();
+        if !has_place(status).map_err(|e| e.in_file(&format!("line {number}: positionStatus")))? {
             without_place += 1;
             continue;
         }
@@ -52,13 +55,11 @@ pub fn read(bytes: &[u8]) -> Result<Centerlines> {
         line.points.push(text::point(number, [x, y, z])?);
     }
     out.notes.push(format!("a list of {} fiducials is taken as one line, in its order", line.points.len()));
-    if without_place > 0 {
-        out.notes.push(format!("{without_place} fiducial(s) without a place were left out"));
-    }
+    out.lines.push(line);
+    note_left_out(&mut out, without_place, "fiducial(s) without a place", "with one")?;
     if hidden > 0 {
         out.notes.push(format!("{hidden} fiducial(s) that are hidden in 3D Slicer are part of the line"));
     }
-    out.lines.push(line);
     out.tidy()
 }
 

@@ -36,6 +36,7 @@ mod mend;
 mod meta_object;
 mod mrk_json;
 mod npy;
+mod placed_points;
 mod poly_data;
 mod rotterdam;
 pub mod session_file;

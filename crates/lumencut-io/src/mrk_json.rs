@@ -5,6 +5,7 @@ use glam::DVec3;
 use crate::centerlines::{Centerlines, JOINED_MARK, Line};
 use crate::error::{Error, Result, excerpt};
 use crate::json::Json;
+use crate::placed_points::{has_place, note_left_out};
 use crate::space::Space;
 use crate::unit::Unit;
 
@@ -23,13 +24,15 @@ pub fn read(bytes: &[u8]) -> Result<Centerlines> {
     let [markups, joined] = root.fields(["markups", JOINED_MARK]);
     let joined = joined.is_some_and(|joined| joined.raw() == "true");
     let mut out = Centerlines { joined, ..Centerlines::of("3D Slicer markups") };
-    let mut others = Others::default();
+    let (mut others, mut unplaced) = (Others::default(), 0);
     let take = |i, value| {
         let markup = Markup::of(value);
         let kind = markup.kind.and_then(Json::text);
         match kind.as_deref().unwrap_or("unnamed type") {
             kind @ ("Curve" | "ClosedCurve" | "Line") => {
-                markup_line(&markup, kind, &mut out).map_err(|error| error.in_file(&format!("markup {i}")))
+                let line = markup_line(&markup, kind, &mut out);
+                unplaced += line.map_err(|error| error.in_file(&format!("markup {i}")))?;
+                Ok(())
             }
             kind => {
                 others.add(kind);
@@ -44,6 +47,7 @@ pub fn read(bytes: &[u8]) -> Result<Centerlines> {
         let expected = "a markup of type Curve, ClosedCurve or Line";
         return Err(Error::new("markups", others.text(), expected));
     }
+    note_left_out(&mut out, unplaced, "control point(s) without a place", "with one")?;
     if others.count > 0 {
         out.notes.push(format!("markups that are no curves were left out: {}", others.text()));
     }
@@ -93,7 +97,8 @@ impl<'a> Markup<'a> {
     }
 }
 
-fn markup_line(markup: &Markup, kind: &str, out: &mut Centerlines) -> Result<()> {
+/// Adds the line of a markup; gives how many of its control points have no place.
+fn markup_line(markup: &Markup, kind: &str, out: &mut Centerlines) -> Result<usize> {
     let space = space(markup.space)?;
     let own = unit_of("coordinateUnits", markup.unit)?;
     let unit = *out.unit.get_or_insert(own);
@@ -104,10 +109,7 @@ fn markup_line(markup: &Markup, kind: &str, out: &mut Centerlines) -> Result<()>
         ));
     }
     let Controls { mut points, placed } = Controls::of(markup.controls, own.in_units_of(unit))?;
-    if points.len() < placed.len() {
-        let count = placed.len() - points.len();
-        out.note_once(format!("{count} control point(s) without a place were left out"));
-    }
+    let unplaced = placed.len() - points.len();
     if out.lines.is_empty() {
         out.space = space;
     } else if space.unwrap_or(Space::Lps) != out.space.unwrap_or(Space::Lps) {
@@ -130,7 +132,7 @@ fn markup_line(markup: &Markup, kind: &str, out: &mut Centerlines) -> Result<()>
         );
     }
     out.lines.push(Line { points, radius, name: markup.name.and_then(Json::text), ..Line::default() });
-    Ok(())
+    Ok(unplaced)
 }
 
 /// Whether a line through three points turns by more than 30° at the second.
@@ -183,7 +185,10 @@ impl Controls {
         let mut out = Self::default();
         let take = |i, control: Json| {
             let [status, position] = control.fields(["positionStatus", "position"]);
-            let defined = status.and_then(Json::text).is_none_or(|status| status == "defined");
+            let status = status.map(|status| status.text().unwrap_or_else(|| status.raw().to_owned()));
+            let defined = status.map_or(Ok(true), |status| has_place(status.trim()));
+            let subject = || format!("positionStatus of control point {i}");
+            let defined = defined.map_err(|error| error.in_file(&subject()))?;
             let place = position.filter(|_| defined);
             out.placed.push(place.is_some());
             if let Some(place) = place {
@@ -203,7 +208,7 @@ fn position_of(place: Json, index: usize) -> Result<DVec3> {
 }
 
 /// The `Radius` measurement of the control points that are `placed`. Of the two units the first is the
-/// markup's own, the second the one that is wanted.
+/// markup's own, the second the one that is wanted. A value that is null is NaN.
 fn radius(measurements: Option<Json>, placed: &[bool], [own, wanted]: [Unit; 2]) -> Result<Option<Vec<f64>>> {
     let Some([values, stated]) = measurements.and_then(measured_radius) else { return Ok(None) };
     let Some(count) = values.and_then(|values| values.each(|_, _| Ok(()))).transpose()? else {
@@ -227,7 +232,8 @@ fn radius(measurements: Option<Json>, placed: &[bool], [own, wanted]: [Unit; 2])
                     "a number per control point",
                 )
             };
-            out.push(value.number().ok_or_else(wrong)? * unit.in_units_of(wanted));
+            let known = if value.raw() == "null" { Some(f64::NAN) } else { value.number() };
+            out.push(known.ok_or_else(wrong)? * unit.in_units_of(wanted));
         }
         Ok(())
     };

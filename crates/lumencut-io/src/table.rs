@@ -5,6 +5,7 @@ use std::collections::HashSet;
 
 use crate::centerlines::{Centerlines, Line};
 use crate::error::{Error, Result, excerpt};
+use crate::placed_points::note_left_out;
 use crate::table_columns::{Columns, name_coordinates};
 use crate::text::{self, Separator};
 use crate::unit::Unit;
@@ -28,12 +29,15 @@ pub fn read(bytes: &[u8]) -> Result<Centerlines> {
         false => header_in_comment(bytes, first, fields.len())?,
     };
     let guessed = named.is_none();
-    let mut columns = named.map_or_else(|| Columns::of_count(first, fields.len()), Ok)?;
+    let count = || fields.len() + usize::from(has_empty_last(bytes, &row, separator));
+    let mut columns = named.map_or_else(|| Columns::of_count(first, count()), Ok)?;
     if columns.unit.is_none() {
         unit_in_comments(bytes, first, &mut columns);
     }
     let mut rows = Rows::new(columns, separator);
-    for (number, line) in text::lines(bytes).skip(first - usize::from(!has_header)) {
+    let lines = text::lines(bytes).skip(first - usize::from(!has_header));
+    for row in text::rows(lines, separator) {
+        let (number, line) = row?;
         if line.trim_start().starts_with('#') {
             continue;
         }
@@ -44,6 +48,7 @@ pub fn read(bytes: &[u8]) -> Result<Centerlines> {
         }
     }
     rows.finish_line();
+    note_left_out(&mut rows.out, rows.undefined, "point(s) that are not defined", "defined points")?;
     if guessed {
         rows.out.doubt_unnamed_columns();
         refuse_counter(&rows.out.lines)?;
@@ -123,6 +128,19 @@ fn fields_of(row: &str, separator: Separator) -> Vec<&str> {
     fields
 }
 
+/// Whether the last field of the first row, of which nothing names the columns, is empty, and not so in every row.
+fn has_empty_last(bytes: &[u8], first: &str, separator: Separator) -> bool {
+    let count = text::fields(first, separator).len();
+    count > fields_of(first, separator).len()
+        && text::data_lines(bytes).any(|(_, row)| fields_of(&row, separator).len() == count)
+}
+
+/// A number of a radius, NaN where it is not stated.
+fn radius_of(number: usize, field: &str) -> Result<f64> {
+    let is_unknown = ["", "nan", "na", "n/a"].into_iter().any(|name| field.eq_ignore_ascii_case(name));
+    if is_unknown { Ok(f64::NAN) } else { text::number(number, field) }
+}
+
 fn all_numbers(fields: &[&str], separator: Separator) -> bool {
     fields.iter().all(|field| with_point(field, separator).parse::<f64>().is_ok())
 }
@@ -174,6 +192,8 @@ struct Rows {
     /// What the column that tells lines apart says of the current line.
     key: Option<String>,
     known_keys: HashSet<String>,
+    /// Points without a place.
+    undefined: usize,
 }
 
 impl Rows {
@@ -182,11 +202,15 @@ impl Rows {
         (out.unit, out.space) = (columns.unit, columns.space);
         out.notes = std::mem::take(&mut columns.notes);
         let (line, key, known_keys) = (Line::default(), None, HashSet::new());
-        Self { columns, separator, out, line, key, known_keys }
+        Self { columns, separator, out, line, key, known_keys, undefined: 0 }
     }
 
     fn add(&mut self, number: usize, row: &str) -> Result<()> {
-        let fields = fields_of(row, self.separator);
+        let mut fields = text::fields(row, self.separator);
+        // Separators behind the last column part nothing.
+        while fields.len() > self.columns.count && fields.last() == Some(&"") {
+            fields.pop();
+        }
         if fields.len() != self.columns.count {
             let found = format!("{} column(s), {}", fields.len(), excerpt(row));
             return Err(Error::new(
@@ -195,6 +219,10 @@ impl Rows {
                 format!("{} columns", self.columns.count),
             ));
         }
+        if !self.is_placed(number, &fields)? {
+            self.undefined += 1;
+            return Ok(());
+        }
         if let Some((column, _)) = self.columns.key {
             self.begin_line(fields[column]);
         }
@@ -202,10 +230,17 @@ impl Rows {
         let [x, y, z] = self.columns.xyz.map(field);
         self.line.points.push(text::point(number, [&x, &y, &z])?);
         if let Some((column, factor)) = self.columns.radius {
-            let radius = text::number(number, &field(column))? * factor;
+            let radius = radius_of(number, &field(column))? * factor;
             self.line.radius.get_or_insert_default().push(radius);
         }
         Ok(())
+    }
+
+    /// Whether the point of a row has a place.
+    fn is_placed(&self, number: usize, fields: &[&str]) -> Result<bool> {
+        let Some((column, placed)) = self.columns.placed else { return Ok(true) };
+        let subject = format!("line {number}: column '{}'", placed.name());
+        placed.is_placed(fields[column]).map_err(|error| error.in_file(&subject))
     }
 
     /// Begins a line where the column that tells them apart has changed.

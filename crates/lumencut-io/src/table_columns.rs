@@ -1,6 +1,7 @@
 //! Which column of a table holds what: from its header, or from the number of its columns.
 
 use crate::error::{Error, Result, excerpt};
+use crate::placed_points::PlacedBy;
 use crate::poly_data::names_radius;
 use crate::space::Space;
 use crate::unit::Unit;
@@ -15,6 +16,8 @@ pub struct Columns {
     pub radius: Option<(usize, f64)>,
     /// The column that tells the lines apart, and whether it holds the groups of a branch splitter.
     pub key: Option<(usize, bool)>,
+    /// The column that tells which points have a place.
+    pub placed: Option<(usize, PlacedBy)>,
     pub unit: Option<Unit>,
     pub space: Option<Space>,
     pub notes: Vec<String>,
@@ -37,6 +40,9 @@ const KEY_NAMES: [&str; 11] = [
     "groupid",
     "groupids",
 ];
+/// Names of the column that tells which points have a place, as 3D Slicer calls it.
+const PLACED_NAMES: [(&str, PlacedBy); 2] =
+    [("positionstatus", PlacedBy::Status), ("defined", PlacedBy::Flag)];
 /// What may stand in front of the name or number of an axis.
 const POINT_PREFIXES: [&str; 6] = ["points:", "points_", "point_", "position_", "pos_", "coordinate_"];
 /// What a header without coordinates is told.
@@ -111,7 +117,10 @@ impl Columns {
         }
         let key_of = |wanted: &&str| names.iter().position(|name| name.joined() == **wanted);
         let key = KEY_NAMES.iter().find_map(|name| Some((key_of(name)?, name.starts_with("group"))));
-        let mut out = Self { count: fields.len(), xyz, radius: None, key, unit: x, space, notes: Vec::new() };
+        let placed_by = |(name, by): (&str, PlacedBy)| Some((key_of(&name)?, by));
+        let placed = PLACED_NAMES.into_iter().find_map(placed_by);
+        let (count, notes) = (fields.len(), Vec::new());
+        let mut out = Self { count, xyz, radius: None, key, placed, unit: x, space, notes };
         out.find_radius(fields, &names).map_err(at)?;
         Ok(out)
     }
@@ -127,7 +136,8 @@ impl Columns {
                 .mend("name the columns in the first line"));
         }
         let radius = (count == 4).then_some((3, 1.0));
-        Ok(Self { count, xyz: [0, 1, 2], radius, key: None, unit: None, space: None, notes: Vec::new() })
+        let (xyz, notes) = ([0, 1, 2], Vec::new());
+        Ok(Self { count, xyz, radius, key: None, placed: None, unit: None, space: None, notes })
     }
 
     /// The column of the radius, else of the diameter, in the unit of the coordinates.

@@ -6,6 +6,9 @@ use glam::DVec3;
 
 use crate::error::{Error, Result, excerpt};
 
+/// Numbered lines of a text.
+type Numbered<'t> = (usize, Cow<'t, str>);
+
 /// Fields of a line beyond which it is no row of a table.
 const MOST_FIELDS: usize = 1024;
 
@@ -17,7 +20,7 @@ pub enum Separator {
 }
 
 /// The lines of a text with their numbers, from 1. They end in LF or CR LF, or in CR where there is no LF.
-pub fn lines(text: &[u8]) -> impl Iterator<Item = (usize, Cow<'_, str>)> {
+pub fn lines(text: &[u8]) -> impl Iterator<Item = Numbered<'_>> {
     let end = if text.contains(&b'\n') { b'\n' } else { b'\r' };
     text.split(move |b| *b == end)
         .enumerate()
@@ -25,8 +28,63 @@ pub fn lines(text: &[u8]) -> impl Iterator<Item = (usize, Cow<'_, str>)> {
 }
 
 /// The lines that are neither blank nor comments behind `#`.
-pub fn data_lines(text: &[u8]) -> impl Iterator<Item = (usize, Cow<'_, str>)> {
+pub fn data_lines(text: &[u8]) -> impl Iterator<Item = Numbered<'_>> {
     lines(text).filter(|(_, line)| !line.trim_start().is_empty() && !line.trim_start().starts_with('#'))
+}
+
+/// The rows that lines form, each with the number of its first line: what stands in quotes may go on in further lines.
+///
+/// # Errors
+/// Naming the line where a quotation has no end.
+pub fn rows<'t>(
+    mut lines: impl Iterator<Item = Numbered<'t>>,
+    separator: Separator,
+) -> impl Iterator<Item = Result<Numbered<'t>>> {
+    std::iter::from_fn(move || {
+        let (number, mut row) = lines.next()?;
+        let Separator::Character(separator) = separator else { return Some(Ok((number, row))) };
+        if row.trim_start().starts_with('#') {
+            return Some(Ok((number, row)));
+        }
+        let mut at = At::Begin.behind(&row, separator);
+        while at == At::Quoted {
+            let Some((_, more)) = lines.next() else {
+                let found = "a quotation mark without its end";
+                return Some(Err(Error::new(format!("line {number}"), found, "one at the end of the field")));
+            };
+            at = at.behind(&more, separator);
+            row = Cow::Owned(row.into_owned() + "\n" + &more);
+        }
+        Some(Ok((number, row)))
+    })
+}
+
+/// Where in a row a character stands. A field is quoted where its first character is a quotation mark; a doubled one in it
+/// ends nothing.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum At {
+    Begin,
+    Plain,
+    Quoted,
+    /// Behind a quotation mark that ends the field, or is the first of two.
+    Closed,
+}
+
+impl At {
+    fn after(self, c: char, separator: char) -> Self {
+        match self {
+            Self::Quoted if c == '"' => Self::Closed,
+            Self::Quoted => Self::Quoted,
+            _ if c == separator => Self::Begin,
+            Self::Begin | Self::Closed if c == '"' => Self::Quoted,
+            Self::Begin if c.is_whitespace() => Self::Begin,
+            _ => Self::Plain,
+        }
+    }
+
+    fn behind(self, text: &str, separator: char) -> Self {
+        text.chars().fold(self, |at, c| at.after(c, separator))
+    }
 }
 
 /// The fields of a line without blanks and quotes around them; separators inside quotes are part of a field.
@@ -35,10 +93,10 @@ pub fn fields(line: &str, separator: Separator) -> Vec<&str> {
     match separator {
         Separator::Blanks => line.split_ascii_whitespace().take(MOST_FIELDS + 1).map(unquoted).collect(),
         Separator::Character(separator) => {
-            let mut quoted = false;
+            let mut at = At::Begin;
             let ends = |c: char| {
-                quoted ^= c == '"';
-                !quoted && c == separator
+                at = at.after(c, separator);
+                at == At::Begin && c == separator
             };
             line.split(ends).take(MOST_FIELDS + 1).map(unquoted).collect()
         }

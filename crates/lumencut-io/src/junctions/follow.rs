@@ -133,8 +133,9 @@ impl Walk<'_> {
     /// How far the path may run beside point `i` of the other (mm).
     fn tolerance(&self, i: usize, in_group: bool) -> f64 {
         let part = if in_group { PART_OF_RADIUS_IN_GROUP } else { PART_OF_RADIUS };
-        match &self.other.radius {
-            Some(radius) => part * radius[self.other_index(i)],
+        let radius = self.other.radius.as_ref().map(|radius| radius[self.other_index(i)]);
+        match radius.filter(|radius| *radius > 0.0) {
+            Some(radius) => part * radius,
             None => (PART_OF_SPACING * self.spacing).min(MOST_BY_SPACING),
         }
     }

@@ -246,3 +246,18 @@ fn trunks_without_radius_are_merged_too_and_names_are_kept() {
     assert_eq!(names, ["left", "left", "right"]);
     assert!(joined.iter().all(|v| v.radius.is_none()));
 }
+
+#[test]
+fn lines_that_know_few_radii_share_their_trunk_as_lines_without_any() {
+    let beside = |x: f64, end: [f64; 3]| {
+        line(&[straight([x, 0.0, 0.0], [x, 0.0, 20.0]), straight([x, 0.0, 20.0], end)])
+    };
+    let lines = [beside(0.0, [0.0, 20.0, 40.0]), beside(0.2, [0.0, -20.0, 40.0])];
+    let with = |radius: &dyn Fn(usize) -> Option<f64>| {
+        let each =
+            |line: &Line| Line { radius: (0..line.points.len()).map(radius).collect(), ..line.clone() };
+        lengths(&join(lines.iter().map(each).collect()))
+    };
+    let [none, few] = [with(&|_| None), with(&|i| Some(if i % 2 == 0 { 0.0 } else { 4.0 }))];
+    assert_eq!((none.len(), &few), (3, &none));
+}

@@ -209,6 +209,13 @@ fn fiducials_are_one_line_in_their_space() {
     );
     assert!(message(head.to_owned() + "a,1,inf,3\n", "a.fcsv").contains("line 4: found 'inf'"));
     assert!(message(head.to_owned() + "a,1,2\n", "a.fcsv").contains("line 4: found 'a,1,2'"));
+    let none = message(
+        head.to_owned() + "c,0,0,0,0,0,0,1,1,1,0,F-3,,,0,0\nb,4,5,6,0,0,0,1,0,1,0,F-2,,,1,0\n",
+        "a.fcsv",
+    );
+    assert!(none.contains("2 fiducial(s) without a place; expected at least 2 with one"), "{none}");
+    let described = rows.replace("F-2,,", "F-2,\"two\nlines, quoted\",");
+    assert_eq!(ok(head.to_owned() + &described, "a.fcsv").lines[0].points.len(), 2);
     let old = "# columns = label,x,y,z,sel,visibility\nF,1,2,3,1,1\nF,1,2,4,1,1\n";
     let read = ok(old, "a.fcsv");
     assert_eq!((read.space, read.lines[0].points[1].z), (None, 4.0));

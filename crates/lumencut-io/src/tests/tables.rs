@@ -188,3 +188,98 @@ fn the_first_row_of_a_spreadsheet_may_name_its_separator() {
         assert_eq!(ok(&format!("{first}\n12,9013;-2;3,5\n4;5;6,25\n")).lines[0].points, ENDS);
     }
 }
+
+/// The header of a table of control points as 3D Slicer writes it.
+const SLICER: &str = "label,r,a,s,defined,selected,visible,locked,description";
+
+#[test]
+fn empty_last_fields_are_fields() {
+    let points = [DVec3::new(30.5, -35.0, 100.0), DVec3::new(30.0, -35.25, 102.0)];
+    for (first, second) in [("", ""), ("\"\"", "\"\""), ("", "ostium"), ("x", ""), (" ", "\"a, b\"")] {
+        for separator in [",", ";", "\t"] {
+            for end in ["\n", "\r\n"] {
+                let row = |place: &str, last: &str| {
+                    let last = last.replace(", ", &format!("{separator} "));
+                    format!("C-1,{place},1,1,1,0,").replace(',', separator) + &last + end
+                };
+                let head = SLICER.replace(',', separator) + end;
+                let text = head + &row("30.5,-35,100", first) + &row("30,-35.25,102", second);
+                for mark in ["", "\u{feff}"] {
+                    let read = ok(&format!("{mark}{text}"));
+                    assert_eq!((&read.lines[0].points[..], read.space), (&points[..], Some(Space::Ras)));
+                    assert_eq!(read.notes, ["no radius in the file"], "{text:?}");
+                }
+            }
+        }
+    }
+    // Separators behind the last column are none of a field that is missing.
+    assert_eq!(ok("x,y,z\n1,2,3,,,\n1,2,4,,,\n").lines[0].points.len(), 2);
+    assert!(
+        message("x,y,z,name\n1,2,3\n").contains("line 2: found 3 column(s), '1,2,3'; expected 4 columns")
+    );
+    assert!(message("x,y,z\n1,2,3,,5\n").contains("found 5 column(s)"));
+}
+
+#[test]
+fn points_that_are_not_defined_are_left_out_and_counted() {
+    let rows = |defined: [&str; 4]| -> String {
+        let row = |(i, defined): (usize, &&str)| {
+            let place = if *defined == "1" { format!("{i},2,3") } else { ["0,0,0", ",,"][i % 2].into() };
+            format!("C-{i},{place},{defined},1,1,0,x\n")
+        };
+        format!("{SLICER}\n") + &defined.iter().enumerate().map(row).collect::<String>()
+    };
+    let read = ok(&rows(["1", "0", "0", "1"]));
+    assert_eq!(read.lines[0].points, [DVec3::new(0.0, 2.0, 3.0), DVec3::new(3.0, 2.0, 3.0)]);
+    assert!(read.notes.contains(&"2 point(s) that are not defined were left out".into()), "{:?}", read.notes);
+    assert_eq!(ok(&rows(["0", "False", "1", "1"]).replace("2,2,3,1", "2,2,3,TRUE")).lines[0].points.len(), 2);
+    for few in [["0"; 4], ["0", "0", "0", "1"]] {
+        let expected = "point(s) that are not defined; expected at least 2 defined points";
+        assert!(message(&rows(few)).contains(expected), "{}", message(&rows(few)));
+    }
+    assert!(message(&rows(["1", "1", "perhaps", "1"])).contains("line 4: column 'defined': found 'perhaps'"));
+    let by_status =
+        "x,y,z,positionStatus\n1,2,3,defined\n0,0,0,undefined\n0,0,0,preview\n0,0,0,missing\n1,2,4,defined\n";
+    let placed = message(&by_status.replace("preview", "placed"));
+    assert!(placed.contains("line 4: column 'positionStatus': found 'placed'"), "{placed}");
+    assert_eq!(ok(by_status).lines[0].points.len(), 2);
+}
+
+#[test]
+fn empty_radii_are_unknown() {
+    for missing in ["", "\"\"", "nan", "NaN", "NA"] {
+        let text = format!("x,y,z,radius\n1,2,3,{missing}\n1,2,4,2.5\n1,2,5,{missing}\n1,2,6,1\n");
+        let read = ok(&text);
+        assert_eq!(read.lines[0].radius.as_deref(), Some(&[0.0, 2.5, 0.0, 1.0][..]), "0 is unknown");
+        assert!(
+            read.notes.contains(&"2 of 4 radii are not stated: unknown there".into()),
+            "{:?}",
+            read.notes
+        );
+        let read =
+            ok(&format!("line,x,y,z,diameter\na,1,2,3,{missing}\na,1,2,4,{missing}\nb,5,2,3,2\nb,5,2,4,2\n"));
+        assert_eq!((&read.lines[0].radius, read.lines[1].radius.as_deref()), (&None, Some(&[1.0, 1.0][..])));
+        assert!(read.notes.contains(&"1 of 2 lines have no radius".into()), "{:?}", read.notes);
+    }
+    for text in ["1,2.5,3,\n1,2.5,4,2\n", "1,2.5,3,2\n1,2.5,4,\n"] {
+        let radius = ok(text).lines[0].radius.clone().expect("a fourth column");
+        assert_eq!(radius.iter().filter(|r| **r == 0.0).count(), 1, "{text}");
+    }
+    assert!(message("x,y,z,r\n1,2,3,wide\n").contains("line 2: found 'wide'; expected a finite number"));
+}
+
+#[test]
+fn quoted_fields_hold_separators_quotes_and_line_ends() {
+    for (description, end) in
+        [("a, b", "\n"), ("two\nlines", "\n"), ("two\r\nlines, \"\"x\"\"\r\n", "\r\n"), ("\n", "\n")]
+    {
+        let row = |z: f64| format!("C,30,-35,{z},1,1,1,0,\"{description}\"{end}");
+        let read = ok(&(SLICER.to_owned() + end + &row(1.5) + &row(2.5) + &row(3.5)));
+        let z: Vec<f64> = read.lines[0].points.iter().map(|p| p.z).collect();
+        assert_eq!(z, [1.5, 2.5, 3.5], "{description:?}");
+    }
+    // Inches within a field begin no quotation.
+    assert_eq!(ok("name,x,y,z\n5\" wire,1,2,3\n5\" wire,1,2,4\n").lines[0].points.len(), 2);
+    let open = message("x,y,z,name\n1,2,3,\"a\n1,2,4,b\n");
+    assert!(open.contains("line 2: found a quotation mark without its end"), "{open}");
+}
