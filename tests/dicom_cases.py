@@ -121,7 +121,7 @@ _GEOMETRY = [
         Stack([PLAIN_STACK[k] for k in range(COUNT) if k not in (6, 13, 14)], wanted=None),
         ("3 missing slices",),
     ),
-    Case("three slices twice", "doubled slices", doubled(PLAIN_STACK), ("copies of one image",)),
+    Case("three slices twice", "doubled slices", doubled(PLAIN_STACK), notes=("left out, 3 files",)),
     Case(
         "slices 2 to 3 mm apart",
         "unevenly spaced slices",

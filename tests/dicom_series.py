@@ -185,7 +185,7 @@ def doubled(stack: Sequence[Image]) -> Callable[[Path], Made]:
         made = Stack(stack)(folder)
         for k in (5, 6, 17):
             shutil.copy(folder / f"IM{k:04}.dcm", folder / f"COPY{k:04}.dcm")
-        return replace(made, wanted=None)
+        return made
 
     return write
 

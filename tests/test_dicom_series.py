@@ -10,11 +10,12 @@ import pydicom
 import pytest
 
 from dicom_cases import CASES
+from dicom_repeated import REPEATED
 from lumencut import FormatError, VolumeError, read_volume
 from lumencut.volume_files import as_volume
 
 
-@pytest.mark.parametrize("case", CASES, ids=lambda case: case.name)
+@pytest.mark.parametrize("case", [*CASES, *REPEATED], ids=lambda case: case.name)
 def test_series(tmp_path, caplog, case):
     if case.needs:
         pytest.importorskip(case.needs)
@@ -36,7 +37,7 @@ def test_series(tmp_path, caplog, case):
         assert word in caplog.text
 
 
-@pytest.mark.parametrize("case", CASES, ids=lambda case: case.name)
+@pytest.mark.parametrize("case", [*CASES, *REPEATED], ids=lambda case: case.name)
 def test_datasets_in_memory_are_what_their_files_are(tmp_path, case):
     """The datasets of a folder become the volume of the folder, or are refused in the same words."""
     if case.needs:

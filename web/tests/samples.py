@@ -2,9 +2,9 @@
 
     python samples.py FOLDER
 
-writes the made series of ``tests/dicom_cases.py`` and small volumes of every other format to the folder,
-reads them and the volumes of ``../shared/data`` (where they are), and writes what came of each to
-``expected.json``.
+writes the made series of ``tests/dicom_cases.py`` and ``tests/dicom_repeated.py``, and small volumes of every
+other format, to the folder, reads them and the volumes of ``../shared/data`` (where they are), and writes
+what came of each to ``expected.json``.
 """
 
 from __future__ import annotations
@@ -26,6 +26,7 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tests"))
 
 from dicom_cases import CASES  # noqa: E402
+from dicom_repeated import REPEATED  # noqa: E402
 from lumencut.errors import LumencutError  # noqa: E402
 from lumencut.volume_files import inspected_volume, read_volume  # noqa: E402
 from volume_samples import DATA, coded, oblique  # noqa: E402
@@ -225,7 +226,7 @@ def made(folder: Path) -> Iterator[dict[str, Any]]:
         place.mkdir()
         path = write(place)
         yield {"name": name, "kind": "volume", "path": str(path), "folder": str(place), **read(path)}
-    for number, case in enumerate(CASES):
+    for number, case in enumerate([*CASES, *REPEATED]):
         if case.needs and find_spec(case.needs) is None:
             continue
         place = folder / f"series-{number}"

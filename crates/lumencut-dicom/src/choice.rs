@@ -35,7 +35,7 @@ pub fn chosen<'s, 'a>(
 fn asked_for<'s, 'a>(every: &'s [Series<'a>], wanted: &str) -> Result<&'s Series<'a>> {
     let is_meant = |one: &&Series| {
         let number = one.number();
-        wanted == one.uid || wanted == number || plain(wanted) == number
+        one.has_uid(wanted) || wanted == number || plain(wanted) == number
     };
     let meant: Vec<&Series> = every.iter().filter(is_meant).collect();
     if let [one] = meant[..] {
@@ -47,8 +47,11 @@ fn asked_for<'s, 'a>(every: &'s [Series<'a>], wanted: &str) -> Result<&'s Series
 }
 
 fn not_one(series: Vec<Report>, expected: &str) -> Error {
-    let told: Vec<String> = series.iter().map(ToString::to_string).collect();
-    let error = Error::new(format!("{} series: {}", series.len(), told.join("; ")), expected);
+    // Those that can be volumes come first: they are what a reader chooses from.
+    let mut told: Vec<&Report> = series.iter().collect();
+    told.sort_by_key(|one| !one.can_be_volume);
+    let told: Vec<String> = told.into_iter().map(ToString::to_string).collect();
+    let error = Error::new(format!("{} series: {}", series.len(), listed(&told)), expected);
     let error = error.mend("give the folder of one series").mended_by(Mend::Series);
     Error { kind: ErrorKind::Series, series: series.into(), ..error }
 }

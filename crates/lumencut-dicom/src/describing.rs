@@ -26,7 +26,8 @@ pub fn described(series: &Series) -> Report {
     };
     // A stack with holes is a volume that one slice is missing from: it is to be named, not passed by.
     let mending = Mending { fill_gaps: true, resample_slices: false };
-    match series.slices(&mut Vec::new()).and_then(|slices| stacked(slices, mending, &mut Vec::new())) {
+    let placed = series.slices(&[], &mut Vec::new());
+    match placed.and_then(|placed| stacked(placed.slices, mending, &[], &mut Vec::new())) {
         Ok(stack) => {
             let spacing = stack.steps.map(glam::DVec3::length);
             report.size = Some(stack.size());
@@ -34,6 +35,9 @@ pub fn described(series: &Series) -> Report {
             let missing = stack.missing().len() as i64;
             if report.can_be_volume && missing > 0 {
                 report.trouble = counted(missing, "missing slice");
+            } else if report.can_be_volume && !stack.repeats.is_empty() {
+                let repeats = counted(stack.repeats.len() as i64, "slice");
+                report.trouble = format!("{repeats} at places of others");
             }
         }
         Err(error) if report.can_be_volume => report.trouble = error.found,

@@ -1,29 +1,28 @@
 //! What keeps slices from being one stack, named with the slices it concerns.
 
+use crate::directions::ROUNDING;
 use crate::error::{Error, Result};
-use crate::keyword::Keyword;
 use crate::mend::Mend;
-use crate::phases::phases;
 use crate::slices::Slice;
 use crate::spacing::median;
 use crate::wording::{bracketed, counted, listed, rounded};
 
-/// Slices closer than this (mm) are at one place.
-const ONE_PLACE: f64 = 0.01;
 /// Spacings may differ by this part of them.
 const RELATIVE: f64 = 1e-3;
-/// Orientations are alike within this per cosine.
+/// Orientations are alike within this per cosine, where none was rounded.
 const COSINE: f64 = 1e-3;
 
 /// Refuses a series whose images differ in anything that all slices of one stack share.
 pub fn require_alike(slices: &[Slice]) -> Result<()> {
     let size = |one: &Slice| one.size.map(|length| length as f64).to_vec();
-    let along_i = |one: &Slice| one.along_i.to_array().to_vec();
-    let along_j = |one: &Slice| one.along_j.to_array().to_vec();
+    let along_i = |one: &Slice| one.directions.along_i.to_array().to_vec();
+    let along_j = |one: &Slice| one.directions.along_j.to_array().to_vec();
+    let are_rounded = slices.iter().any(|one| one.directions.is_rounded);
+    let allowed = if are_rounded { ROUNDING } else { COSINE };
     alike(slices, "size", size, |a, b| a == b)?;
     alike(slices, "spacing", |one| one.spacing.to_vec(), |a, b| (a - b).abs() <= RELATIVE * b)?;
-    alike(slices, "orientation", along_i, |a, b| (a - b).abs() < COSINE)?;
-    alike(slices, "orientation", along_j, |a, b| (a - b).abs() < COSINE)
+    alike(slices, "orientation", along_i, |a, b| (a - b).abs() < allowed)?;
+    alike(slices, "orientation", along_j, |a, b| (a - b).abs() < allowed)
 }
 
 /// Compares the numbers that `value` gives of each slice with those of the first, one by one.
@@ -49,30 +48,6 @@ fn alike(
     );
     let error = Error::new(found, "one stack of equal slices");
     Err(error.mend("move the others to a folder of their own"))
-}
-
-/// Refuses several slices at one place: phases if anything tells them apart, copies otherwise.
-pub fn refuse_duplicates(ordered: &[Slice], gaps: &[f64]) -> Result<()> {
-    let neighbours = gaps.iter().zip(ordered.iter().zip(&ordered[1..]));
-    let pairs: Vec<(&Slice, &Slice)> =
-        neighbours.filter(|(gap, _)| **gap < ONE_PLACE).map(|(_, pair)| pair).collect();
-    if pairs.is_empty() {
-        return Ok(());
-    }
-    let places = counted((ordered.len() - pairs.len()) as i64, "place");
-    let names: Vec<String> = pairs.iter().map(|(a, b)| format!("{} and {}", a.name(), b.name())).collect();
-    let found = format!("{} slices at {places}: {}", ordered.len(), listed(&names));
-    if let Some((phases, choice)) = phases(ordered, &pairs) {
-        return Err(Error::new(format!("{found}; {phases}"), "one slice per place").mended_by(choice));
-    }
-    let are_copies = pairs.iter().all(|(a, b)| are_copies(a, b));
-    let copies = if are_copies { ", copies of one image each" } else { "" };
-    let error = Error::new(format!("{found}{copies}"), "one slice per place");
-    Err(error.mend("remove all but one slice at each place"))
-}
-
-fn are_copies(a: &Slice, b: &Slice) -> bool {
-    a.get(Keyword::SOPInstanceUID) == b.get(Keyword::SOPInstanceUID) && a.frame == b.frame
 }
 
 /// Refuses a stack with holes; `steps` are the gaps in usual distances, 1 where there is no hole.

@@ -6,11 +6,14 @@
 
 use glam::DVec3;
 
+use crate::directions::Directions;
 use crate::error::{Error, Result};
-use crate::faults::{is_mostly_missing, refuse_duplicates, refuse_gaps, require_alike};
+use crate::faults::{is_mostly_missing, refuse_gaps, require_alike};
+use crate::headers::Unlike;
 use crate::keyword::Keyword;
 use crate::phases::refuse_interleaved;
-use crate::slices::Slice;
+use crate::shared_places::one_per_place;
+use crate::slices::{Pair, Slice};
 use crate::spacing::{has_run, median, tolerance};
 use crate::uneven::Uneven;
 use crate::wording::rounded;
@@ -44,6 +47,8 @@ pub struct Stack<'a> {
     pub steps: [DVec3; 3],
     /// Whether uneven slices were put on a grid.
     pub is_resampled: bool,
+    /// Slices that are left out, each after the slice at its place that is read.
+    pub repeats: Vec<Pair<'a>>,
 }
 
 impl Stack<'_> {
@@ -61,10 +66,11 @@ impl Stack<'_> {
     }
 }
 
-/// Sorts slices along their normal and finds the affine of the stack.
+/// Sorts slices along their normal and finds the affine of the stack; `unlike` are pairs that the host found to differ.
 pub fn stacked<'a>(
     mut slices: Vec<Slice<'a>>,
     mending: Mending,
+    unlike: &[Unlike],
     notes: &mut Vec<String>,
 ) -> Result<Stack<'a>> {
     require_alike(&slices)?;
@@ -75,12 +81,38 @@ pub fn stacked<'a>(
     let height = |one: &Slice| one.position.dot(normal);
     slices.sort_by_cached_key(Slice::name);
     slices.sort_by(|a, b| height(a).total_cmp(&height(b)));
+    let (mut slices, repeats) = one_per_place(slices, unlike, notes)?;
+    correct_directions(&mut slices, notes);
     let (places, step, is_resampled) =
         if slices.len() > 1 { on_a_line(&slices, mending, notes)? } else { alone(&slices[0], notes)? };
     let first = &slices[0];
-    let steps = [first.along_i * first.spacing[0], first.along_j * first.spacing[1], step];
+    let Directions { along_i, along_j, .. } = first.directions;
+    let steps = [along_i * first.spacing[0], along_j * first.spacing[1], step];
     let origin = first.position;
-    Ok(Stack { slices, places, origin, steps, is_resampled })
+    Ok(Stack { slices, places, origin, steps, is_resampled, repeats })
+}
+
+/// Gives slices of rounded directions the same ones, across the line of their positions where that is within rounding.
+fn correct_directions(slices: &mut [Slice], notes: &mut Vec<String>) {
+    let [first, .., last] = slices else { return note_correction(slices, notes) };
+    if !first.directions.is_rounded {
+        return;
+    }
+    let tilt = first.image.number(first.frame, Keyword::GantryDetectorTilt).ok().flatten();
+    let line = (last.position - first.position).try_normalize();
+    let line = line.filter(|_| tilt.is_none_or(|tilt| tilt.abs() <= TILT));
+    let directions = line.and_then(|line| first.directions.across(line)).unwrap_or(first.directions);
+    slices.iter_mut().for_each(|one| one.directions = directions);
+    note_correction(slices, notes);
+}
+
+fn note_correction(slices: &[Slice], notes: &mut Vec<String>) {
+    if let Some(first) = slices.first().filter(|one| one.directions.is_rounded) {
+        let by = rounded(first.directions.correction(), 2);
+        notes.push(format!(
+            "ImageOrientationPatient is rounded: cosines are changed by up to {by} to be orthonormal"
+        ));
+    }
 }
 
 /// The index of each slice, the vector from index to index, and whether slices are resampled.
@@ -90,7 +122,6 @@ fn on_a_line(ordered: &[Slice], mending: Mending, notes: &mut Vec<String>) -> Re
     let normal = ordered[0].normal();
     let heights: Vec<f64> = ordered.iter().map(|one| one.position.dot(normal)).collect();
     let gaps: Vec<f64> = heights.windows(2).map(|pair| pair[1] - pair[0]).collect();
-    refuse_duplicates(ordered, &gaps)?;
     refuse_interleaved(ordered)?;
     let steps = steps(&gaps);
     let places = summed(&steps);

@@ -15,6 +15,27 @@ pub struct Headers {
     pub transfer_syntaxes: Vec<String>,
     /// The files in the order in which the host found them; errors and plans name a file by its number here.
     pub files: Vec<File>,
+    /// The pairs of [`Plan::compared`](crate::Plan::compared) whose values the host found to differ.
+    #[serde(default)]
+    pub unlike: Vec<Unlike>,
+}
+
+/// Two frames that a plan takes for one, and whose values differ.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+pub struct Unlike {
+    /// The one that the plan reads.
+    pub kept: FrameOf,
+    /// The one that it leaves out.
+    pub other: FrameOf,
+}
+
+/// A frame of a file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+pub struct FrameOf {
+    /// The number of the file.
+    pub file: usize,
+    /// The number of the frame, from 0.
+    pub frame: usize,
 }
 
 /// One file.

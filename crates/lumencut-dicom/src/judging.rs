@@ -5,6 +5,7 @@ use serde::Deserialize;
 use crate::choice::chosen;
 use crate::describing::described;
 use crate::error::Result;
+use crate::gathering::{gathered, note_parts};
 use crate::geometry::{Mending, stacked};
 use crate::headers::Headers;
 use crate::images::images;
@@ -12,7 +13,7 @@ use crate::oddities::note_oddities;
 use crate::phases::of_phase;
 use crate::plan::Plan;
 use crate::report::Report;
-use crate::series::grouped;
+use crate::series::{Placed, grouped};
 
 /// What is to be read: which series and phase, and what is mended of it.
 #[derive(Debug, Clone, Default, Deserialize)]
@@ -31,20 +32,21 @@ pub struct Wanted {
 /// How images become one volume, or why they do not.
 pub fn judge(headers: &Headers, wanted: &Wanted) -> Result<Plan> {
     let mut notes = Vec::new();
-    let every = grouped(images(headers, &mut notes)?);
+    let every = gathered(grouped(images(headers, &mut notes)?));
     let series = chosen(&every, wanted.series.as_deref(), &mut notes)?;
-    let mut slices = series.slices(&mut notes)?;
+    note_parts(series, &mut notes);
+    let Placed { mut slices, copies } = series.slices(&headers.unlike, &mut notes)?;
     if let Some(phase) = &wanted.phase {
-        slices = of_phase(&slices, phase)?;
+        slices = of_phase(&slices, phase, &mut notes)?;
     }
     let mending = Mending { fill_gaps: wanted.fill_gaps, resample_slices: wanted.resample_slices };
-    let stack = stacked(slices, mending, &mut notes)?;
+    let stack = stacked(slices, mending, &headers.unlike, &mut notes)?;
     note_oddities(&stack, &mut notes);
-    Ok(Plan::new(series, &stack, notes))
+    Ok(Plan::new(series, &stack, &copies, notes))
 }
 
 /// Describes all series.
 pub fn describe(headers: &Headers) -> Result<Vec<Report>> {
-    let every = grouped(images(headers, &mut Vec::new())?);
+    let every = gathered(grouped(images(headers, &mut Vec::new())?));
     Ok(every.iter().map(described).collect())
 }

@@ -22,6 +22,18 @@ macro_rules! keywords {
 keywords! {
     /// The identifier of the instance: two files with one are copies.
     SOPInstanceUID,
+    /// Which study the image belongs to.
+    StudyInstanceUID,
+    /// The space in which positions of several series agree.
+    FrameOfReferenceUID,
+    /// The identifier of the patient.
+    PatientID,
+    /// Who gave that identifier.
+    IssuerOfPatientID,
+    /// The name of the patient; no message shows it.
+    PatientName,
+    /// When the patient was born; no message shows it.
+    PatientBirthDate,
     /// Which series the image belongs to.
     SeriesInstanceUID,
     /// The number of the series.

@@ -5,7 +5,9 @@
 //! is decided here, by pure functions, so that every host decides alike and says so in the same words. This crate
 //! opens no file and knows no pixels.
 //!
-//! [`Headers`] go in. [`judge`] gives a [`Plan`] by which the host reads pixels into a volume, or an [`Error`];
+//! [`Headers`] go in. [`judge`] gives a [`Plan`] by which the host reads pixels into a volume, or an [`Error`].
+//! Where a plan takes two frames for one, the host compares their values ([`Plan::compared`]) and asks again with those that
+//! differ;
 //! [`describe`] gives a [`Report`] of each series. [`json`] does the same with documents. [`Keyword::ALL`] lists the
 //! attributes that a host has to read, [`Keyword::groups`] where enhanced multi-frame images keep them.
 //!
@@ -33,9 +35,12 @@
 //! ```
 
 mod choice;
+mod copies;
 mod describing;
+mod directions;
 mod error;
 mod faults;
+mod gathering;
 mod geometry;
 mod grey;
 mod headers;
@@ -46,11 +51,13 @@ mod judging;
 mod keyword;
 mod mend;
 mod oddities;
+mod patients;
 mod phases;
 mod plan;
 mod report;
 mod scan;
 mod series;
+mod shared_places;
 mod slices;
 mod spacing;
 mod uids;
@@ -59,11 +66,11 @@ mod value;
 mod wording;
 
 pub use error::{Error, ErrorKind, Result};
-pub use headers::{Attributes, File, Header, Headers};
+pub use headers::{Attributes, File, FrameOf, Header, Headers, Unlike};
 pub use judging::{Wanted, describe, judge};
 pub use keyword::Keyword;
 pub use mend::Mend;
-pub use plan::{Details, Fill, Plan, PlannedSlice};
+pub use plan::{Compared, Details, Fill, Plan, PlannedSlice};
 pub use report::Report;
 pub use scan::Scan;
 pub use value::Value;

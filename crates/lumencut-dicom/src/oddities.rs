@@ -67,7 +67,7 @@ fn note_padding(images: &[&Image], notes: &mut Vec<String>) {
     let told: BTreeSet<String> = numbers.map(|value| shown(&value.to_string())).collect();
     if !told.is_empty() {
         let told: Vec<String> = told.into_iter().collect();
-        let told = told.join(", ");
+        let told = listed(&told);
         notes.push(format!("stored value {told} marks pixels outside the scan: read as they are"));
     }
 }

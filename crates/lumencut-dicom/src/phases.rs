@@ -1,13 +1,15 @@
 //! What tells phases apart whose slices lie at the same places.
 
+use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::error::{Error, Result};
 use crate::keyword::Keyword;
 use crate::mend::Mend;
-use crate::slices::Slice;
+use crate::slices::{Pair, Slice};
+use crate::spacing;
 use crate::value::Value;
-use crate::wording::{counted, listed, quoted, shown};
+use crate::wording::{MENTIONED, counted, listed, quoted, shown};
 
 /// What may tell phases apart, the surest first.
 const PHASE_KEYWORDS: [Keyword; 17] = [
@@ -40,22 +42,27 @@ const WHOLE_PHASE: [Keyword; 3] = [
     Keyword::NominalPercentageOfCardiacPhase,
 ];
 
-/// Which attribute tells slices at one place apart, how many slices have which value of it, and the choice among these.
-pub fn phases(ordered: &[Slice], pairs: &[(&Slice, &Slice)]) -> Option<(String, Mend)> {
-    let differs = |keyword| move |pair: &(&Slice, &Slice)| told(pair.0, keyword) != told(pair.1, keyword);
-    let keyword = PHASE_KEYWORDS.into_iter().find(|&keyword| pairs.iter().all(differs(keyword)))?;
+/// The attribute that tells all of these pairs apart, the surest of them.
+pub fn telling(pairs: &[Pair]) -> Option<Keyword> {
+    let differs = |keyword| move |pair: &Pair| told(&pair.0, keyword) != told(&pair.1, keyword);
+    PHASE_KEYWORDS.into_iter().find(|&keyword| pairs.iter().all(differs(keyword)))
+}
+
+/// How many slices have which value of the attribute that tells them apart.
+pub fn mixed(ordered: &[Slice], keyword: Keyword) -> String {
     let mixed = if keyword == Keyword::ConvolutionKernel { "kernels" } else { "phases" };
-    let told = format!("{} differs ({}): mixed {mixed}", keyword.name(), values_of(ordered, keyword));
-    Some((told, choice(ordered, keyword)))
+    format!("{} differs ({}): mixed {mixed}", keyword.name(), values_of(ordered, keyword))
 }
 
 /// Picks the slices of one phase, by the value of the first attribute that has it for some of them only.
-pub fn of_phase<'a>(slices: &[Slice<'a>], phase: &str) -> Result<Vec<Slice<'a>>> {
+pub fn of_phase<'a>(slices: &[Slice<'a>], phase: &str, notes: &mut Vec<String>) -> Result<Vec<Slice<'a>>> {
     for keyword in PHASE_KEYWORDS {
         let is_of = |one: &&Slice| is_called(one.get(keyword), phase);
         let count = slices.iter().filter(is_of).count();
         if 0 < count && count < slices.len() {
-            return Ok(slices.iter().filter(is_of).cloned().collect());
+            let own: Vec<Slice> = slices.iter().filter(is_of).cloned().collect();
+            note_left_out(slices, &own, phase, notes);
+            return Ok(own);
         }
     }
     let separates = |&keyword: &Keyword| {
@@ -63,10 +70,20 @@ pub fn of_phase<'a>(slices: &[Slice<'a>], phase: &str) -> Result<Vec<Slice<'a>>>
         1 < values.len() && values.len() < slices.len()
     };
     let is = |keyword: Keyword| format!("{} is {}", keyword.name(), values_of(slices, keyword));
-    let told: Vec<String> = PHASE_KEYWORDS.into_iter().filter(separates).map(is).collect();
+    let told: Vec<String> = PHASE_KEYWORDS.into_iter().filter(separates).map(is).take(MENTIONED).collect();
     let told = if told.is_empty() { "nothing tells phases apart".to_owned() } else { told.join("; ") };
     let found = format!("no phase {}: {told}", quoted(phase));
     Err(Error::new(found, "the value of an attribute that some slices have"))
+}
+
+/// Notes the places of a series that one phase of it does not cover.
+fn note_left_out(every: &[Slice], own: &[Slice], phase: &str, notes: &mut Vec<String>) {
+    let Some(normal) = own.first().map(Slice::normal) else { return };
+    let heights = |slices: &[Slice]| slices.iter().map(|one| one.position.dot(normal)).collect::<Vec<f64>>();
+    let (count, places) = spacing::left_out(&heights(every), &heights(own));
+    if count > 0 {
+        notes.push(format!("phase {} leaves out {count} of {places} places", shown(phase)));
+    }
 }
 
 /// Refuses phases whose slices lie between each other's at places of their own.
@@ -86,24 +103,29 @@ pub fn refuse_interleaved(ordered: &[Slice]) -> Result<()> {
 }
 
 /// A value as a text, by which phases are told apart.
-fn told(one: &Slice, keyword: Keyword) -> String {
+pub fn told(one: &Slice, keyword: Keyword) -> String {
     one.get(keyword).to_string()
 }
 
 /// The choice among the phases that an attribute tells apart, by values that can be shown as they are.
-fn choice(slices: &[Slice], keyword: Keyword) -> Mend {
+pub fn choice(slices: &[Slice], keyword: Keyword) -> Mend {
     let different: BTreeSet<String> = slices.iter().map(|one| told(one, keyword)).collect();
     let mut values: Vec<String> = different.into_iter().collect();
     if values.len() > MOST_PHASES || values.iter().any(|value| shown(value) != *value) {
         return Mend::Phase(Vec::new());
     }
-    let number = |value: &str| value.parse().unwrap_or(f64::INFINITY);
-    values.sort_by(|a, b| number(a).total_cmp(&number(b)));
+    values.sort_by(|a, b| in_order(a, b));
     Mend::Phase(values)
 }
 
+/// The order of two values: numbers by their size before other texts.
+pub fn in_order(one: &str, other: &str) -> Ordering {
+    let number = |value: &str| value.parse().unwrap_or(f64::INFINITY);
+    number(one).total_cmp(&number(other)).then_with(|| one.cmp(other))
+}
+
 /// Which values slices have, and how many have each.
-fn values_of(slices: &[Slice], keyword: Keyword) -> String {
+pub fn values_of(slices: &[Slice], keyword: Keyword) -> String {
     let mut counts = BTreeMap::new();
     for one in slices {
         *counts.entry(told(one, keyword)).or_insert(0) += 1;

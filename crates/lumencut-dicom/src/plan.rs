@@ -9,6 +9,7 @@ use crate::keyword::Keyword;
 use crate::oddities::images_of;
 use crate::scan::Scan;
 use crate::series::Series;
+use crate::slices::{Pair, Slice};
 use crate::uids;
 use crate::wording::{listed, shown};
 
@@ -29,6 +30,9 @@ pub struct Plan {
     pub missing: Vec<i64>,
     /// How each of them is made of its neighbours.
     pub fills: Vec<Fill>,
+    /// Frames that are taken for one: where values differ, the host judges again with these pairs as
+    /// [`Headers::unlike`](crate::Headers::unlike).
+    pub compared: Vec<Compared>,
     /// What a reader of the volume should know.
     pub notes: Vec<String>,
     /// What else is told of the series.
@@ -50,6 +54,15 @@ pub struct PlannedSlice {
     pub slope: f64,
     /// What is added to them.
     pub intercept: f64,
+}
+
+/// A slice that is read, and one that is left out if its values are the same.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Compared {
+    /// The one that is read.
+    pub kept: PlannedSlice,
+    /// The one that is left out.
+    pub other: PlannedSlice,
 }
 
 /// A slice that is made of two that are read: (1 - part) × before + part × after.
@@ -82,7 +95,7 @@ pub struct Details {
 
 impl Plan {
     /// The plan for the stack of a series.
-    pub fn new(series: &Series, stack: &Stack, notes: Vec<String>) -> Self {
+    pub fn new(series: &Series, stack: &Stack, copies: &[Pair], notes: Vec<String>) -> Self {
         let missing = stack.missing();
         Self {
             size: stack.size(),
@@ -92,6 +105,7 @@ impl Plan {
             is_resampled: stack.is_resampled,
             fills: fills(&stack.places, &missing),
             missing,
+            compared: copies.iter().chain(&stack.repeats).map(compared).collect(),
             notes,
             details: details(series, stack),
             scan: Scan::of(series, &stack.slices),
@@ -118,11 +132,16 @@ fn stored_type(stack: &Stack) -> String {
 }
 
 fn planned(stack: &Stack) -> Vec<PlannedSlice> {
-    let planned = stack.slices.iter().zip(&stack.places).map(|(one, &place)| {
-        let (slope, intercept) = one.scaling;
-        PlannedSlice { file: one.image.file, frame: one.frame, place, slope, intercept }
-    });
-    planned.collect()
+    stack.slices.iter().zip(&stack.places).map(|(one, &place)| planned_at(one, place)).collect()
+}
+
+fn planned_at(one: &Slice, place: f64) -> PlannedSlice {
+    let (slope, intercept) = one.scaling;
+    PlannedSlice { file: one.image.file, frame: one.frame, place, slope, intercept }
+}
+
+fn compared((kept, other): &Pair) -> Compared {
+    Compared { kept: planned_at(kept, 0.0), other: planned_at(other, 0.0) }
 }
 
 fn fills(places: &[f64], missing: &[i64]) -> Vec<Fill> {

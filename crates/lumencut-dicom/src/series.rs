@@ -2,11 +2,14 @@
 
 use std::collections::HashMap;
 
+use crate::copies::{compared, without_copies};
 use crate::error::{Error, Result};
 use crate::grey::require_grey;
+use crate::headers::Unlike;
 use crate::image::Image;
 use crate::keyword::Keyword;
-use crate::slices::{Slice, slices_of};
+use crate::patients::require_one_patient;
+use crate::slices::{Pair, Slice, slices_of};
 use crate::wording::{counted, listed};
 
 /// The images of one series.
@@ -14,14 +17,30 @@ use crate::wording::{counted, listed};
 pub struct Series<'a> {
     /// Its unique identifier, empty where it is not stated.
     pub uid: String,
+    /// How many series of one slice each it is put together from; 1 of a series as it is stated.
+    pub part_count: usize,
     /// Its images, of which there is at least one.
     pub images: Vec<Image<'a>>,
+}
+
+/// The slices of a series.
+#[derive(Debug)]
+pub struct Placed<'a> {
+    /// Those that are read.
+    pub slices: Vec<Slice<'a>>,
+    /// Slices of copies with those that are read in their place.
+    pub copies: Vec<Pair<'a>>,
 }
 
 impl Series<'_> {
     /// Its number, empty where it is not stated.
     pub fn number(&self) -> String {
         plain(&self.text(Keyword::SeriesNumber))
+    }
+
+    /// Whether it, or a part that it is put together from, has this UID.
+    pub fn has_uid(&self, uid: &str) -> bool {
+        self.uid == uid || self.images.iter().any(|image| image.text(Keyword::SeriesInstanceUID) == uid)
     }
 
     /// Its description, empty where it is not stated.
@@ -39,8 +58,9 @@ impl Series<'_> {
         self.images.iter().fold(0, |sum, image| sum.saturating_add(image.frame_count))
     }
 
-    /// All slices of the series; localisers among them are left out where others are there.
-    pub fn slices(&self, notes: &mut Vec<String>) -> Result<Vec<Slice<'_>>> {
+    /// All slices of the series; localisers among them are left out where others are there, and so are copies.
+    pub fn slices(&self, unlike: &[Unlike], notes: &mut Vec<String>) -> Result<Placed<'_>> {
+        require_one_patient(&self.images)?;
         let is_scout = |image: &&Image| image.frame_count == 1 && image.is_localizer(0);
         let (scouts, mut images): (Vec<&Image>, Vec<&Image>) = self.images.iter().partition(is_scout);
         if images.is_empty() {
@@ -51,8 +71,10 @@ impl Series<'_> {
         }
         images.iter().try_for_each(|image| require_grey(image))?;
         require_positions(&images)?;
-        let slices: Result<Vec<Vec<Slice>>> = images.into_iter().map(slices_of).collect();
-        Ok(slices?.into_iter().flatten().collect())
+        let (kept, copies) = without_copies(&images);
+        let slices: Result<Vec<Vec<Slice>>> = kept.into_iter().map(slices_of).collect();
+        let copies = compared(&copies, unlike, notes)?;
+        Ok(Placed { slices: slices?.into_iter().flatten().collect(), copies })
     }
 
     fn text(&self, keyword: Keyword) -> String {
@@ -68,7 +90,7 @@ pub fn grouped(images: Vec<Image>) -> Vec<Series> {
         let uid = image.text(Keyword::SeriesInstanceUID);
         let place = *places.entry(uid.clone()).or_insert(groups.len());
         if place == groups.len() {
-            groups.push(Series { uid, images: Vec::new() });
+            groups.push(Series { uid, part_count: 1, images: Vec::new() });
         }
         groups[place].images.push(image);
     }

@@ -2,14 +2,24 @@
 
 use glam::DVec3;
 
+use crate::directions::Directions;
 use crate::error::{Error, Result};
 use crate::grey::plane_size;
+use crate::headers::Unlike;
 use crate::image::Image;
 use crate::keyword::Keyword;
 use crate::value::Value;
 
-/// Directions may be this far (per cosine, and in length) from orthogonal unit vectors.
-const COSINE: f64 = 1e-3;
+/// A slice that is read, and another one that is taken for the same.
+pub type Pair<'a> = (Slice<'a>, Slice<'a>);
+
+/// Whether the host found that the values of a pair differ.
+pub fn are_unlike((kept, other): &Pair, unlike: &[Unlike]) -> bool {
+    let is = |slice: &Slice, frame: crate::headers::FrameOf| {
+        slice.image.file == frame.file && slice.frame == frame.frame
+    };
+    unlike.iter().any(|pair| is(kept, pair.kept) && is(other, pair.other))
+}
 
 /// One grey image and its place, in mm of LPS.
 #[derive(Debug, Clone)]
@@ -22,10 +32,8 @@ pub struct Slice<'a> {
     pub size: [i64; 2],
     /// The middle of the first pixel.
     pub position: DVec3,
-    /// The unit vector along a row.
-    pub along_i: DVec3,
-    /// The unit vector along a column.
-    pub along_j: DVec3,
+    /// The unit vectors along rows and columns.
+    pub directions: Directions,
     /// The distance between columns, then between rows.
     pub spacing: [f64; 2],
     /// Slope and intercept from stored numbers to values.
@@ -40,7 +48,7 @@ impl<'a> Slice<'a> {
 
     /// Unit normal of the slice; slices are sorted along it.
     pub fn normal(&self) -> DVec3 {
-        self.along_i.cross(self.along_j)
+        self.directions.normal()
     }
 
     /// The value of an attribute as it holds for this frame.
@@ -64,12 +72,9 @@ fn placed<'a>(image: &'a Image<'a>, frame: usize) -> Result<Slice<'a>> {
     let position = DVec3::from_array(numbers(image, frame, Keyword::ImagePositionPatient)?);
     let cosines = numbers::<6>(image, frame, Keyword::ImageOrientationPatient)?;
     let spacing = numbers::<2>(image, frame, Keyword::PixelSpacing)?;
-    let (row, column) = (DVec3::from_slice(&cosines[..3]), DVec3::from_slice(&cosines[3..]));
-    let is_unit = |vector: DVec3| (vector.length() - 1.0).abs() < COSINE;
-    if !(is_unit(row) && is_unit(column) && row.dot(column).abs() < COSINE) {
-        let found = format!("ImageOrientationPatient {cosines:?}");
-        return Err(Error::new(found, "two orthogonal unit vectors"));
-    }
+    let directions = Directions::of(&cosines).ok_or_else(|| {
+        Error::new(format!("ImageOrientationPatient {cosines:?}"), "two orthogonal unit vectors")
+    })?;
     if !spacing.iter().all(|&distance| distance > 0.0) {
         return Err(Error::new(format!("PixelSpacing {spacing:?}"), "2 positive distances in mm"));
     }
@@ -78,8 +83,7 @@ fn placed<'a>(image: &'a Image<'a>, frame: usize) -> Result<Slice<'a>> {
         frame,
         size: plane_size(image).unwrap_or_default(),
         position,
-        along_i: row / row.length(),
-        along_j: column / column.length(),
+        directions,
         // It is stated as (between rows, between columns); i runs along a row, hence between columns.
         spacing: [spacing[1], spacing[0]],
         scaling: scaling(image, frame)?,

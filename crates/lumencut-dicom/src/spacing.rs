@@ -5,6 +5,8 @@ use crate::wording::rounded;
 /// Slices may be this far (mm) off their places, or this part of the distance between them.
 const MILLIMETRE: f64 = 0.01;
 const OF_STEP: f64 = 0.01;
+/// Slices closer than this (mm) are at one place.
+pub const ONE_PLACE: f64 = 0.01;
 /// So many wide distances in a row are those of a part of the scan.
 const RUN: usize = 3;
 /// How many different distances are told one by one.
@@ -38,6 +40,24 @@ pub fn has_run(steps: &[i64]) -> bool {
     steps.windows(RUN).any(|run| run[0] > 1 && run.iter().all(|step| *step == run[0]))
 }
 
+/// How many of all places those of a part leave out, and how many places there are.
+pub fn left_out(every: &[f64], part: &[f64]) -> (usize, usize) {
+    let (every, own) = (places(every), places(part));
+    let has = |place: f64| {
+        let after = own.partition_point(|one| *one < place - ONE_PLACE);
+        own.get(after).is_some_and(|one| *one < place + ONE_PLACE)
+    };
+    (every.iter().filter(|&&place| !has(place)).count(), every.len())
+}
+
+/// Heights in their order, each place once.
+fn places(heights: &[f64]) -> Vec<f64> {
+    let mut sorted = heights.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    sorted.dedup_by(|next, kept| *next - *kept < ONE_PLACE);
+    sorted
+}
+
 /// Distances as words: each with its count where they are few, in the order in which they come.
 pub fn told(gaps: &[f64]) -> String {
     let allowed = tolerance(median(gaps));
@@ -65,6 +85,18 @@ mod tests {
         assert_eq!(median(&[3.0, 1.0, 2.0]), 2.0);
         assert_eq!(median(&[4.0, 1.0, 2.0, 3.0]), 2.5);
         assert!(median(&[1.0, f64::NAN, 2.0]).is_nan());
+    }
+
+    #[test]
+    fn places_that_a_part_lacks_are_left_out() {
+        let every: Vec<f64> = (0..40).map(|k| f64::from(2 * k)).collect();
+        assert_eq!(left_out(&every, &every[..21]), (19, 40));
+        assert_eq!(left_out(&every, &every), (0, 40));
+        let holed: Vec<f64> = every.iter().copied().filter(|place| *place != 20.0).collect();
+        assert_eq!(left_out(&every, &holed), (1, 40));
+        let even: Vec<f64> = every.iter().copied().step_by(2).collect();
+        assert_eq!(left_out(&every, &even), (20, 40));
+        assert_eq!(left_out(&every, &[4.0]), (39, 40));
     }
 
     #[test]

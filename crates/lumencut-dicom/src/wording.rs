@@ -1,7 +1,7 @@
 //! Counts, lists of names and numbers as messages tell them.
 
 /// How many names of a list are told.
-const MENTIONED: usize = 4;
+pub const MENTIONED: usize = 4;
 /// Letters of a value that are told.
 const SHOWN: usize = 60;
 /// Letters of a text that a series states of itself.

@@ -5,7 +5,7 @@ mod made;
 use std::time::Instant;
 
 use lumencut_dicom::Mend;
-use made::{as_they_are, axial, even, file, judged, plan, refused, stack, with};
+use made::{as_they_are, even, judged, plan, refused, stack, with};
 use serde_json::{Value, json};
 
 /// Positions of a gantry that leans by some degrees while the table moves along z.
@@ -76,14 +76,13 @@ fn more_is_not_made_up_than_was_measured() {
 }
 
 #[test]
-fn copies_are_told_from_phases() {
-    let mut files = stack(&even(3), as_they_are);
-    files.push(file("copy", &axial(2.0)));
-    let error = refused(&files);
-    assert_eq!(error.found, "4 slices at 3 places: IM1 and copy, copies of one image each");
+fn phases_are_named_and_chosen_among() {
     let heights = [even(3), even(3)].concat();
     let late = |k: usize| if k < 3 { "0" } else { "400" };
-    let files = stack(&heights, |k, attributes| attributes["TriggerTime"] = late(k).into());
+    let files = stack(&heights, |k, attributes| {
+        attributes["SOPInstanceUID"] = format!("1.2.{k}").into();
+        attributes["TriggerTime"] = late(k).into();
+    });
     let error = refused(&files);
     assert!(
         error.found.ends_with("TriggerTime differs (0 in 3 slices, 400 in 3 slices): mixed phases"),

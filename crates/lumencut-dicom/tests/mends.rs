@@ -15,7 +15,12 @@ fn document(files: &[Value]) -> Value {
 
 /// Slices at five places in each of these phases.
 fn phases(times: &[&str]) -> Vec<Value> {
-    let of = |time: &&str| stack(&even(5), |_, attributes| attributes["TriggerTime"] = (*time).into());
+    let of = |time: &&str| {
+        stack(&even(5), |k, attributes| {
+            attributes["SOPInstanceUID"] = format!("1.2.{time}.{k}").into();
+            attributes["TriggerTime"] = (*time).into();
+        })
+    };
     times.iter().flat_map(of).collect()
 }
 

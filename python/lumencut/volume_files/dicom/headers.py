@@ -15,13 +15,7 @@ Header = Any
 """A pydicom Dataset that holds the attributes below, without pixels."""
 
 _OWN_KEYWORDS = (
-    *(
-        "SpecificCharacterSet",
-        "SOPClassUID",
-        "StudyInstanceUID",
-        "FrameOfReferenceUID",
-        "PlanarConfiguration",
-    ),
+    *("SpecificCharacterSet", "SOPClassUID", "PlanarConfiguration"),
     *(
         "ExtendedOffsetTable",
         "ExtendedOffsetTableLengths",

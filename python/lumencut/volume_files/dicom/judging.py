@@ -19,6 +19,7 @@ from lumencut.errors import FormatError, SeriesError
 from lumencut.mends import told
 from lumencut.scan_details import ScanDetails
 from lumencut.series_report import SeriesReport
+from lumencut.volume_files.dicom.comparing import same_values
 from lumencut.volume_files.dicom.decoding import NATIVE, PLUGINS
 from lumencut.volume_files.dicom.files import File
 from lumencut.volume_files.dicom.records import Record
@@ -48,19 +49,35 @@ class Judged:
 
 def judged(path: Path, files: Sequence[File], wanted: Wanted, notes: list[str]) -> Judged:
     """Choose one series and find where its slices lie; `path` names all files together."""
-    answer = judge_dicom(headers_document(files), wanted_document(wanted))
-    plan = _answer(path, files, answer)["plan"]
+    plan = _plan(path, files, wanted)
+    if unlike := _unlike(plan, files, notes):
+        plan = _plan(path, files, wanted, unlike)
     notes += plan["notes"]
-    slices = []
-    for one in plan["slices"]:
-        image = files[one["file"]].image
-        assert image is not None, "a plan names files with a header"
-        slices.append(Slice(image, one["frame"], one["place"], (one["slope"], one["intercept"])))
+    slices = [_slice(files, one) for one in plan["slices"]]
     fills = [Fill(**fill) for fill in plan["fills"]]
     affine = np.array(plan["world_from_index"], np.float64)
     ni, nj, nk = plan["size"]
     stack = Stack(slices, fills, (ni, nj, nk), affine)
     return Judged(stack, np.dtype(plan["stored_type"]), plan["details"], _scan(plan["scan"]))
+
+
+def _plan(path: Path, files: Sequence[File], wanted: Wanted, unlike: Sequence[Record] = ()) -> Record:
+    answer = judge_dicom(headers_document(files, unlike), wanted_document(wanted))
+    plan: Record = _answer(path, files, answer)["plan"]
+    return plan
+
+
+def _unlike(plan: Record, files: Sequence[File], notes: list[str]) -> list[Record]:
+    """The pairs of a plan that it takes for one slice, and whose values differ."""
+    pairs = plan["compared"]
+    slices = [(_slice(files, pair["kept"]), _slice(files, pair["other"])) for pair in pairs]
+    return [pair for pair, is_same in zip(pairs, same_values(slices, notes), strict=True) if not is_same]
+
+
+def _slice(files: Sequence[File], one: Record) -> Slice:
+    image = files[one["file"]].image
+    assert image is not None, "a plan names files with a header"
+    return Slice(image, one["frame"], one["place"], (one["slope"], one["intercept"]))
 
 
 def _scan(stated: Record) -> ScanDetails:
@@ -73,10 +90,11 @@ def described(path: Path, files: Sequence[File]) -> list[SeriesReport]:
     return [_report(one) for one in _answer(path, files, answer)["series"]]
 
 
-def headers_document(files: Sequence[File]) -> bytes:
-    """Give the headers of files as the core takes them."""
+def headers_document(files: Sequence[File], unlike: Sequence[Record] = ()) -> bytes:
+    """Give the headers of files as the core takes them, with the pairs whose values were found to differ."""
     records = [file.record for file in files]
-    return _document({"transfer_syntaxes": [*NATIVE, *PLUGINS], "files": records})
+    syntaxes = [*NATIVE, *PLUGINS]
+    return _document({"transfer_syntaxes": syntaxes, "files": records, "unlike": list(unlike)})
 
 
 def wanted_document(wanted: Wanted) -> bytes:

@@ -23,7 +23,8 @@ def header_record(image: Image) -> Record:
     for tag in tuple(header.keys()):
         value = header[tag].value
         if (keyword := keywords.get(tag)) is not None:
-            attributes[keyword] = plain(value)
+            # Names are compared, and no message shows them.
+            attributes[keyword] = str(value) if keyword == "PatientName" else plain(value)
     shared = header.get("SharedFunctionalGroupsSequence") or ()
     frames = header.get("PerFrameFunctionalGroupsSequence") or ()
     return {

@@ -3,12 +3,14 @@
 /** How a value is written, by the standard's two letters. */
 export type Vr =
   | 'CS'
+  | 'DA'
   | 'DS'
   | 'DT'
   | 'FD'
   | 'FL'
   | 'IS'
   | 'LO'
+  | 'PN'
   | 'SH'
   | 'SQ'
   | 'TM'
@@ -25,6 +27,12 @@ interface Attribute {
 
 const TABLE: readonly (readonly [string, string, Vr])[] = [
   ['SOPInstanceUID', '00080018', 'UI'],
+  ['StudyInstanceUID', '0020000d', 'UI'],
+  ['FrameOfReferenceUID', '00200052', 'UI'],
+  ['PatientID', '00100020', 'LO'],
+  ['IssuerOfPatientID', '00100021', 'LO'],
+  ['PatientName', '00100010', 'PN'],
+  ['PatientBirthDate', '00100030', 'DA'],
   ['SeriesInstanceUID', '0020000e', 'UI'],
   ['SeriesNumber', '00200011', 'IS'],
   ['SeriesDescription', '0008103e', 'LO'],

@@ -5,6 +5,7 @@ import type { ReadScan } from '../../core/scan-study';
 import { inOrder, type Source } from '../source';
 import type { Steps } from '../steps';
 import type { Sink } from '../volume-file';
+import { unlikePairs } from './comparing';
 import { type LookedInto, lookInto } from './headers';
 import { asked, judged, type Plan } from './judging';
 import { Recorder } from './records';
@@ -39,7 +40,10 @@ export async function openDicom(series: Series, judge: Judge, sink: Sink, steps:
 /** The plan of the volume; where a series is to be chosen first, the refusal shows a picture of each. */
 async function planned(series: Series, judge: Judge, files: readonly LookedInto[]): Promise<Plan> {
   try {
-    return judged(judge, series.subject, files, series.wanted);
+    const question = { ...series, files };
+    const plan = judged(judge, question);
+    const unlike = await unlikePairs(plan, files);
+    return unlike.length > 0 ? judged(judge, { ...question, unlike }) : plan;
   } catch (error) {
     throw await withThumbnails(error, files);
   }

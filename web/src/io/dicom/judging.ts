@@ -13,6 +13,8 @@ export interface Plan {
   readonly world_from_index: readonly (readonly number[])[];
   readonly slices: readonly PlannedSlice[];
   readonly fills: readonly Fill[];
+  /** Slices that are taken for one if their values are the same. */
+  readonly compared: readonly Compared[];
   readonly notes: readonly string[];
   /** How the scan was made, as the engine takes it. */
   readonly scan: object;
@@ -25,6 +27,12 @@ export interface PlannedSlice {
   readonly place: number;
   readonly slope: number;
   readonly intercept: number;
+}
+
+/** A slice that is read, and one that is left out. */
+export interface Compared {
+  readonly kept: PlannedSlice;
+  readonly other: PlannedSlice;
 }
 
 /** A slice that is made of two that are read: (1 - part) × before + part × after. */
@@ -50,9 +58,18 @@ export function asked(judge: Judge): Asked {
   return JSON.parse(judge.dicom_attributes());
 }
 
-/** Finds the one series that is to be read, and how; `subject` names all files together. */
-export function judged(judge: Judge, subject: string, files: readonly LookedInto[], wanted: Wanted): Plan {
-  const headers = { transfer_syntaxes: TRANSFER_SYNTAXES, files: files.map((file) => file.record) };
+/** What is judged: the files, named together, what of them is wanted, and which slices were found to differ. */
+export interface Question {
+  readonly subject: string;
+  readonly files: readonly LookedInto[];
+  readonly wanted: Wanted;
+  readonly unlike?: readonly Compared[];
+}
+
+/** Finds the one series that is to be read, and how. */
+export function judged(judge: Judge, { subject, files, wanted, unlike = [] }: Question): Plan {
+  const records = files.map((file) => file.record);
+  const headers = { transfer_syntaxes: TRANSFER_SYNTAXES, files: records, unlike };
   const answer = JSON.parse(judge.judge_dicom(JSON.stringify(headers), JSON.stringify(wanted)));
   if (answer.plan) {
     return answer.plan;

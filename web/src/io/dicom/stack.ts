@@ -128,7 +128,7 @@ class Filler {
 }
 
 /** slope · stored + intercept of one slice, whole numbers wherever that is exact. */
-function inUnit(stored: Numbers, scaling: Scaling): Numbers {
+export function inUnit(stored: Numbers, scaling: Scaling): Numbers {
   if (!isScaled(scaling)) {
     return stored;
   }

@@ -1,0 +1,96 @@
+//! Files that hold one image: the first is read, and the host compares the others with it.
+
+use std::collections::HashMap;
+
+use crate::error::{Error, Result};
+use crate::headers::{Attributes, Unlike};
+use crate::image::Image;
+use crate::keyword::Keyword;
+use crate::slices::{Pair, are_unlike, slices_of};
+use crate::value::Value;
+use crate::wording::{counted, listed};
+
+/// What tells nothing of the image itself; patients are compared on their own.
+const OF_THE_PATIENT: [Keyword; 4] =
+    [Keyword::PatientID, Keyword::IssuerOfPatientID, Keyword::PatientName, Keyword::PatientBirthDate];
+
+/// An image, and another file that has its identifier.
+type Copy<'i, 'a> = (&'i Image<'a>, &'i Image<'a>);
+
+/// The images without copies, and each copy with the image that is read.
+pub fn without_copies<'i, 'a>(images: &[&'i Image<'a>]) -> (Vec<&'i Image<'a>>, Vec<Copy<'i, 'a>>) {
+    let mut firsts: HashMap<String, &Image> = HashMap::new();
+    let (mut kept, mut copies) = (Vec::new(), Vec::new());
+    for &image in images {
+        let uid = image.get(Keyword::SOPInstanceUID).to_string();
+        let is_stated = !image.get(Keyword::SOPInstanceUID).is_empty();
+        match firsts.get(&uid).filter(|_| is_stated) {
+            Some(first) => copies.push((*first, image)),
+            None => {
+                kept.push(image);
+                firsts.insert(uid, image);
+            }
+        }
+    }
+    (kept, copies)
+}
+
+/// The slices of copies in pairs, for the host to compare; refuses what differs and calls itself a copy.
+pub fn compared<'i>(
+    copies: &[Copy<'i, 'i>],
+    unlike: &[Unlike],
+    notes: &mut Vec<String>,
+) -> Result<Vec<Pair<'i>>> {
+    let mut pairs = Vec::new();
+    for (kept, copy) in copies {
+        if let Some(keyword) = differing(kept, copy) {
+            return Err(no_copy(kept, copy, keyword.name()));
+        }
+        let before = pairs.len();
+        pairs.extend(slices_of(kept)?.into_iter().zip(slices_of(copy)?));
+        if pairs[before..].iter().any(|pair| are_unlike(pair, unlike)) {
+            return Err(no_copy(kept, copy, "values"));
+        }
+    }
+    if !copies.is_empty() {
+        let names: Vec<&str> = copies.iter().map(|(_, copy)| copy.name.as_str()).collect();
+        let count = counted(copies.len() as i64, "file");
+        notes.push(format!(
+            "left out, {count} with the SOPInstanceUID and values of another: {}",
+            listed(&names)
+        ));
+    }
+    Ok(pairs)
+}
+
+fn no_copy(kept: &Image, copy: &Image, what: &str) -> Error {
+    let found = format!("the SOPInstanceUID of {}, but other {what}", kept.name);
+    let error = Error::new(found, "one identifier for each image").of(copy.file);
+    error.mend("remove the wrong one of the two, or export the series again")
+}
+
+/// The first attribute in which two images differ.
+fn differing(one: &Image, other: &Image) -> Option<Keyword> {
+    let (a, b) = (one.header, other.header);
+    let frames = a.frames.iter().zip(&b.frames);
+    let levels =
+        std::iter::once((&a.attributes, &b.attributes)).chain([(&a.shared, &b.shared)]).chain(frames);
+    let counted = Some(Keyword::NumberOfFrames).filter(|_| a.frames.len() != b.frames.len());
+    counted.or_else(|| levels.into_iter().find_map(|(a, b)| differs(a, b)))
+}
+
+fn differs(one: &Attributes, other: &Attributes) -> Option<Keyword> {
+    let values =
+        |of: &Attributes, keyword| of.get(keyword).map(|value| value.all().to_vec()).unwrap_or_default();
+    let is_same = |keyword| {
+        let (a, b) = (values(one, keyword), values(other, keyword));
+        a.len() == b.len() && a.iter().zip(&b).all(|(a, b)| is_equal(a, b))
+    };
+    let of_image = Keyword::ALL.iter().copied().filter(|keyword| !OF_THE_PATIENT.contains(keyword));
+    of_image.into_iter().find(|&keyword| !is_same(keyword))
+}
+
+/// Whether two values are equal; a number may be written in several ways.
+fn is_equal(one: &Value, other: &Value) -> bool {
+    one == other || one.number().is_some_and(|number| other.number() == Some(number))
+}

@@ -1,0 +1,108 @@
+//! The directions of rows and columns: cosines that were rounded are made orthonormal.
+
+use glam::DVec3;
+
+/// Cosines may be this far from those of orthogonal unit vectors.
+pub const ROUNDING: f64 = 0.01;
+/// Up to here cosines are read as they are, but for their length.
+const EXACT: f64 = 1e-4;
+
+/// The unit vectors along rows and columns.
+#[derive(Debug, Clone, Copy)]
+pub struct Directions {
+    /// Along a row.
+    pub along_i: DVec3,
+    /// Along a column.
+    pub along_j: DVec3,
+    /// The cosines as they are stated.
+    stated: [DVec3; 2],
+    /// Whether the cosines were rounded, so that they are made orthonormal.
+    pub is_rounded: bool,
+}
+
+impl Directions {
+    /// The directions that cosines state; none where they are too far from orthogonal unit vectors.
+    pub fn of(cosines: &[f64; 6]) -> Option<Self> {
+        let stated = [DVec3::from_slice(&cosines[..3]), DVec3::from_slice(&cosines[3..])];
+        let [along_i, along_j] = orthonormal(stated)?;
+        let made = Self { along_i, along_j, stated, is_rounded: true };
+        if made.correction() > EXACT {
+            return Some(made).filter(|made| made.correction() <= ROUNDING);
+        }
+        Some(Self {
+            along_i: stated[0].normalize(),
+            along_j: stated[1].normalize(),
+            is_rounded: false,
+            ..made
+        })
+    }
+
+    /// The directions across this unit vector; none where that moves a cosine by more than rounding does.
+    pub fn across(&self, normal: DVec3) -> Option<Self> {
+        let within = |vector: DVec3| vector - vector.dot(normal) * normal;
+        let [along_i, along_j] = orthonormal([within(self.along_i), within(self.along_j)])?;
+        Some(Self { along_i, along_j, ..*self }).filter(|made| made.correction() <= ROUNDING)
+    }
+
+    /// How far the farthest cosine is from the stated one.
+    pub fn correction(&self) -> f64 {
+        let [row, column] = self.stated;
+        (self.along_i - row).abs().max_element().max((self.along_j - column).abs().max_element())
+    }
+
+    /// Unit normal of rows and columns.
+    pub fn normal(&self) -> DVec3 {
+        self.along_i.cross(self.along_j)
+    }
+}
+
+/// The orthogonal unit vectors nearest to two vectors; each is turned by the same angle.
+fn orthonormal([row, column]: [DVec3; 2]) -> Option<[DVec3; 2]> {
+    let (row, column) = (row.try_normalize()?, column.try_normalize()?);
+    let (sum, difference) = ((row + column).try_normalize()?, (row - column).try_normalize()?);
+    let half = std::f64::consts::FRAC_1_SQRT_2;
+    Some([(sum + difference) * half, (sum - difference) * half])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::{DMat3, DVec3, EulerRot};
+
+    fn rounded(vector: DVec3) -> DVec3 {
+        (vector * 100.0).round() / 100.0
+    }
+
+    #[test]
+    fn two_decimals_are_made_orthonormal() {
+        for n in 0..500 {
+            let angle = |factor: f64| (f64::from(n) * factor) % 3.0;
+            let turn = DMat3::from_euler(EulerRot::XYZ, angle(0.7), angle(1.3), angle(2.1));
+            let (row, column) = (rounded(turn.x_axis), rounded(turn.y_axis));
+            let cosines = [row.x, row.y, row.z, column.x, column.y, column.z];
+            let made = Directions::of(&cosines).expect("rounded cosines");
+            if !made.is_rounded {
+                continue;
+            }
+            assert!(made.along_i.dot(made.along_j).abs() < 1e-12, "{cosines:?}");
+            assert!((made.along_i.length() - 1.0).abs() < 1e-12, "{cosines:?}");
+            let upright = made.across(turn.z_axis).expect("within rounding");
+            assert!(upright.normal().dot(turn.z_axis) > 1.0 - 1e-12, "{cosines:?}");
+            assert!((upright.along_i - turn.x_axis).length() < 0.01, "{cosines:?}");
+        }
+    }
+
+    #[test]
+    fn cosines_that_are_no_rounding_are_none() {
+        for cosines in [
+            [1.0, 0.0, 0.0, 0.5, 1.0, 0.0],
+            [1.0, 0.0, 0.0, 0.03, 1.0, 0.0],
+            [1.02, 0.0, 0.0, 0.0, 1.0, 0.0],
+            [0.0; 6],
+            [1.0, 0.0, 0.0, 1.0, 0.0, 0.0],
+            [f64::MAX, 0.0, 0.0, 0.0, 1.0, 0.0],
+        ] {
+            assert!(Directions::of(&cosines).is_none(), "{cosines:?}");
+        }
+    }
+}

@@ -1,0 +1,92 @@
+//! Series of one slice each that are one scan, as anonymisers leave them.
+
+use std::collections::BTreeMap;
+
+use crate::error::Result;
+use crate::geometry::{Mending, Stack, stacked};
+use crate::image::Image;
+use crate::keyword::Keyword;
+use crate::patients::Patient;
+use crate::series::{Series, grouped};
+
+/// So many slices make a scan.
+const FEWEST: usize = 3;
+/// What the slices of one series share beside their grid.
+const SHARED: [Keyword; 6] = [
+    Keyword::StudyInstanceUID,
+    Keyword::FrameOfReferenceUID,
+    Keyword::Modality,
+    Keyword::SeriesNumber,
+    Keyword::Rows,
+    Keyword::Columns,
+];
+
+/// The series, where those of one slice each that form one stack are put together in the place of the first.
+pub fn gathered(every: Vec<Series>) -> Vec<Series> {
+    let mut parts: BTreeMap<(Vec<String>, Patient), Vec<usize>> = BTreeMap::new();
+    for (n, series) in every.iter().enumerate().filter(|(_, series)| is_single(series)) {
+        let image = &series.images[0];
+        let shared = SHARED.map(|keyword| image.text(keyword)).to_vec();
+        parts.entry((shared, Patient::of(image))).or_default().push(n);
+    }
+    let mut every: Vec<Option<Series>> = every.into_iter().map(Some).collect();
+    let mut apart = Vec::new();
+    for places in parts.into_values().filter(|places| places.len() >= FEWEST) {
+        let own: Vec<Series> = places.iter().filter_map(|&n| every[n].take()).collect();
+        let one = Series {
+            uid: own[0].uid.clone(),
+            part_count: own.len(),
+            images: own.into_iter().flat_map(|series| series.images).collect(),
+        };
+        if is_scan(&one) {
+            every[places[0]] = Some(one);
+        } else {
+            apart.push((places, one));
+        }
+    }
+    for (places, one) in apart {
+        for (n, series) in places.into_iter().zip(grouped(one.images)) {
+            every[n] = Some(series);
+        }
+    }
+    every.into_iter().flatten().collect()
+}
+
+/// Notes that a series was put together.
+pub fn note_parts(series: &Series, notes: &mut Vec<String>) {
+    if series.part_count > 1 {
+        notes.push(format!(
+            "{} series of one slice each are read as one scan: they share study, patient, number and grid",
+            series.part_count
+        ));
+    }
+}
+
+/// Whether a series has one slice, perhaps in several copies.
+fn is_single(series: &Series) -> bool {
+    let first = &series.images[0];
+    let uid = first.get(Keyword::SOPInstanceUID);
+    let is_same = |image: &Image| !uid.is_empty() && image.get(Keyword::SOPInstanceUID) == uid;
+    first.frame_count == 1 && !first.is_localizer(0) && series.images[1..].iter().all(is_same)
+}
+
+/// Whether slices are one stack, as they are or after a mend that hosts offer.
+fn is_scan(series: &Series) -> bool {
+    let stack = || -> Result<Stack> {
+        let placed = series.slices(&[], &mut Vec::new())?;
+        stacked(placed.slices, Mending::default(), &[], &mut Vec::new())
+    };
+    match stack() {
+        Ok(stack) => stack.slices.len() >= FEWEST,
+        Err(error) => error.mended_by.is_some() && place_count(series) >= FEWEST,
+    }
+}
+
+/// How many different positions images state.
+fn place_count(series: &Series) -> usize {
+    let mut positions: Vec<String> =
+        series.images.iter().map(|image| image.get(Keyword::ImagePositionPatient).to_string()).collect();
+    positions.sort();
+    positions.dedup();
+    positions.len()
+}

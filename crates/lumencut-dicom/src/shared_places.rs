@@ -1,0 +1,105 @@
+//! Several slices at one place: phases, parts of one scan that overlap, or one image twice.
+//!
+//! Parts that overlap hold the same values where they do; phases differ. Headers cannot tell: the host compares the values of
+//! the pairs that are given here.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use crate::error::{Error, Result};
+use crate::headers::Unlike;
+use crate::keyword::Keyword;
+use crate::phases::{choice, in_order, mixed, telling, told, values_of};
+use crate::slices::{Pair, Slice, are_unlike};
+use crate::spacing::ONE_PLACE;
+use crate::wording::{counted, listed};
+
+/// One slice for each place of a sorted stack, and the pairs that are to be compared.
+pub fn one_per_place<'a>(
+    ordered: Vec<Slice<'a>>,
+    unlike: &[Unlike],
+    notes: &mut Vec<String>,
+) -> Result<(Vec<Slice<'a>>, Vec<Pair<'a>>)> {
+    let places = places(&ordered);
+    if places.len() == ordered.len() {
+        return Ok((ordered, Vec::new()));
+    }
+    let neighbours: Vec<Pair> = places
+        .iter()
+        .flat_map(|place| place.windows(2).map(|two| (two[0].clone(), two[1].clone())))
+        .collect();
+    let found = format!("{} slices at {}", ordered.len(), counted(places.len() as i64, "place"));
+    let keyword = telling(&neighbours);
+    if let Some(keyword) = keyword.filter(|&keyword| !may_overlap(&places, keyword)) {
+        let found = format!("{found}: {}; {}", names(&neighbours), mixed(&ordered, keyword));
+        return Err(Error::new(found, "one slice per place").mended_by(choice(&ordered, keyword)));
+    }
+    let (kept, pairs) = firsts(&places, keyword);
+    let differing: Vec<Pair> = pairs.iter().filter(|pair| are_unlike(pair, unlike)).cloned().collect();
+    if !differing.is_empty() {
+        return Err(refused(&found, &differing, keyword.map(|keyword| (&ordered[..], keyword))));
+    }
+    notes.push(match keyword {
+        Some(keyword) => format!(
+            "{found}, with the same values at shared ones: overlapping parts are read as one scan ({} is {})",
+            keyword.name(),
+            values_of(&ordered, keyword)
+        ),
+        None => format!("{found}, with the same values at shared ones: one of each is read"),
+    });
+    Ok((kept, pairs))
+}
+
+/// The slices at each place.
+fn places<'s, 'a>(ordered: &'s [Slice<'a>]) -> Vec<&'s [Slice<'a>]> {
+    let normal = ordered.first().map(Slice::normal).unwrap_or_default();
+    let is_one = |a: &Slice, b: &Slice| b.position.dot(normal) - a.position.dot(normal) < ONE_PLACE;
+    ordered.chunk_by(is_one).collect()
+}
+
+/// Whether slices that an attribute tells apart may be parts of one scan: some places have one slice, and the parts
+/// extend each other or share few places.
+fn may_overlap(places: &[&[Slice]], keyword: Keyword) -> bool {
+    let shared = places.iter().filter(|place| place.len() > 1).count();
+    let mut covered: BTreeMap<String, usize> = BTreeMap::new();
+    for place in places {
+        let values: BTreeSet<String> = place.iter().map(|one| told(one, keyword)).collect();
+        values.into_iter().for_each(|value| *covered.entry(value).or_default() += 1);
+    }
+    let extend_each_other = covered.values().all(|&count| count < places.len());
+    shared < places.len() && (extend_each_other || 2 * shared <= places.len())
+}
+
+/// The first slice of each place in the order of the attribute, and the others as pairs with it.
+fn firsts<'a>(places: &[&[Slice<'a>]], keyword: Option<Keyword>) -> (Vec<Slice<'a>>, Vec<Pair<'a>>) {
+    let (mut kept, mut pairs) = (Vec::new(), Vec::new());
+    for place in places {
+        let mut here = place.to_vec();
+        if let Some(keyword) = keyword {
+            here.sort_by(|a, b| in_order(&told(a, keyword), &told(b, keyword)));
+        }
+        let mut here = here.into_iter();
+        let Some(first) = here.next() else { continue };
+        pairs.extend(here.map(|other| (first.clone(), other)));
+        kept.push(first);
+    }
+    (kept, pairs)
+}
+
+/// The refusal of slices at one place whose values differ: phases or parts where an attribute tells them apart.
+fn refused(found: &str, differing: &[Pair], apart: Option<(&[Slice], Keyword)>) -> Error {
+    let found = format!("{found}, of different values: {}", names(differing));
+    let Some((ordered, keyword)) = apart else {
+        return Error::new(found, "one slice per place").mend("remove all but one slice at each place");
+    };
+    let values = values_of(ordered, keyword);
+    let found = format!("{found}; {} is {values}: phases, or overlapping parts of one scan", keyword.name());
+    let error = Error::new(found, "one slice per place").mend("remove one of each pair where they are parts");
+    let different: BTreeSet<String> = ordered.iter().map(|one| told(one, keyword)).collect();
+    // A value for each slice tells no phases apart.
+    if 2 * different.len() > ordered.len() { error } else { error.mended_by(choice(ordered, keyword)) }
+}
+
+fn names(pairs: &[Pair]) -> String {
+    let names: Vec<String> = pairs.iter().map(|(a, b)| format!("{} and {}", a.name(), b.name())).collect();
+    listed(&names)
+}

@@ -1,0 +1,51 @@
+"""Whether slices that a plan takes for one hold the same values: the judge sees headers alone."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from lumencut.volume_files.dicom.headers import Image
+from lumencut.volume_files.dicom.pixels import PixelReader
+from lumencut.volume_files.dicom.stack import Slice
+from lumencut.volume_files.dicom.values import in_unit
+from lumencut.volume_files.opened import refusing
+
+_CHUNK = 1 << 20
+
+
+def same_values(pairs: Sequence[tuple[Slice, Slice]], notes: list[str]) -> Iterator[bool]:
+    """Tell of each pair of slices whether all of their values are equal; equal copies are not decoded."""
+    equal: dict[tuple[int, int], bool] = {}
+    for one, other in pairs:
+        key = id(one.image), id(other.image)
+        if key not in equal:
+            equal[key] = _are_copies(one.image, other.image) and _same_bytes(one.image, other.image)
+    decoded = [pair for pair in pairs if not equal[id(pair[0].image), id(pair[1].image)]]
+    first, second = [one for one, _ in decoded], [other for _, other in decoded]
+    with PixelReader(first, notes) as ones, PixelReader(second, notes) as others:
+        for one, other in pairs:
+            if equal[id(one.image), id(other.image)]:
+                yield True
+                continue
+            with refusing(one.image.source, "DICOM", notes):
+                values = in_unit(ones.next(), *one.scaling)
+            with refusing(other.image.source, "DICOM", notes):
+                yield np.array_equal(values, in_unit(others.next(), *other.scaling))
+
+
+def _are_copies(one: Image, other: Image) -> bool:
+    first, second = (image.header.get("SOPInstanceUID") for image in (one, other))
+    return bool(first) and first == second
+
+
+def _same_bytes(one: Image, other: Image) -> bool:
+    """Whether two files are the same to the byte."""
+    if one.source.size != other.source.size:
+        return False
+    with one.source.open() as first, other.source.open() as second:
+        while (chunk := first.read(_CHUNK)) == second.read(_CHUNK):
+            if not chunk:
+                return True
+    return False

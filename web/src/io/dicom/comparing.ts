@@ -1,0 +1,55 @@
+/** Whether slices that a plan takes for one hold the same values: the judge sees headers alone. */
+import type { Numbers } from '../numbers';
+import type { Image, LookedInto } from './headers';
+import type { Compared, Plan, PlannedSlice } from './judging';
+import { PixelReader } from './pixels';
+import { inUnit } from './stack';
+
+/** The pairs of a plan whose values differ; equal copies are not decoded. */
+export async function unlikePairs(plan: Plan, files: readonly LookedInto[]): Promise<Compared[]> {
+  const [kept, others] = [new Values(files), new Values(files)];
+  const equal = new Map<string, boolean>();
+  const unlike: Compared[] = [];
+  for (const pair of plan.compared) {
+    const [one, other] = [kept.image(pair.kept), others.image(pair.other)];
+    const key = `${pair.kept.file} ${pair.other.file}`;
+    const isEqual = equal.get(key) ?? (areCopies(one, other) && (await haveSameBytes(one, other)));
+    equal.set(key, isEqual);
+    if (!isEqual && !areSame(await kept.read(pair.kept), await others.read(pair.other))) {
+      unlike.push(pair);
+    }
+  }
+  return unlike;
+}
+
+/** Reads the values of slices, one after the other. */
+class Values {
+  private readonly reader = new PixelReader();
+
+  constructor(private readonly files: readonly LookedInto[]) {}
+
+  image({ file }: PlannedSlice): Image {
+    const image = this.files[file]?.image;
+    if (!image) {
+      throw new Error('a plan names files with a header');
+    }
+    return image;
+  }
+
+  async read(slice: PlannedSlice): Promise<Numbers> {
+    return inUnit(await this.reader.read(this.image(slice), slice.frame), slice);
+  }
+}
+
+function areCopies(one: Image, other: Image): boolean {
+  const uid = one.header.attributes.SOPInstanceUID;
+  return Boolean(uid) && uid === other.header.attributes.SOPInstanceUID;
+}
+
+async function haveSameBytes({ source: one }: Image, { source: other }: Image): Promise<boolean> {
+  return one.size === other.size && areSame(await one.slice(0, one.size), await other.slice(0, other.size));
+}
+
+function areSame(one: Numbers | Uint8Array, other: Numbers | Uint8Array): boolean {
+  return one.length === other.length && (one as Uint8Array).every((value, n) => value === other[n]);
+}
