@@ -15,6 +15,8 @@ from lumencut.volume import Volume
 
 #: NIfTI counts to the right and to the front, volumes to the left and to the back.
 _RAS_FROM_LPS = np.diag([-1.0, -1.0, 1.0, 1.0])
+#: The fastest level of gzip. The highest one takes six times as long and saves 0.5 % of a noisy scan.
+_FAST = 1
 
 
 def write_volume(volume: Volume, path: str | os.PathLike[str]) -> None:
@@ -47,7 +49,7 @@ def _write_nrrd(volume: Volume, whole: Path) -> None:
         "kinds": ["domain"] * 3,
     }
     with whole.open("wb") as file:
-        nrrd.write(file, volume.array.T, header, index_order="F")
+        nrrd.write(file, volume.array.T, header, index_order="F", compression_level=_FAST)
 
 
 def _write_nifti(volume: Volume, whole: Path, *, is_packed: bool) -> None:
@@ -58,4 +60,4 @@ def _write_nifti(volume: Volume, whole: Path, *, is_packed: bool) -> None:
     image = library.Nifti1Image(volume.array.T, _RAS_FROM_LPS @ volume.world_from_index)
     image.header.set_xyzt_units("mm")
     content = image.to_bytes()
-    whole.write_bytes(gzip.compress(content) if is_packed else content)
+    whole.write_bytes(gzip.compress(content, _FAST) if is_packed else content)
