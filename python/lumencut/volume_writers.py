@@ -15,6 +15,8 @@ from lumencut.volume import Volume
 
 #: NIfTI counts to the right and to the front, volumes to the left and to the back.
 _RAS_FROM_LPS = np.diag([-1.0, -1.0, 1.0, 1.0])
+#: The fastest level of gzip. The highest one takes six times as long and saves 0.5 % of a noisy scan.
+_FAST = 1
 
 
 def write_volume(volume: Volume, path: str | os.PathLike[str], mark: str = "") -> None:
@@ -57,7 +59,7 @@ def _write_nrrd(volume: Volume, whole: Path, mark: str) -> None:
         "kinds": ["domain"] * 3,
     }
     with whole.open("wb") as file:
-        nrrd.write(file, volume.array.T, header, index_order="F")
+        nrrd.write(file, volume.array.T, header, index_order="F", compression_level=_FAST)
 
 
 def _write_nifti(volume: Volume, whole: Path, mark: str, *, is_packed: bool) -> None:
@@ -69,4 +71,4 @@ def _write_nifti(volume: Volume, whole: Path, mark: str, *, is_packed: bool) -> 
     image.header.set_xyzt_units("mm")
     image.header["descrip"] = mark.encode()
     content = image.to_bytes()
-    whole.write_bytes(gzip.compress(content) if is_packed else content)
+    whole.write_bytes(gzip.compress(content, _FAST) if is_packed else content)

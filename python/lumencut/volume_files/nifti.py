@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +15,7 @@ from lumencut.errors import FormatError
 from lumencut.volume_files.opened import Filled, Progress, VolumeFile, shown, unfollowed
 from lumencut.volume_files.payload import Codec, first_bytes, read_voxels
 from lumencut.volume_files.rescale import is_integral, rescaled
+from lumencut.volume_files.room import require_memory
 from lumencut.volume_files.straightened_notes import note_sides
 
 LPS_FROM_RAS = np.diag([-1.0, -1.0, 1.0, 1.0])
@@ -65,8 +67,12 @@ def open_nifti(path: Path) -> VolumeFile:
     def load(progress: Progress, filled: Filled) -> npt.NDArray[Any]:
         codec: Codec = "zlib" if _is_gzip(data_path) else "raw"
         heard = unfollowed if is_scaled else filled
-        stored = read_voxels(data_path, size[::-1], dtype, codec=codec, skip=offset, filled=heard)
-        return rescaled(stored, slope, intercept)
+        # What a scaling needs at least, before the values tell it.
+        scaled = (settled or dtype).itemsize * size[0] * size[1] * size[2] if is_scaled else 0
+        stored = read_voxels(
+            data_path, size[::-1], dtype, codec=codec, skip=offset, beyond=scaled, filled=heard
+        )
+        return rescaled(stored, slope, intercept, partial(require_memory, data_path))
 
     space = _stated_space(header)
     return VolumeFile(

@@ -17,6 +17,7 @@ import numpy.typing as npt
 from lumencut._files import checked_path
 from lumencut.errors import FormatError
 from lumencut.volume_files.opened import Filled, shown, unfollowed
+from lumencut.volume_files.room import require_memory
 
 Codec = Literal["raw", "zlib", "bzip2"]
 """``zlib`` stands for zlib and gzip streams alike, whichever the bytes turn out to be."""
@@ -43,6 +44,7 @@ def read_voxels(
     start: int = 0,
     codec: Codec = "raw",
     skip: int = 0,
+    beyond: int = 0,
     filled: Filled = unfollowed,
 ) -> npt.NDArray[Any]:
     """Read voxels of a shape [k, j, i] that begin at byte `start` of the file.
@@ -62,6 +64,8 @@ def read_voxels(
         How the bytes are compressed.
     skip : int, default 0
         Bytes to leave out at the beginning of the decompressed stream.
+    beyond : int, default 0
+        Bytes that the caller will make of the voxels while it holds them.
     filled : callable, optional
         Told of the voxels as they come in.
 
@@ -73,7 +77,7 @@ def read_voxels(
     Raises
     ------
     FormatError
-        When the file holds fewer bytes than the shape needs.
+        When the file holds fewer bytes than the shape needs, or the machine has less memory.
     """
     needed = dtype.itemsize
     for count in shape:
@@ -86,7 +90,10 @@ def read_voxels(
             raise _too_short(path, length, needed)
         file.seek(start if start >= 0 else length - needed)
         held = max(length - file.tell(), 0)
-        _require_room(path, file, codec, skip + needed, held)
+        _require_bytes(path, codec, skip + needed, held)
+        # A volume holds its voxels in the order of the machine, so those in another order are copied.
+        require_memory(path, beyond + (1 if dtype.isnative else 2) * needed)
+        _require_proof(path, file, codec, skip + needed, held)
         data = np.empty(needed, np.uint8)
         voxels = data.view(dtype).reshape(shape)
         told = partial(filled, voxels)
@@ -130,21 +137,16 @@ def _read_plain(path: Path, file: BinaryIO, data: npt.NDArray[np.uint8], told: C
         told(place)
 
 
-def _require_room(path: Path, file: BinaryIO, codec: Codec, needed: int, held: int) -> None:
-    """Refuse a size that the stream does not fill, before the memory for it is taken.
-
-    A stream that would have to grow much is decompressed once only to be counted.
-    """
+def _require_bytes(path: Path, codec: Codec, needed: int, held: int) -> None:
+    """Refuse a size that the file cannot fill."""
     if codec == "raw" and needed > held:
         raise _too_short(path, held, needed)
     if codec == "zlib" and needed > held * _DEFLATE_LIMIT:
         raise _too_short(path, held * _DEFLATE_LIMIT, needed, "at most ")
-    if needed > (memory := _memory()):
-        raise FormatError(
-            str(path),
-            f"{needed} bytes of voxels as the header says",
-            f"at most this machine's memory of {memory} bytes",
-        )
+
+
+def _require_proof(path: Path, file: BinaryIO, codec: Codec, needed: int, held: int) -> None:
+    """Decompress a stream that would have to grow much once, only to count its bytes."""
     if codec != "raw" and needed > _TRUSTED * held:
         start, found = file.tell(), 0
         for piece in _pieces(path, file, codec, needed):
@@ -152,13 +154,6 @@ def _require_room(path: Path, file: BinaryIO, codec: Codec, needed: int, held: i
         if found < needed:
             raise _too_short(path, found, needed)
         file.seek(start)
-
-
-def _memory() -> int:
-    try:
-        return os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
-    except (AttributeError, OSError, ValueError):
-        return 1 << 48
 
 
 def _decompress(
@@ -277,6 +272,7 @@ def read_numbers(
         if held < 2 * count - 1:
             raise _too_short(path, held, 2 * count - 1)
         file.seek(start)
+        require_memory(path, count * kind.itemsize)
         values = np.empty(count, kind)
         for words in _words(path, file):
             found += len(words)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import Any
 
 import numpy as np
@@ -27,8 +27,13 @@ def holding(low: int, high: int, first: np.dtype[Any] | None = None) -> np.dtype
     return None
 
 
-def rescaled(stored: npt.NDArray[Any], slope: float, intercept: float) -> npt.NDArray[Any]:
-    """Give slope · stored + intercept.
+def rescaled(
+    stored: npt.NDArray[Any],
+    slope: float,
+    intercept: float,
+    allow: Callable[[int], None] = lambda count: None,
+) -> npt.NDArray[Any]:
+    """Give slope · stored + intercept; `allow` may refuse the bytes that the result takes.
 
     Integers under an integral slope and intercept stay integers (their own type if it holds the result);
     64-bit floats stay so; everything else becomes float32.
@@ -39,8 +44,10 @@ def rescaled(stored: npt.NDArray[Any], slope: float, intercept: float) -> npt.ND
         ends = sorted(int(end) * int(slope) + int(intercept) for end in (stored.min(), stored.max()))
         dtype = holding(ends[0], ends[1], stored.dtype)
         if dtype is not None and int(stored.max()) < 2**62:
+            allow(stored.size * dtype.itemsize)
             return _slab_wise(stored, np.dtype(np.int64), int(slope), int(intercept), dtype)
     result = np.dtype(np.float64 if stored.dtype == np.float64 else np.float32)
+    allow(stored.size * result.itemsize)
     return _slab_wise(stored, np.dtype(np.float64), float(slope), float(intercept), result)
 
 

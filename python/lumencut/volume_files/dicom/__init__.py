@@ -20,8 +20,9 @@ from lumencut.volume_files.dicom.judging import Wanted, described, judged
 from lumencut.volume_files.dicom.segmentation import open_segmentation, wanted_segmentation
 from lumencut.volume_files.dicom.sources import is_zip
 from lumencut.volume_files.dicom.study import comments_of, study_of
-from lumencut.volume_files.dicom.values import load, settled_type
+from lumencut.volume_files.dicom.values import load, memory_needed, settled_type
 from lumencut.volume_files.opened import Filled, Progress, VolumeFile, refusing
+from lumencut.volume_files.room import require_memory
 from lumencut.volume_files.straightened_notes import note_sides
 
 __all__ = ["Wanted", "is_dicom", "is_zip", "list_dicom_series", "open_dicom", "opened"]
@@ -50,6 +51,7 @@ def opened(path: Path, wanted: Wanted, read: Callable[[list[str]], Sequence[File
     note_sides(comments_of(stack.slices[0].image), notes, remarks)
 
     def voxels(progress: Progress, filled: Filled) -> npt.NDArray[Any]:
+        require_memory(path, memory_needed(stack))
         return load(stack, notes, progress, filled)
 
     return VolumeFile(

@@ -9,7 +9,7 @@ from functools import cache, cached_property
 from typing import Any
 
 from lumencut._lumencut import DICOM_ATTRIBUTES
-from lumencut.volume_files.dicom.sources import Source, refuse_deflate_bomb
+from lumencut.volume_files.dicom.sources import DEFLATED, Source, inflated, is_deflated
 
 Header = Any
 """A pydicom Dataset that holds the attributes below, without pixels."""
@@ -26,7 +26,6 @@ _OWN_KEYWORDS = (
 """What is read beside the attributes that the core judges by."""
 _HEAD = 1 << 17
 """Bytes that hold the header of nearly every single-frame image: parsing memory is fast and bounded."""
-_DEFLATED = "1.2.840.10008.1.2.1.99"
 _PIXELS = {
     (0x7FE0, 0x0010): "PixelData",
     (0x7FE0, 0x0008): "FloatPixelData",
@@ -38,13 +37,13 @@ _PIXELS = {
 class Image:
     """One DICOM file, mostly an image.
 
-    `pixels_at` is the byte at which the value of the element of pixels begins, None where the dataset is
-    deflated; `pixel_keyword` and `pixel_vr` name that element, empty where there is none.
+    `pixels_at` is the byte at which the value of the element of pixels begins, in the inflated file where the
+    dataset is deflated; `pixel_keyword` and `pixel_vr` name that element, empty where there is none.
     """
 
     source: Source
     header: Header
-    pixels_at: int | None
+    pixels_at: int
     pixel_keyword: str
     pixel_vr: str
 
@@ -77,7 +76,15 @@ def read_header(source: Source) -> Image | None:
     head = source.head(_HEAD)
     if not is_dicom(head):
         return None
+    if is_deflated(head):
+        return _deflated(source)
     return _within(source, head) or _whole(source)
+
+
+def _deflated(source: Source) -> Image:
+    image = _whole(inflated(source))
+    image.header.file_meta.TransferSyntaxUID = DEFLATED.decode()
+    return image
 
 
 def _within(source: Source, head: bytes) -> Image | None:
@@ -87,21 +94,13 @@ def _within(source: Source, head: bytes) -> Image | None:
         header = _parsed(stream)
     except Exception:  # cut off somewhere, or damaged: the whole file will tell
         return None
-    if transfer_syntax(header) == _DEFLATED:
-        return None
     image = _with_pixels(source, header, head[stream.tell() : stream.tell() + 12], stream.tell())
     return image if image.pixel_keyword else None
 
 
 def _whole(source: Source) -> Image:
     with source.open() as stream:
-        if _DEFLATED.encode() in stream.read(1024):
-            stream.seek(0)
-            refuse_deflate_bomb(source, stream)
-        stream.seek(0)
         header = _parsed(stream)
-        if transfer_syntax(header) == _DEFLATED:
-            return Image(source, header, None, "PixelData", "OW")
         start = stream.tell()
         return _with_pixels(source, header, stream.read(12), start)
 

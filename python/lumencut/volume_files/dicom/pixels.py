@@ -16,6 +16,7 @@ from lumencut.errors import FormatError
 from lumencut.volume_files.dicom.decoding import PLUGINS, decode_frame, decode_native
 from lumencut.volume_files.dicom.headers import Image
 from lumencut.volume_files.dicom.stack import Slice
+from lumencut.volume_files.dicom.unpacked import TAIL, held_items
 from lumencut.volume_files.dicom.workers import Request, Workers
 from lumencut.volume_files.opened import refusing
 
@@ -91,30 +92,53 @@ class _OpenImage:
         if not image.pixel_keyword:
             raise FormatError(str(image.source), "no pixels", "an image with pixels", "copy the file again")
         self.image = image
-        self.stream: BinaryIO = image.source.open()
+        self.stream = image.source.open()
         self._compressed: list[bytes] | None = None
-        self._inflated: bytes | None = None
-        if image.pixels_at is None:
-            self._inflated = inflated_pixels(self.stream)
-        else:
-            self.stream.seek(image.pixels_at)
+        self._next = 0
+        self._held: bytes | None = None
+        self.stream.seek(image.pixels_at)
 
     def native(self, frame: int) -> npt.NDArray[Any]:
-        image, needed = self.image, _frame_bytes(self.image) * self.image.frame_count
-        held = len(self._inflated) if self._inflated is not None else image.source.size - self.stream.tell()
-        if held < needed:
-            raise _too_short(image, held)
-        pixels = self._inflated if self._inflated is not None else self.stream
-        return decode_native(str(image.transfer_syntax), pixels, frame, _options(image))
+        image, length = self.image, _frame_bytes(self.image)
+        syntax, options = str(image.transfer_syntax), _options(image)
+        if not image.source.is_packed:
+            held = image.source.size - self.stream.tell()
+            if held < length * image.frame_count:
+                raise _too_short(image, held)
+            return decode_native(syntax, self.stream, frame, options)
+        # Frames in their order pass by; those in another order, or of odd lengths, are held all together.
+        if self._held is None and frame == self._next and length % 2 == 0:
+            self._next += 1
+            return decode_native(syntax, self._read(length, 1), 0, options | {"number_of_frames": 1})
+        if self._held is None:
+            self.stream.seek(image.pixels_at)
+            self._held = self._read(length * image.frame_count, image.frame_count)
+        return decode_native(syntax, self._held, frame, options)
+
+    def _read(self, needed: int, frames: int) -> bytes:
+        """The bytes of some frames of a packed file; behind the last one its check sum is looked at."""
+        # An odd number of bytes is followed by one that fills it up.
+        pixels = self.stream.read(needed + needed % 2)
+        if len(pixels) < needed:
+            raise _too_short(self.image, len(pixels))
+        if frames == self.image.frame_count or self._next == self.image.frame_count:
+            self.stream.read(TAIL)
+        return pixels
 
     def compressed(self, frame: int) -> bytes:
         from pydicom.encaps import generate_frames
 
         if self._compressed is None:
-            header, count = self.image.header, self.image.frame_count
+            image = self.image
+            header, count = image.header, image.frame_count
             offsets = header.get("ExtendedOffsetTable"), header.get("ExtendedOffsetTableLengths")
+            stream: BinaryIO = self.stream
+            if image.source.is_packed:
+                limit = count * max(_ALWAYS_ALLOWED, 2 * _frame_bytes(image))
+                stream = held_items(self.stream, image.source, limit)
+                self.stream.read(TAIL)
             frames = generate_frames(
-                self.stream,
+                stream,
                 number_of_frames=count,
                 extended_offsets=offsets if all(offsets) else None,
             )
@@ -124,14 +148,6 @@ class _OpenImage:
             expected = f"{self.image.frame_count} frames as the header says"
             raise FormatError(str(self.image.source), found, expected, "copy the file again")
         return self._compressed[frame]
-
-
-def inflated_pixels(stream: BinaryIO) -> bytes:
-    """The pixels of a deflated dataset, whose size was checked with its header."""
-    import pydicom
-
-    data: bytes = pydicom.dcmread(stream, force=True, specific_tags=["PixelData"]).PixelData
-    return data
 
 
 def _options(image: Image) -> dict[str, Any]:

@@ -15,10 +15,11 @@ from lumencut.volume_files.dicom.decoding import NATIVE, PLUGINS
 from lumencut.volume_files.dicom.files import File
 from lumencut.volume_files.dicom.headers import Image
 from lumencut.volume_files.dicom.judging import Wanted
-from lumencut.volume_files.dicom.pixels import PixelReader, inflated_pixels
+from lumencut.volume_files.dicom.pixels import PixelReader
 from lumencut.volume_files.dicom.segment_frames import SegmentFrame, SegmentGrid, segment_grid
 from lumencut.volume_files.dicom.stack import Slice
 from lumencut.volume_files.opened import Filled, Progress, VolumeFile, printable, refusing
+from lumencut.volume_files.room import require_memory
 
 _SEGMENTATIONS = ("1.2.840.10008.5.1.4.1.1.66.4", "1.2.840.10008.5.1.4.1.1.66.7")
 """Segmentation Storage, and Label Map Segmentation Storage."""
@@ -145,6 +146,7 @@ class _Reader:
     def read(self, progress: Progress, filled: Filled, notes: list[str]) -> npt.NDArray[Any]:
         """Return the labels [k, j, i]; segments that overlap are refused."""
         ni, nj, nk = self._grid.size
+        require_memory(self._image.source, ni * nj * nk * self._dtype.itemsize)
         labels = np.zeros((nk, nj, ni), self._dtype)
         frames = [f for f in self._grid.frames if not f.segment or self._is_wanted(f.segment)]
         for done, (frame, pixels) in enumerate(zip(frames, self._pixels(frames, notes), strict=True), 1):
@@ -195,11 +197,8 @@ class _Reader:
         count, image = ni * nj, self._image
         needed = (count * image.frame_count + 7) // 8
         with image.source.open() as stream:
-            if image.pixels_at is None:
-                packed = inflated_pixels(stream)
-            else:
-                stream.seek(image.pixels_at)
-                packed = stream.read(needed)
+            stream.seek(image.pixels_at)
+            packed = stream.read(needed)
         if len(packed) < needed:
             found = f"{len(packed)} bytes of pixels"
             expected = f"{needed} for {image.frame_count} frames as the header says"

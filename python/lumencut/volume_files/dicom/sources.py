@@ -5,34 +5,25 @@ from __future__ import annotations
 import io
 import os
 import zipfile
-import zlib
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from functools import partial
 from pathlib import Path
 from typing import Any, BinaryIO
 
 from lumencut.errors import FormatError
+from lumencut.volume_files.dicom.unpacked import BoundedFile, Inflating, Unpacked
 from lumencut.volume_files.opened import printable, refusing
 
 _ZIP_SIGNATURES = (b"PK\x03\x04", b"PK\x05\x06")
 _ALWAYS_ALLOWED = 1 << 30
 """Unpacked bytes that any archive may claim; real slices beyond that pack far less than the ratio below."""
 _ARCHIVE_RATIO = 200
-_DEFLATE_FLOOR, _DEFLATE_RATIO = 64 << 20, 20
-_CHUNK = 1 << 16
-
-
-class BoundedFile(io.BufferedReader):
-    """A file that never sets aside more memory than it has bytes left, whatever length an element claims."""
-
-    def __init__(self, path: Path) -> None:
-        super().__init__(io.FileIO(path))
-        self._size = path.stat().st_size
-
-    def read(self, size: int | None = -1, /) -> bytes:
-        """Read up to size bytes, or all that is left."""
-        left = max(self._size - self.tell(), 0)
-        return super().read(left if size is None or size < 0 else min(size, left))
+_DEFLATE_LIMIT = 1032
+"""No byte of a deflate stream becomes more bytes than this."""
+DEFLATED, _EXPLICIT = b"1.2.840.10008.1.2.1.99", b"1.2.840.10008.1.2.1"
+_META_LIMIT = 1 << 16
+"""The file meta information is shorter."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,12 +43,16 @@ class Source:
     def __str__(self) -> str:
         return f"{self.path}: {printable(self.member)}" if self.member else str(self.path)
 
+    @property
+    def is_packed(self) -> bool:
+        """Whether its bytes are unpacked as they are read, so that going back takes long."""
+        return self.archive is not None
+
     def open(self) -> BinaryIO:
-        """Open it for reading; a member of an archive is unpacked into memory, no further than it claims."""
+        """Open it for reading; a member of an archive is unpacked as it is read."""
         if self.archive is None:
-            return BoundedFile(self.path)
-        with self.archive.open(self.member) as packed:
-            return io.BytesIO(packed.read(self.size))
+            return BoundedFile(io.FileIO(self.path), self.path.stat().st_size, self)
+        return BoundedFile(Unpacked(partial(self.archive.open, self.member)), self.size, self)
 
     def all_attributes(self) -> Any:
         """Read all of its attributes but the pixels, as a dataset of pydicom."""
@@ -130,17 +125,45 @@ def _members(path: Path) -> list[Source]:
     return [Source(path, info.file_size, info.filename, archive) for info in infos]
 
 
-def refuse_deflate_bomb(source: Source, stream: BinaryIO) -> None:
-    """Refuse a deflated dataset that unpacks to far more than scans do, before anybody unpacks it whole.
+@dataclass(frozen=True, eq=False)
+class Deflated(Source):
+    """The plain file that a file inflates to whose dataset is deflated."""
 
-    The stream, at its beginning, is left somewhere behind it.
-    """
-    head = stream.read(144)
-    stream.seek(144 + int.from_bytes(head[140:144], "little"))
-    limit = max(_DEFLATE_FLOOR, _DEFLATE_RATIO * source.size)
-    decoder, unpacked = zlib.decompressobj(-zlib.MAX_WBITS), 0
-    while (chunk := decoder.unconsumed_tail or stream.read(_CHUNK)) and not decoder.eof:
-        unpacked += len(decoder.decompress(chunk, _CHUNK))
-        if unpacked > limit:
-            found = f"{source.size} bytes that unpack to more than {limit}"
-            raise FormatError(str(source), found, f"at most {_DEFLATE_RATIO} times the file")
+    packed: Source | None = None
+
+    @property
+    def is_packed(self) -> bool:
+        """Whether its bytes are unpacked as they are read."""
+        return True
+
+    def open(self) -> BinaryIO:
+        """Open it for reading; it is inflated as it is read."""
+        return BoundedFile(Unpacked(self._begin), self.size, self)
+
+    def head(self, count: int) -> bytes:
+        """Read its first bytes."""
+        with self.open() as file:
+            return file.read(count)
+
+    def _begin(self) -> Inflating:
+        assert self.packed is not None, "made by `inflated`"
+        head = self.packed.head(_META_LIMIT)
+        plain = head[: _behind_meta(head)].replace(DEFLATED, _EXPLICIT.ljust(len(DEFLATED), b"\0"))
+        stream = self.packed.open()
+        stream.seek(len(plain))
+        return Inflating(plain, stream)
+
+
+def is_deflated(head: bytes) -> bool:
+    """Tell by the first bytes of a file whether its dataset is deflated."""
+    return DEFLATED in head[: _behind_meta(head)]
+
+
+def inflated(source: Source) -> Deflated:
+    """Return the file that one inflates to whose dataset is deflated."""
+    return Deflated(source.path, _DEFLATE_LIMIT * source.size, source.member, packed=source)
+
+
+def _behind_meta(head: bytes) -> int:
+    """The first byte of the dataset; the first element of what precedes it says how long that is."""
+    return min(144 + int.from_bytes(head[140:144], "little"), _META_LIMIT)

@@ -11,6 +11,7 @@ from lumencut.volume_files.dicom.pixels import PixelReader
 from lumencut.volume_files.dicom.stack import Stack
 from lumencut.volume_files.opened import Filled, Progress, refusing, unfollowed
 from lumencut.volume_files.rescale import holding, is_integral, rescaled
+from lumencut.volume_files.room import require_memory
 
 _INT32 = np.iinfo(np.int32)
 
@@ -45,6 +46,15 @@ def settled_type(stack: Stack) -> np.dtype[Any] | None:
     return np.dtype(np.int16) if is_narrow else None
 
 
+def memory_needed(stack: Stack) -> int:
+    """Return how many bytes the values take at least, the measured slices of a resampled stack included."""
+    settled = settled_type(stack)
+    ni, nj, nk = stack.size
+    is_resampled = any(one.place % 1 for one in stack.slices)
+    slices = nk + (len(stack.slices) if is_resampled else 0)
+    return ni * nj * slices * (np.dtype(np.int16) if settled is None else settled).itemsize
+
+
 def _stored_range(header: Any) -> tuple[int, int]:
     """The smallest and the largest value that the stored bits can hold."""
     bits = int(header.get("BitsStored") or header.BitsAllocated)
@@ -71,7 +81,7 @@ def _read(
             if volume is None:
                 start = np.int16 if exact and values.dtype.kind in "iu" else np.float32
                 volume = np.empty((int(places[-1]) + 1, nj, ni), start)
-            volume = _widened(volume, places[:number], values)
+            volume = _widened(volume, places[:number], values, one.image.source)
             volume[place] = values
             filled(volume, number + 1)
             progress(number + 1, len(stack.slices))
@@ -91,7 +101,7 @@ def in_unit(stored: npt.NDArray[Any], slope: float, intercept: float) -> npt.NDA
 
 
 def _widened(
-    volume: npt.NDArray[Any], filled: npt.NDArray[np.int64], values: npt.NDArray[Any]
+    volume: npt.NDArray[Any], filled: npt.NDArray[np.int64], values: npt.NDArray[Any], subject: object
 ) -> npt.NDArray[Any]:
     """The volume, of a wider type if it cannot hold the values exactly; the filled slices are kept."""
     if volume.dtype.kind == "f" or values.dtype.kind == "f":
@@ -106,6 +116,7 @@ def _widened(
         wide = holding(min(low, ends[0]), max(high, ends[1])) or np.dtype(np.float32)
     if wide == volume.dtype:
         return volume
+    require_memory(subject, volume.size * wide.itemsize)
     wider = np.empty(volume.shape, wide)
     for place in filled:
         wider[place] = volume[place]

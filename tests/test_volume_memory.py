@@ -1,0 +1,263 @@
+"""Memory of volume files: no more is unpacked than the pixels; what exceeds the memory is refused before."""
+
+import gzip
+import io
+import struct
+import subprocess
+import sys
+import zipfile
+import zlib
+
+import numpy as np
+import pydicom
+import pytest
+
+from dicom_phantom import Image, save, single
+from lumencut import Volume
+from lumencut.errors import FormatError
+from lumencut.volume_files import read_volume, room
+from lumencut.volume_writers import write_volume
+from test_volume_files import save_meta, save_nifti, save_nrrd
+
+#: Zeros behind the pixels; each MB of them is packed to a kilobyte.
+TRAILING = 300 << 20
+SIZE = (20, 24, 10)
+
+#: Prints the sum of a volume or why it is refused, and by how many MB reading it has raised the peak.
+PROBE = """
+import resource, sys
+import lumencut, numpy, nibabel, nrrd, pydicom, pydicom.pixels, lumencut.volume_files
+limit = int(sys.argv[2])
+if limit:
+    used = int(open("/proc/self/statm").read().split()[0]) * resource.getpagesize()
+    resource.setrlimit(resource.RLIMIT_AS, (used + limit, used + limit))
+before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+try:
+    print(int(lumencut.read_volume(sys.argv[1]).array.sum(dtype="i8")))
+except lumencut.LumencutError as error:
+    print(error)
+print((resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before) >> 10)
+"""
+
+
+def probed(path, limit=0):
+    """What reading a file gives, and by how many MB it has raised the peak of a fresh process."""
+    done = subprocess.run(
+        [sys.executable, "-c", PROBE, str(path), str(limit)], capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 0, done.stderr
+    words, grown = done.stdout.strip().splitlines()[-2:]
+    return words, int(grown)
+
+
+def values():
+    return np.arange(np.prod(SIZE), dtype=np.int16).reshape(SIZE[::-1]) % 700
+
+
+def slices():
+    """Each slice of a CT as the bytes of its file."""
+    for k, plane in enumerate(values()):
+        target = io.BytesIO()
+        affine = np.eye(4)
+        affine[2, 3] = k
+        save(single(Image(plane, affine), k + 1), target)
+        yield target.getvalue()
+
+
+def deflated(content):
+    """A DICOM file whose dataset is deflated."""
+    data = pydicom.dcmread(io.BytesIO(content))
+    data.file_meta.TransferSyntaxUID = "1.2.840.10008.1.2.1.99"
+    target = io.BytesIO()
+    save(data, target)
+    return target.getvalue()
+
+
+def inflated_with(content, more):
+    """A deflated file that inflates to more zeros behind its pixels."""
+    start = 144 + struct.unpack("<I", content[140:144])[0]
+    inside = zlib.decompress(content[start:], -zlib.MAX_WBITS)
+    packer = zlib.compressobj(9, zlib.DEFLATED, -zlib.MAX_WBITS)
+    packed = packer.compress(inside) + b"".join(packer.compress(bytes(1 << 20)) for _ in range(more >> 20))
+    return content[:start] + packed + packer.flush()
+
+
+def rle(content):
+    """A DICOM file with compressed pixels."""
+    data = pydicom.dcmread(io.BytesIO(content))
+    data.compress(pydicom.uid.RLELossless, generate_instance_uid=False)
+    target = io.BytesIO()
+    save(data, target)
+    return target.getvalue()
+
+
+def archive_of(path, contents, more):
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
+        for number, content in enumerate(contents):
+            archive.writestr(f"IM{number}", content + bytes(more if number == 4 else 0))
+    return path
+
+
+def folder_of(path, contents):
+    path.mkdir()
+    for number, content in enumerate(contents):
+        (path / f"IM{number}").write_bytes(content)
+    return path
+
+
+def with_zeros(path):
+    """A gzipped file that unpacks to more zeros behind its end."""
+    content = gzip.decompress(path.read_bytes())
+    path.write_bytes(gzip.compress(content + bytes(TRAILING), 6))
+    return path
+
+
+def _plain_zip(folder):
+    return archive_of(folder / "x.zip", slices(), TRAILING)
+
+
+def _compressed_zip(folder):
+    return archive_of(folder / "x.zip", map(rle, slices()), TRAILING)
+
+
+def _deflated_zip(folder):
+    made = [inflated_with(deflated(one), TRAILING if k == 4 else 0) for k, one in enumerate(slices())]
+    return archive_of(folder / "x.zip", made, 0)
+
+
+def _deflated_folder(folder):
+    made = [inflated_with(deflated(one), TRAILING if k == 4 else 0) for k, one in enumerate(slices())]
+    return folder_of(folder / "x", made)
+
+
+def _nifti(folder):
+    return with_zeros(save_nifti(folder / "x.nii.gz", values(), np.eye(4)))
+
+
+def _nrrd(folder):
+    packed = gzip.compress(values().tobytes() + bytes(TRAILING), 6)
+    path = save_nrrd(folder / "x.nhdr", values(), np.eye(4), detached=True)
+    next(folder.glob("*.raw.gz")).write_bytes(packed)
+    return path
+
+
+def _metaimage(folder):
+    packed = zlib.compress(values().tobytes() + bytes(TRAILING), 6)
+    return save_meta(folder / "x.mha", values(), np.eye(4), packed, CompressedData=True)
+
+
+PADDED = {
+    "zip": _plain_zip,
+    "zip of compressed pixels": _compressed_zip,
+    "zip of deflated files": _deflated_zip,
+    "deflated files": _deflated_folder,
+    "nii.gz": _nifti,
+    "nrrd": _nrrd,
+    "mha": _metaimage,
+}
+
+
+@pytest.mark.parametrize("make", PADDED.values(), ids=PADDED)
+def test_what_follows_the_pixels_takes_no_memory(tmp_path, make):
+    words, grown = probed(make(tmp_path))
+    assert words == str(int(values().sum(dtype=np.int64)))
+    assert grown < 60, f"{grown} MB for a volume of 10 kB"
+
+
+#: Voxels of 40 MB, more than is available below.
+LARGE = np.zeros((20, 1024, 1024), np.int16)
+
+
+def _large_slices():
+    for k, plane in enumerate(LARGE):
+        affine = np.eye(4)
+        affine[2, 3] = k
+        target = io.BytesIO()
+        save(single(Image(plane, affine), k + 1), target)
+        yield target.getvalue()
+
+
+def _scaled(folder):
+    """A NIfTI file of bytes, which fit, whose values are floats, which do not."""
+    path = save_nifti(folder / "x.nii.gz", LARGE[:10].astype(np.uint8), np.eye(4))
+    content = bytearray(gzip.decompress(path.read_bytes()))
+    content[112:120] = struct.pack("<2f", 0.5, 1)
+    path.write_bytes(gzip.compress(bytes(content), 1))
+    return path
+
+
+TOO_LARGE = {
+    "nii": lambda folder: save_nifti(folder / "x.nii", LARGE, np.eye(4)),
+    "nii.gz": lambda folder: save_nifti(folder / "x.nii.gz", LARGE, np.eye(4)),
+    "scaled nii.gz": _scaled,
+    "raw nrrd": lambda folder: save_nrrd(folder / "x.nrrd", LARGE, np.eye(4), encoding="raw"),
+    "gzip nrrd": lambda folder: save_nrrd(folder / "x.nrrd", LARGE, np.eye(4)),
+    "bzip2 nrrd": lambda folder: save_nrrd(folder / "x.nrrd", LARGE, np.eye(4), encoding="bzip2"),
+    "text nrrd": lambda folder: save_nrrd(folder / "x.nrrd", LARGE.astype("u1"), np.eye(4), encoding="ascii"),
+    "mha": lambda folder: save_meta(folder / "x.mha", LARGE, np.eye(4)),
+    "big-endian mha": lambda folder: save_meta(
+        folder / "x.mha", LARGE[:8].astype(">i2"), np.eye(4), BinaryDataByteOrderMSB=True
+    ),
+    "DICOM folder": lambda folder: folder_of(folder / "x", _large_slices()),
+    "DICOM zip": lambda folder: archive_of(folder / "x.zip", _large_slices(), 0),
+}
+
+
+@pytest.mark.parametrize("make", TOO_LARGE.values(), ids=TOO_LARGE)
+def test_more_than_the_available_memory_is_refused_before_it_is_taken(tmp_path, make, monkeypatch):
+    path = make(tmp_path)
+    monkeypatch.setattr(room, "available_memory", lambda: 20_000_000)
+    words = r"voxels that need [\d.]+ MB of memory; expected at most the 20 MB that are available; crop"
+    with pytest.raises(FormatError, match=words) as caught:
+        read_volume(path)
+    assert caught.value.subject.startswith(str(path.with_suffix("")))
+    monkeypatch.undo()
+    assert read_volume(path).array.size >= 8 << 20
+
+
+def test_a_limit_of_the_process_counts(tmp_path):
+    path = write_large(tmp_path / "x.nii.gz")
+    words, grown = probed(path, limit=150 << 20)
+    assert "voxels that need 419.4 MB of memory; expected at most the 1" in words
+    assert grown < 60
+
+
+def write_large(path):
+    write_volume(Volume(np.zeros((200, 1024, 1024), np.int16)), path)
+    return path
+
+
+def test_an_element_before_the_pixels_that_nobody_asks_for_takes_no_memory(tmp_path):
+    first = next(slices())
+    data = pydicom.dcmread(io.BytesIO(first))
+    data.add_new(0x00091001, "OB", bytes(120 << 20))
+    target = io.BytesIO()
+    save(data, target)
+    (tmp_path / "x.dcm").write_bytes(deflated(target.getvalue()))
+    words, grown = probed(tmp_path / "x.dcm")
+    assert words == str(int(values()[0].sum(dtype=np.int64)))
+    assert grown < 60
+
+
+def test_fast_compression(tmp_path):
+    for name in ("x.nrrd", "x.nii.gz"):
+        write_volume(Volume(values()), tmp_path / name)
+        content = (tmp_path / name).read_bytes()
+        start = content.index(b"\x1f\x8b\x08")
+        # The byte of a gzip header that says the fastest level was taken (RFC 1952, XFL).
+        assert content[start + 8] == 4
+        np.testing.assert_array_equal(read_volume(tmp_path / name).array, values())
+
+
+def test_the_limits_of_control_groups_are_read(tmp_path, monkeypatch):
+    """Of both versions, on every level above the process; files that may be dropped count as free."""
+    inner = tmp_path / "job" / "task"
+    inner.mkdir(parents=True)
+    (tmp_path / "job" / "memory.max").write_text("5000000\n")
+    (tmp_path / "job" / "memory.current").write_text("3000000\n")
+    (tmp_path / "job" / "memory.stat").write_text("anon 2000000\ninactive_file 1000000\n")
+    (inner / "memory.max").write_text("max\n")
+    assert list(room._left(tmp_path, "/job/task", "memory.max", "memory.current")) == [3_000_000]
+    assert 0 < room.available_memory() < room._UNKNOWN
+    monkeypatch.setattr(room, "_of_control_groups", lambda: iter([-5]))
+    assert room.available_memory() == 0
