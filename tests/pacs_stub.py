@@ -149,6 +149,8 @@ class Handler(BaseHTTPRequestHandler):
         for tag, uid in zip(("0020000D", "0020000E", "00080018"), key, strict=False):
             told |= _element(tag, uid)
         told |= {"00100010": {"vr": "PN", "Value": [{"Alphabetic": str(data.PatientName)}]}}
+        for tag, keyword in (("00100020", "PatientID"), ("00100021", "IssuerOfPatientID")):
+            told |= _element(tag, str(data[keyword].value)) if data.get(keyword) else {}
         told |= _element("00080060", str(data.Modality)) | _element("00080061", str(data.Modality))
         return told | _element("00200011", int(data.SeriesNumber)) | _element("00080020", str(data.StudyDate))
 

@@ -248,8 +248,9 @@ def test_what_cannot_be_reported_is_refused(tmp_path):
         del data.FrameOfReferenceUID
 
     path = tmp_path / "a.dcm"
+    frameless = lumencut.read_volume(write_series(tmp_path / "series", none))
     with pytest.raises(FormatError, match="without a FrameOfReferenceUID"):
-        profile().save(path, study=write_series(tmp_path / "series", none))
+        lumencut.measure(frameless, LINE[0]).save(path)
     with pytest.raises(MeasuringError, match="found str; expected Stenosis"):
         profile().save(path, stenoses=["50 %"])
     longer = phantom.stenosis()

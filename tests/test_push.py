@@ -156,3 +156,91 @@ def test_what_was_written_twice_is_sent_once(pacs, scan, tmp_path):
     done = run(scan, tmp_path / "again.dcm", pacs.base, "--yes", "--new-study")
     assert done.exit_code == 0, done.output
     assert "40 of 40 objects are in" in done.output
+
+
+def changed(path, folder, **values):
+    """A file of an object with other values, and another UID."""
+    data = pydicom.dcmread(path)
+    for keyword, value in values.items():
+        setattr(data, keyword, value)
+    data.SOPInstanceUID = data.file_meta.MediaStorageSOPInstanceUID = f"{data.SOPInstanceUID}.7"
+    folder.mkdir(exist_ok=True)
+    data.save_as(folder / f"{len(list(folder.iterdir()))}.dcm")
+    return folder / f"{len(list(folder.iterdir())) - 1}.dcm"
+
+
+def holds(pacs, path, folder, **values):
+    """Let the PACS have an image of the study, with other values."""
+    pacs.take(changed(path, folder / "held", **values).read_bytes())
+
+
+@pytest.mark.parametrize("options", [("--yes",), ("--yes", "--new-study")])
+@pytest.mark.parametrize(
+    "values",
+    [
+        {"PatientID": "B-2"},
+        {"PatientID": "B-2", "PatientName": "Phantom^Vessel", "IssuerOfPatientID": "Here"},
+    ],
+)
+def test_objects_of_another_patient_than_that_of_the_study_are_refused(pacs, scan, tmp_path, options, values):
+    first, *others = sorted(scan.iterdir())
+    holds(pacs, first, tmp_path, **values)
+    refused = run(*others[:3], pacs.base, *options)
+    assert refused.exit_code == 1
+    assert "'B-2'" in refused.output
+    assert "PatientID 'phantom', as the objects have it" in refused.output
+    assert "Vessel" not in refused.output
+    assert not pacs.batches
+    assert len(pacs.held) == 1
+
+
+def test_an_issuer_tells_patients_apart_where_both_state_it(pacs, scan, tmp_path):
+    first, second, *_ = sorted(scan.iterdir())
+    holds(pacs, first, tmp_path, IssuerOfPatientID="Here")
+    there = changed(second, tmp_path / "sent", IssuerOfPatientID="There")
+    refused = run(there, pacs.base, "--yes")
+    assert refused.exit_code == 1
+    assert "'Here'" in refused.output
+    assert "'There'" in refused.output
+    bare = run(second, pacs.base, "--yes")
+    assert bare.exit_code == 0
+    assert "one issuer alone is stated" in bare.output
+
+
+@pytest.mark.parametrize("values", [{"PatientID": " phantom "}, {"PatientName": "Another^Spelling"}])
+def test_padding_and_names_tell_nobody_apart(pacs, scan, tmp_path, values):
+    first, second, *_ = sorted(scan.iterdir())
+    holds(pacs, first, tmp_path, **values)
+    done = run(second, pacs.base, "--yes")
+    assert done.exit_code == 0, done.output
+    assert "warning" not in done.output
+
+
+def test_a_study_without_a_patient_cannot_be_compared(pacs, scan, tmp_path):
+    first, second, third, *_ = sorted(scan.iterdir())
+    holds(pacs, first, tmp_path, PatientID="")
+    done = run(second, pacs.base, "--yes")
+    assert done.exit_code == 0, done.output
+    assert "patients cannot be compared" in done.output
+    bare = run(second, changed(third, tmp_path / "sent", PatientID=""), pacs.base, "--yes")
+    assert bare.exit_code == 0, bare.output
+    assert "no PatientID to compare with PatientID 'phantom'" in bare.output
+
+
+@pytest.mark.parametrize("options", [("--dry-run",), ("--yes", "--new-study")])
+def test_two_patients_in_one_study_are_refused(pacs, scan, tmp_path, options):
+    first, second, *_ = sorted(scan.iterdir())
+    other = changed(second, tmp_path / "sent", PatientID="B-2")
+    refused = run(first, other, pacs.base, *options)
+    assert refused.exit_code == 1
+    assert "'B-2'" in refused.output
+    assert "one patient in one study" in refused.output
+    assert not pacs.headers
+    alone = changed(second, tmp_path / "sent", PatientID="B-2", StudyInstanceUID="1.2.3")
+    assert run(first, alone, pacs.base, *options).exit_code == 0
+
+
+def test_a_dry_run_lists_patients(pacs, scan):
+    done = run(sorted(scan.iterdir())[0], pacs.base, "--dry-run")
+    assert "PatientID 'phantom'" in done.output
+    assert not pacs.headers

@@ -41,8 +41,8 @@ def writer_for(
 ) -> Writer:
     """Return what writes frames in the format that the path names, or refuse before anything is rendered.
 
-    `dicom` says how frames become a DICOM object (`study`, `anonymous`, `grey`, `compress`); without it none
-    can be written.
+    `dicom` says how frames become a DICOM object (`study`, `anonymous`, `other_patient`, `grey`, `compress`);
+    without it none can be written.
     """
     checked = checked_path(path, WRITABLE)
     if vessel_names and not annotate:
@@ -163,7 +163,7 @@ def _save_object(path: Path, dicom: dict[str, Any], frames: Iterable[Frame], fps
     first = next(frames, None)
     if first is None:
         raise _empty(path)
-    study = first._study(dicom["study"], anonymous=dicom["anonymous"])
+    study = first._study(**{name: dicom[name] for name in ("study", "anonymous", "other_patient")})
     unlabelled = {"annotate": False, "vessel_names": False}
     pictures = (frame._as_object(**unlabelled) for frame in itertools.chain([first], frames))
     write_turning(path, pictures, fps, study, grey=dicom["grey"], compress=dicom["compress"])

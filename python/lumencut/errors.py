@@ -108,6 +108,10 @@ class DeviceWarning(UserWarning):
     """A GPU that was given up; the CPU goes on in its place."""
 
 
+class StudyWarning(UserWarning):
+    """A chosen study that another scan than the given one may belong to: of another day, part or place."""
+
+
 class SpaceWarning(UserWarning):
     """Coordinates that fit the volume better in another space than the one stated."""
 

@@ -201,6 +201,7 @@ class Frame(KeepsReadOnly):
         vessel_names: bool = False,
         study: Any = None,
         anonymous: bool = False,
+        other_patient: bool = False,
         compress: bool = False,
         values: bool = False,
     ) -> None:
@@ -226,6 +227,9 @@ class Frame(KeepsReadOnly):
         anonymous : bool, default False
             For ``.dcm``: leave patient and study out, and the names of vessels too. A study of its own is
             made for each scan. That is not the Basic Profile of PS3.15.
+        other_patient : bool, default False
+            For ``.dcm``: accept a `study` of another PatientID than that of the scan, which is refused
+            otherwise. A `StudyWarning` names what else differs, such as the study of a follow-up.
         compress : bool, default False
             For ``.dcm``: write the pixels as JPEG 2000, lossless.
         values : bool, default False
@@ -235,7 +239,8 @@ class Frame(KeepsReadOnly):
         Raises
         ------
         FormatError
-            For an ending that names no format; for ``.dcm`` where there is no one study to belong to.
+            For an ending that names no format; for ``.dcm`` where there is no one study to belong to, or that
+            of another patient.
         FileError
             Where the file cannot be written.
         SettingsError
@@ -246,10 +251,11 @@ class Frame(KeepsReadOnly):
             raise SettingsError("vessel_names", "True without annotate", "annotate=True beside it")
         if path.suffix.lower() == ".dcm":
             labels = {"annotate": annotate, "vessel_names": vessel_names}
-            how = {"anonymous": anonymous, "compress": compress, "values": values}
-            self._save_object(path, labels, study, **how)
+            how = {"anonymous": anonymous, "other_patient": other_patient}
+            self._save_object(path, labels, study, **how, compress=compress, values=values)
             return
-        check_dicom_alone(path, study=study, anonymous=anonymous, compress=compress, values=values)
+        dicom = {"study": study, "anonymous": anonymous, "other_patient": other_patient}
+        check_dicom_alone(path, **dicom, compress=compress, values=values)
         if path.suffix.lower() == ".npz":
             replace_whole(path, self._write_arrays)
             return
@@ -263,6 +269,7 @@ class Frame(KeepsReadOnly):
         study: Any,
         *,
         anonymous: bool,
+        other_patient: bool,
         compress: bool,
         values: bool,
         number: int = 1,
@@ -272,7 +279,7 @@ class Frame(KeepsReadOnly):
         from lumencut.dicom_objects.values import write_plane
         from lumencut.dicom_objects.views import view_values
 
-        found = self._study(study, anonymous=anonymous)
+        found = self._study(study, anonymous=anonymous, other_patient=other_patient)
         if values:
             check_values(labels["annotate"], compress)
             plane, about = view_values(self.value, self.camera, self._known_source())
@@ -290,13 +297,13 @@ class Frame(KeepsReadOnly):
         image = self.annotated(vessel_names=vessel_names) if annotate else self.image
         return view_picture(image, self.camera, self._known_source(), has_cut=self.has("depth"))
 
-    def _study(self, study: Any, *, anonymous: bool) -> Study:
+    def _study(self, study: Any, *, anonymous: bool, other_patient: bool = False) -> Study:
         """The study that DICOM objects of the frame belong to."""
         from lumencut.dicom_objects.chosen_study import chosen_study
 
         origin = self._known_source().origin
         assert origin is not None, "whoever renders a frame knows its scan"
-        return chosen_study(origin, study, anonymous=anonymous)
+        return chosen_study(origin, study, anonymous=anonymous, other_patient=other_patient)
 
     def _known_source(self) -> FrameSource:
         if self._source is None:

@@ -48,6 +48,7 @@ def save_object(
     stenoses: Sequence[Stenosis],
     *,
     anonymous: bool,
+    other_patient: bool,
 ) -> None:
     """Write one profile as a structured report of DICOM."""
     from lumencut.dicom_objects.chosen_study import chosen_study
@@ -58,7 +59,7 @@ def save_object(
     check_highdicom()
     if sections._origin is None:
         raise FormatError(str(checked), "a profile made by hand", "one of measure")
-    found = chosen_study(sections._origin, study, anonymous=anonymous)
+    found = chosen_study(sections._origin, study, anonymous=anonymous, other_patient=other_patient)
     write_report(checked, [measured(sections, stenoses)], found, names=not anonymous)
 
 

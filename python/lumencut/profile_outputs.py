@@ -22,6 +22,7 @@ class ProfileOutputs:
         *,
         study: Any = None,
         anonymous: bool = False,
+        other_patient: bool = False,
         stenoses: Sequence[Stenosis] = (),
     ) -> None:
         """Write the sections as a table (``.csv``), for programs (``.json``) or as DICOM (``.dcm``).
@@ -41,7 +42,7 @@ class ProfileOutputs:
         ----------
         path : path-like
             The ending names the format.
-        study, anonymous
+        study, anonymous, other_patient
             For ``.dcm``, as in :meth:`Frame.save`; with ``anonymous`` the name of the vessel is left out.
         stenoses : sequence of Stenosis, default ()
             For ``.dcm``: what :meth:`Profile.stenosis` graded.
@@ -62,9 +63,10 @@ class ProfileOutputs:
         from lumencut.profile_files import save, save_object
 
         if os.fspath(path).lower().endswith(".dcm"):
-            save_object(self, path, study, stenoses, anonymous=anonymous)
+            save_object(self, path, study, stenoses, anonymous=anonymous, other_patient=other_patient)
             return
-        save(self, path, study=study, anonymous=anonymous, stenoses=tuple(stenoses) or None)
+        dicom = {"study": study, "anonymous": anonymous, "other_patient": other_patient}
+        save(self, path, **dicom, stenoses=tuple(stenoses) or None)
 
     def to_json(self: Sections) -> str:
         """Return the profile as JSON: a list for each column of the sections, suggestions, the point spread.

@@ -223,6 +223,7 @@ class Reformation:
         annotate: bool = False,
         study: Any = None,
         anonymous: bool = False,
+        other_patient: bool = False,
         compress: bool = False,
     ) -> None:
         """Write the picture, or with the ending ``.npz`` all arrays; a file appears only once it is whole.
@@ -235,7 +236,7 @@ class Reformation:
             words what its rows and columns are, and how it was made. ``.dcm`` is a DICOM Secondary Capture.
         annotate : bool, default False
             Write the picture with labels, see :meth:`annotated`.
-        study, anonymous, compress
+        study, anonymous, other_patient, compress
             For ``.dcm``, as in :meth:`Frame.save`. The object states the size of a pixel only where the
             picture is a projection: a ruler across any other would be wrong.
 
@@ -253,9 +254,11 @@ class Reformation:
             from lumencut.dicom_objects.picture import write_picture
 
             made = self._as_object(annotate=annotate, vessel_names=not anonymous)
-            write_picture(path, made, self._study(study, anonymous=anonymous), compress=compress)
+            found = self._study(study, anonymous=anonymous, other_patient=other_patient)
+            write_picture(path, made, found, compress=compress)
             return
-        check_dicom_alone(path, study=study, anonymous=anonymous, compress=compress)
+        dicom = {"study": study, "anonymous": anonymous, "other_patient": other_patient}
+        check_dicom_alone(path, **dicom, compress=compress)
         if path.suffix.lower() == ".npz":
             replace_whole(path, self._write_arrays)
         else:
@@ -276,11 +279,12 @@ class Reformation:
             image, self.recipe, self.settings, edges, self.pixel_spacing if is_true else None
         )
 
-    def _study(self, study: Any, *, anonymous: bool) -> Study:
+    def _study(self, study: Any, *, anonymous: bool, other_patient: bool = False) -> Study:
         """The study that DICOM objects of the reformation belong to."""
         from lumencut.dicom_objects.chosen_study import chosen_study
 
-        return chosen_study(self._known_volume()._origin, study, anonymous=anonymous)
+        origin = self._known_volume()._origin
+        return chosen_study(origin, study, anonymous=anonymous, other_patient=other_patient)
 
     def _known_volume(self) -> Volume:
         volume = self._renderer.volume

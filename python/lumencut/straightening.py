@@ -81,7 +81,14 @@ class StraightenedVolume:
         scale, origin = self._grid
         return (self._core.straightened_from_world(checked) - origin) / scale
 
-    def save(self, path: str | os.PathLike[str], *, study: Any = None, anonymous: bool = False) -> None:
+    def save(
+        self,
+        path: str | os.PathLike[str],
+        *,
+        study: Any = None,
+        anonymous: bool = False,
+        other_patient: bool = False,
+    ) -> None:
         """Write the volume as ``.nrrd``, ``.nii`` or ``.nii.gz``; the file appears only once it is whole.
 
         A name without an ending is a folder, which must not be there yet: a series of derived CT or MR images
@@ -93,7 +100,7 @@ class StraightenedVolume:
         ----------
         path : path-like
             The file or folder.
-        study, anonymous
+        study, anonymous, other_patient
             For a folder, as in :meth:`Frame.save`.
 
         Raises
@@ -107,13 +114,13 @@ class StraightenedVolume:
         """
         place = checked_path(path, WRITABLE)
         if place.suffix:
-            check_dicom_alone(place, study=study, anonymous=anonymous)
+            check_dicom_alone(place, study=study, anonymous=anonymous, other_patient=other_patient)
             write_volume(self.volume, place, self._mark)
             return
         from lumencut.dicom_objects.straightened_series import write_straightened
 
         surface = self._surface
-        found = surface._study(study, anonymous=anonymous)
+        found = surface._study(study, anonymous=anonymous, other_patient=other_patient)
         is_whole = surface._known_volume().dtype.kind in "iu"
         about = (surface.recipe, surface.settings, surface.shown_window)
         said = ". ".join([self._mark, _PLACE, *self.notes])

@@ -113,6 +113,7 @@ def save_animation(
     vessel_names: bool = False,
     study: Any = None,
     anonymous: bool = False,
+    other_patient: bool = False,
     grey: bool = False,
     compress: bool = False,
 ) -> None:
@@ -130,7 +131,7 @@ def save_animation(
         Frames per second, from 1/60 to 1000.
     annotate, vessel_names : bool, default False
         Labels on the frames, as for :meth:`Frame.save`.
-    study, anonymous, compress
+    study, anonymous, other_patient, compress
         For ``.dcm``, as for :meth:`Frame.save`.
     grey : bool, default False
         For ``.dcm``: write grey frames, which some programs read alone.
@@ -148,5 +149,6 @@ def save_animation(
     """
     from lumencut.animation import writer_for
 
-    dicom = {"study": study, "anonymous": anonymous, "grey": grey, "compress": compress}
+    of_study = {"study": study, "anonymous": anonymous, "other_patient": other_patient}
+    dicom = {**of_study, "grey": grey, "compress": compress}
     writer_for(path, annotate=annotate, vessel_names=vessel_names, dicom=dicom)(frames, fps)

@@ -15,6 +15,7 @@ from lumencut._checks import flag
 from lumencut._found_once import FoundOnce
 from lumencut._pickles import by_name
 from lumencut._values import KeepsReadOnly
+from lumencut.dicom_objects.extents import Box
 from lumencut.dicom_objects.study import Origin, Study
 from lumencut.errors import VolumeError
 from lumencut.scan_details import ScanDetails
@@ -191,7 +192,9 @@ class Volume(KeepsReadOnly):
         some = voxels[:: max(1, len(voxels) // 4096)]
         grid = repr((self.size, self.dtype.str, self._affine_rows))
         fingerprint = hashlib.sha256(grid.encode() + some.tobytes()).hexdigest()
-        return Origin(self._study, fingerprint, self.dtype.kind in "iu")
+        is_placed = self.states_spacing and self.states_orientation
+        box = Box.around(self.corners) if is_placed else None
+        return Origin(self._study, fingerprint, self.dtype.kind in "iu", box)
 
     @functools.cached_property
     def _windows(self) -> FoundOnce[tuple[float, float]]:

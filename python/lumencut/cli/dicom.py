@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from lumencut.settings import Settings
     from lumencut.volume import Volume
 
-_OPTIONS = ("like_study", "anonymous", "compress", "grey", "values")
+_OPTIONS = ("like_study", "anonymous", "other_patient", "compress", "grey", "values")
 
 
 def dicom_options(command: Command) -> Command:
@@ -40,6 +40,11 @@ def study_options(command: Command) -> Command:
             is_flag=True,
             help="For .dcm: leave out the patient, the study and the names of vessels. That is not the Basic "
             "Profile of the standard.",
+        ),
+        click.option(
+            "--other-patient",
+            is_flag=True,
+            help="For .dcm: accept a --like-study of another PatientID than that of VOLUME.",
         ),
     )
     return added(parts, command)
@@ -67,13 +72,21 @@ def check_objects(chosen: dict[str, Any], outputs: Iterable[Path], *, has_series
     asked = [f"--{name.replace('_', '-')}" for name in _OPTIONS if chosen.get(name)]
     if asked and not has_series and not any(is_object(path) for path in outputs):
         raise click.UsageError(f"{asked[0]} does nothing without an output .dcm; name one, or leave it out")
+    check_study_options(chosen)
+
+
+def check_study_options(chosen: dict[str, Any]) -> None:
+    """Refuse options of a study that exclude or need each other."""
     if chosen["like_study"] is not None and chosen["anonymous"]:
         raise click.UsageError("--like-study and --anonymous exclude each other; leave one of them out")
+    if chosen["other_patient"] and chosen["like_study"] is None:
+        raise click.UsageError("--other-patient does nothing without --like-study; leave it out")
 
 
 def study_of(chosen: dict[str, Any]) -> dict[str, Any]:
     """Return the study that objects are put into, as the functions of the package take it."""
-    return {"study": chosen["like_study"], "anonymous": chosen["anonymous"]}
+    named = {name: chosen[name] for name in ("anonymous", "other_patient")}
+    return {"study": chosen["like_study"], **named}
 
 
 def object_options(path: Path, chosen: dict[str, Any]) -> dict[str, Any]:
@@ -101,5 +114,5 @@ def save_sheet(
     from lumencut.dicom_objects.picture import write_picture
     from lumencut.dicom_objects.views import joined_picture
 
-    study = chosen_study(volume._origin, chosen["like_study"], anonymous=chosen["anonymous"])
+    study = chosen_study(volume._origin, **study_of(chosen))
     write_picture(path, joined_picture(image, *about), study, compress=chosen["compress"])

@@ -144,8 +144,7 @@ def measure(output: tuple[Path, ...], **chosen: Any) -> None:
     from lumencut.placement import check_meeting
 
     check_meeting(voxels, tree)
-    if chosen["dicom"] is not None:
-        study_for(voxels, chosen)
+    study = None if chosen["dicom"] is None else study_for(voxels, chosen)
     vessels = named_vessels(tree, chosen)
     if chosen["at"] is not None and len(vessels) > 1:
         mend = "choose one by --vessel or --path"
@@ -156,8 +155,8 @@ def measure(output: tuple[Path, ...], **chosen: Any) -> None:
         for line in one.told:
             say(f"  {line}")
     write_outputs(voxels, tree, measured, output, chosen)
-    if chosen["dicom"] is not None:
-        write_objects(voxels, tree, measured, chosen)
+    if study is not None:
+        write_objects((voxels, tree), measured, study, chosen)
 
 
 def _described(profile: Profile) -> str:

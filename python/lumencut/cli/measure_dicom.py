@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from lumencut.cli.dicom import check_study_options, study_of
 from lumencut.cli.report import busy, say
 
 if TYPE_CHECKING:
@@ -24,15 +25,14 @@ _WIDTH, _COARSEST = 50.0, 0.25
 def check_dicom(chosen: dict[str, Any]) -> None:
     """Refuse what cannot be written as DICOM, before any file is read."""
     if chosen["dicom"] is None:
-        for name in ("like_study", "anonymous"):
+        for name in ("like_study", "anonymous", "other_patient"):
             if chosen[name]:
                 option = f"--{name.replace('_', '-')}"
                 raise click.UsageError(
                     f"{option} does nothing without --dicom; name a folder, or leave it out"
                 )
         return
-    if chosen["like_study"] is not None and chosen["anonymous"]:
-        raise click.UsageError("--like-study and --anonymous exclude each other; leave one of them out")
+    check_study_options(chosen)
     if chosen["dicom"].exists() and not chosen["dicom"].is_dir():
         raise click.UsageError(f"--dicom {chosen['dicom']}: found a file; expected a folder")
     from lumencut.dicom_objects.structured_report import check_highdicom
@@ -46,19 +46,19 @@ def study_for(voxels: Volume, chosen: dict[str, Any]) -> Study:
     """Return the study that objects are put into, before anything is measured."""
     from lumencut.dicom_objects.chosen_study import chosen_study
 
-    return chosen_study(voxels._origin, chosen["like_study"], anonymous=chosen["anonymous"])
+    return chosen_study(voxels._origin, **study_of(chosen))
 
 
 def write_objects(
-    voxels: Volume, tree: VesselTree, measured: Sequence[MeasuredVessel], chosen: dict[str, Any]
+    scene: tuple[Volume, VesselTree], measured: Sequence[MeasuredVessel], study: Study, chosen: dict[str, Any]
 ) -> None:
     """Write the structured report, the PDF, a view and a straightened CPR of each vessel into the folder."""
     from lumencut.renderer import Renderer
 
-    folder, study = chosen["dicom"], study_for(voxels, chosen)
+    folder = chosen["dicom"]
     folder.mkdir(exist_ok=True)
     shown = [one.unnamed() for one in measured] if chosen["anonymous"] else list(measured)
-    renderer = Renderer(voxels, tree, chosen["device"])
+    renderer = Renderer(*scene, chosen["device"])
     with busy(f"writing {folder}"):
         _write_numbers(folder / "report.dcm", shown, study)
         _write_pdf(folder / "report-pdf.dcm", shown, study, renderer, chosen)

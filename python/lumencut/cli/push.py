@@ -42,7 +42,7 @@ def push(
 
     FILES are files, folders or zip archives; ADDRESS is that of a server of DICOMweb: https://HOST/ROOT.
     What is sent cannot be taken back from here. Studies that the PACS does not have are refused, since
-    results belong beside their scan.
+    results belong beside their scan, and objects of another PatientID than that of their study.
 
     Each object that the PACS refuses is named with the reason, and all others are looked up afterwards. Push
     leaves with 3 where one is not there.
@@ -54,6 +54,7 @@ def push(
     from lumencut.dicomweb.address import parsed_address
     from lumencut.dicomweb.client import Client
     from lumencut.dicomweb.objects import outgoing_objects
+    from lumencut.dicomweb.patients import check_objects
 
     if len(files) < 2:
         raise click.UsageError("found one argument; expected FILES, then the ADDRESS of the PACS")
@@ -65,6 +66,7 @@ def push(
     if left_out:
         tell(f"left out, no DICOM: {len(left_out)} files, such as {left_out[0]}")
     _list(objects, address, is_all=dry_run)
+    _warn(check_objects(objects))
     if dry_run:
         say("nothing was sent")
         return
@@ -79,7 +81,7 @@ def _list(objects: list[Outgoing], address: Address, *, is_all: bool) -> None:
     size = sum(one.size for one in objects) / 1e6
     say(f"{len(objects)} objects, {size:.1f} MB, to {address.base}")
     for one in objects:
-        line = f"  {one.kind}: {one.source} ({one.description}), study {one.study}"
+        line = f"  {one.kind}: {one.source} ({one.description}), study {one.study}, {one.patient}"
         if is_all:
             say(line)
         else:
@@ -89,16 +91,20 @@ def _list(objects: list[Outgoing], address: Address, *, is_all: bool) -> None:
 def _check_studies(
     client: Client, address: Address, objects: list[Outgoing], *, is_new_allowed: bool
 ) -> None:
-    """Refuse what belongs to no study of the PACS: mostly the wrong PACS, or a study that was made up."""
-    from lumencut.dicomweb.queries import has_study
+    """Refuse objects of another patient, and what belongs to no study of the PACS: mostly the wrong PACS."""
+    from lumencut.dicomweb.patients import check_pacs
 
-    if is_new_allowed:
-        return
-    unknown = [uid for uid in dict.fromkeys(one.study for one in objects) if not has_study(client, uid)]
-    if unknown:
+    unknown, doubts = check_pacs(client, address.base, objects)
+    _warn(doubts)
+    if unknown and not is_new_allowed:
         found = f"{len(unknown)} studies that it does not have, such as {unknown[0]}"
         mend = "check the address, or give --new-study to let the PACS make them"
         raise PacsError(address.base, found, "studies that it has", mend)
+
+
+def _warn(doubts: list[str]) -> None:
+    for words in doubts:
+        warn(words)
 
 
 def _ask(address: Address, *, is_sure: bool) -> None:

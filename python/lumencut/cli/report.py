@@ -9,12 +9,12 @@ import traceback
 import warnings
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from typing import NoReturn, TextIO
+from typing import NoReturn
 
 import click
 
 from lumencut.cli.signals import EndedError, ended_by_signals
-from lumencut.errors import DeviceWarning, LumencutError, SpaceWarning
+from lumencut.errors import DeviceWarning, LumencutError, SpaceWarning, StudyWarning
 from lumencut.mends import Told, as_option, written
 
 #: Exit codes beside 0 and click's 2 for wrong usage.
@@ -85,7 +85,7 @@ def reported(ctx: click.Context) -> Iterator[None]:
     """Turn whatever ends a command into one line and an exit code."""
     with ended_by_signals(), warnings.catch_warnings(), _log_shown():
         warnings.simplefilter("always")
-        warnings.showwarning = _show_warning
+        warnings.showwarning = _shown_once()
         try:
             yield
         except KeyboardInterrupt:
@@ -123,18 +123,20 @@ def one_line(text: object) -> str:
     return "".join(letter if letter.isprintable() else "�" for letter in " ".join(words))
 
 
-def _show_warning(
-    message: Warning | str,
-    category: type[Warning],
-    filename: str,
-    lineno: int,
-    file: TextIO | None = None,
-    line: str | None = None,
-) -> None:
-    if issubclass(category, (DeviceWarning, SpaceWarning)):
-        warn(message)
-    else:
-        detail(f"{category.__name__}: {message}")
+def _shown_once() -> Callable[..., None]:
+    """Return what shows warnings, those of a study once for all of its objects."""
+    told: set[str] = set()
+
+    def show(message: Warning | str, category: type[Warning], *_: object) -> None:
+        words = str(message)
+        if not issubclass(category, (DeviceWarning, SpaceWarning, StudyWarning)):
+            detail(f"{category.__name__}: {message}")
+        elif words not in told:
+            warn(message)
+        if issubclass(category, StudyWarning):
+            told.add(words)
+
+    return show
 
 
 class _Told(logging.Handler):

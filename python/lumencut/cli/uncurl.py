@@ -143,8 +143,8 @@ class _Picture:
     def _png_options(self, **_: bool) -> dict[str, Any]:
         return {}
 
-    def _study(self, study: Any, *, anonymous: bool) -> Study:
-        return self.made._study(study, anonymous=anonymous)
+    def _study(self, study: Any, *, anonymous: bool, other_patient: bool) -> Study:
+        return self.made._study(study, anonymous=anonymous, other_patient=other_patient)
 
     def _as_object(self, **labels: bool) -> Picture:
         return replace(self.made._as_object(**labels), image=self.image)

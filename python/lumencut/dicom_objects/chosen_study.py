@@ -3,11 +3,22 @@
 from __future__ import annotations
 
 import os
+import sys
+import warnings
+from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 from lumencut.dicom_objects.study import PATIENT, VISIT, Origin, Study
+from lumencut.dicom_objects.study_doubts import (
+    check_one_patient,
+    check_same_patient,
+    doubts,
+    is_other_study,
+    patient_of,
+)
 from lumencut.dicom_objects.uids import uid_of
-from lumencut.errors import FormatError, SettingsError
+from lumencut.errors import FormatError, SettingsError, StudyWarning
 from lumencut.volume import Volume
 from lumencut.volume_files.dicom.study import study_below
 
@@ -18,51 +29,109 @@ _MEND = (
 _METHOD = "Lumencut: patient and study left out, not the Basic Profile"
 
 
-def chosen_study(origin: Origin, study: Any, *, anonymous: bool) -> Study:
-    """Return the study that an object belongs to.
+def chosen_study(origin: Origin, study: Any, *, anonymous: bool, other_patient: bool = False) -> Study:
+    """Return the study that an object belongs to; warn of what speaks against a study that was chosen.
 
     Parameters
     ----------
     origin : Origin
         Where it comes from.
-    study : Volume, path-like or None
+    study : Volume, Study, path-like or None
         A volume that was read from DICOM, or a folder, file or zip archive of DICOM, in the place of what the
         origin tells.
     anonymous : bool
         Leave patient and study out. The new study's UID depends on the scan's voxels: all objects made from
         one scan belong to one study.
+    other_patient : bool, default False
+        Take a study of another patient than that of the scan, without a doubt.
 
     Raises
     ------
     FormatError
-        Where there is no study, or several, or one without a StudyInstanceUID.
+        Where there is no study, or several, or one without a StudyInstanceUID, or one of another patient.
     SettingsError
-        For both a study and ``anonymous``, or a study of another kind.
+        For both a study and ``anonymous``, a study of another kind, and ``other_patient`` without a study.
     """
     if anonymous and study is not None:
         raise SettingsError("study", "a study beside anonymous=True", "one of them", "leave one of them out")
+    if other_patient and study is None:
+        raise SettingsError("other_patient", "True without a study", "study=FOLDER too", "leave it out")
     if anonymous:
         return _anonymous(origin)
-    found, subject = origin.study, "study of the scan"
+    if study is None:
+        return _checked(origin.study, "study of the scan")
+    found, subject = _given(study)
+    checked = _checked(found, subject)
+    if origin.study is not None and not other_patient:
+        check_same_patient(origin.study, checked, subject)
+    if not other_patient:
+        for words in doubts(origin, checked):
+            warnings.warn(StudyWarning(f"{subject}: {words}"), stacklevel=_levels_within())
+    return joined_study(origin, checked)
+
+
+def _given(study: Any) -> tuple[Study | None, str]:
+    """The study that a caller names, and what it is called in messages."""
+    if isinstance(study, Study):
+        return study, "the chosen study"
     if isinstance(study, Volume):
         found = study._study
-    elif isinstance(study, (str, os.PathLike)):
-        found, subject = study_below(study), str(study)
-    elif study is not None:
-        raise SettingsError("study", type(study).__name__, "a Volume or the path of a DICOM folder")
-    if found is None:
-        raise FormatError(subject, "a scan that was not read from DICOM", "a study to belong to", _MEND)
-    return _checked(found, subject)
+        return None if found is None else replace(found, box=study._origin.box), "the chosen study"
+    if isinstance(study, (str, os.PathLike)):
+        return study_below(study), str(study)
+    raise SettingsError("study", type(study).__name__, "a Volume or the path of a DICOM folder")
 
 
-def _checked(study: Study, subject: str) -> Study:
+def _checked(study: Study | None, subject: str) -> Study:
     """Refuse a study that no object can be told to belong to."""
+    if study is None:
+        raise FormatError(subject, "a scan that was not read from DICOM", "a study to belong to", _MEND)
     if study.study_count > 1:
         found = f"images of {study.study_count} studies"
         raise FormatError(subject, found, "one study", "name a folder of one study alone")
     if not study.text("StudyInstanceUID"):
         raise FormatError(subject, "images without a StudyInstanceUID", "a study that has one", _MEND)
+    check_one_patient(study, subject)
     return study
+
+
+def joined_study(origin: Origin, study: Study) -> Study:
+    """Return patient and study of a chosen study, beside what a scan from DICOM says of its own images.
+
+    Coordinates are in the frame of the scan, and its images alone are sources. A scan of another study is
+    named by nothing in a study whose patient was removed, and its images are no sources there or elsewhere.
+    """
+    from pydicom.dataset import Dataset
+
+    scan = origin.study
+    if scan is None:
+        return study
+    header = Dataset()
+    for keyword in scan.header.dir():
+        if keyword not in (*PATIENT, *VISIT):
+            header[keyword] = scan.header[keyword]
+    for keyword in study.header.dir():
+        if keyword in (*PATIENT, *VISIT):
+            header[keyword] = study.header[keyword]
+    if not is_other_study(scan, study) and scan.text("StudyInstanceUID"):
+        return Study(header, scan.instances)
+    if _is_removed(study) and not _is_removed(scan):
+        _hide_scan(header, origin)
+    return Study(header)
+
+
+def _is_removed(study: Study) -> bool:
+    """Whether nothing in a study identifies its patient."""
+    return study.text("PatientIdentityRemoved").upper() == "YES" or not patient_of(study).id
+
+
+def _levels_within() -> int:
+    """How many callers are within this package, so that a warning names the line of its user."""
+    package, level = str(Path(__file__).parents[1]), 1
+    frame = sys._getframe(1)
+    while frame.f_back is not None and frame.f_code.co_filename.startswith(package):
+        frame, level = frame.f_back, level + 1
+    return level
 
 
 def _anonymous(origin: Origin) -> Study:
@@ -75,11 +144,16 @@ def _anonymous(origin: Origin) -> Study:
         kept = (keyword for keyword in scanned.dir() if keyword not in (*PATIENT, *VISIT))
         for keyword in kept:
             header[keyword] = scanned[keyword]
+    header.StudyInstanceUID = uid_of("anonymous study", origin.fingerprint)
+    header.PatientIdentityRemoved, header.DeidentificationMethod = "YES", _METHOD
+    _hide_scan(header, origin)
+    return Study(header)
+
+
+def _hide_scan(header: Any, origin: Origin) -> None:
+    """Leave out the UIDs of the scan; coordinates are then in a frame that nothing else is in."""
+    # An element that was not deleted would be changed in the header of the scan too.
     for keyword in ("SeriesInstanceUID", "FrameOfReferenceUID"):
         if keyword in header:
             delattr(header, keyword)
-    header.StudyInstanceUID = uid_of("anonymous study", origin.fingerprint)
-    # Coordinates are in a frame that nothing else is in.
     header.FrameOfReferenceUID = uid_of("anonymous frame", origin.fingerprint)
-    header.PatientIdentityRemoved, header.DeidentificationMethod = "YES", _METHOD
-    return Study(header)

@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from lumencut._pickles import by_name
+from lumencut.dicom_objects.extents import Box
 
 #: Who the patient is, and what is known of that; empty under `anonymous`.
 PATIENT = (
@@ -63,16 +64,27 @@ class Study:
         SOP class and UID of each image of the scan.
     study_count : int, default 1
         How many studies the images belong to.
+    further : tuple of pydicom.Dataset, default ()
+        The same attributes of the other series, where the images belong to several.
+    box : Box or None, default None
+        What holds all of the images; None where it is not known.
     """
 
     header: Any = field(repr=False)
     instances: tuple[tuple[str, str], ...] = field(default=(), repr=False)
     study_count: int = 1
+    further: tuple[Any, ...] = field(default=(), repr=False)
+    box: Box | None = None
 
     def text(self, keyword: str) -> str:
         """Return the value of an attribute as a text, empty where the scan has none."""
         value = self.header.get(keyword)
         return "" if value is None else str(value)
+
+    def texts(self, keyword: str) -> list[str]:
+        """Return the different values of an attribute in all series, as texts without the empty ones."""
+        values = [header.get(keyword) for header in (self.header, *self.further)]
+        return list(dict.fromkeys(str(value) for value in values if value))
 
 
 @by_name
@@ -88,8 +100,11 @@ class Origin:
         Tells scans apart by their grid and some of their voxels; it names nobody.
     is_whole : bool, default False
         Whether its voxels are whole numbers.
+    box : Box or None, default None
+        What holds the scan; None where its source does not state its place in the patient.
     """
 
     study: Study | None
     fingerprint: str
     is_whole: bool = False
+    box: Box | None = None

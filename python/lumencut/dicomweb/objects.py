@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from lumencut.dicom_objects.patients import Patient
 from lumencut.dicomweb.address import is_uid
 from lumencut.errors import FormatError
 from lumencut.volume_files.dicom.headers import is_dicom
@@ -16,7 +17,7 @@ from lumencut.volume_files.opened import printable, refusing
 
 _TAGS = (
     *("SOPClassUID", "SOPInstanceUID", "StudyInstanceUID", "SeriesInstanceUID"),
-    *("Modality", "SeriesDescription"),
+    *("Modality", "SeriesDescription", "PatientID", "IssuerOfPatientID"),
 )
 _TIMES = ("ContentDate", "ContentTime", "InstanceCreationDate", "InstanceCreationTime")
 _PREAMBLE = 132
@@ -36,6 +37,8 @@ class Outgoing:
         What it is, in the words of the standard.
     description : str
         That of its series.
+    patient : Patient
+        Whose it is.
     """
 
     source: Source
@@ -44,6 +47,7 @@ class Outgoing:
     series: str
     kind: str
     description: str
+    patient: Patient
 
     @property
     def size(self) -> int:
@@ -107,7 +111,8 @@ def _object(source: Source) -> Outgoing | None:
         mend = "a PACS takes no such objects; let the program that made it write them"
         raise FormatError(str(source), found, "a whole DICOM object", mend)
     description = printable(str(data.get("SeriesDescription") or ""))
-    return Outgoing(source, own, study, series, printable(kind.name), description)
+    patient = Patient.in_header(data)
+    return Outgoing(source, own, study, series, printable(kind.name), description, patient)
 
 
 def _once(objects: Sequence[Outgoing]) -> list[Outgoing]:

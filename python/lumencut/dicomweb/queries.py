@@ -6,12 +6,15 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from lumencut.dicom_objects.patients import Patient
 from lumencut.dicomweb.address import Address, is_uid
 from lumencut.dicomweb.client import Client
 from lumencut.errors import PacsError
 
 _PAGE = 5000
 _STUDY, _SERIES, _INSTANCE = "0020000D", "0020000E", "00080018"
+#: PatientID and IssuerOfPatientID.
+_IDENTITY = ("00100020", "00100021")
 _STUDY_TEXTS = {
     "date": "00080020",
     "patient": "00100010",
@@ -61,9 +64,11 @@ def find_studies(client: Client, address: Address, match: Mapping[str, str], mos
     return found
 
 
-def has_study(client: Client, uid: str) -> bool:
-    """Tell whether the PACS knows a study."""
-    return any(_text(one, _STUDY) == uid for one in client.json("/studies", {"StudyInstanceUID": uid}))
+def find_patients(client: Client, uid: str) -> list[Patient]:
+    """Find the patients that the PACS has for a study; empty where it does not have the study."""
+    fields = {"StudyInstanceUID": uid, "includefield": ",".join(_IDENTITY)}
+    found = [one for one in client.json("/studies", fields) if _text(one, _STUDY) == uid]
+    return list(dict.fromkeys(Patient.of(*(_text(one, tag) for tag in _IDENTITY)) for one in found))
 
 
 def find_series(client: Client, address: Address) -> list[Found]:

@@ -5,17 +5,24 @@ from __future__ import annotations
 import io
 import os
 from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 from lumencut._files import checked_path
+from lumencut.dicom_objects.extents import Box, box_of_slices
 from lumencut.dicom_objects.study import READ, Study
 from lumencut.errors import FileError, FormatError
 from lumencut.volume_files.dicom.files import read_files
-from lumencut.volume_files.dicom.headers import Image
+from lumencut.volume_files.dicom.headers import Image, header_tags
+from lumencut.volume_files.dicom.records import header_record
+from lumencut.volume_files.dicom.sources import Source
 from lumencut.volume_files.opened import refusing
 
 _EXPECTED = "a DICOM folder, file or zip archive"
 _IMAGE_COMMENTS = 0x00204000
+#: The most series of which a header is read once more.
+_MOST_SERIES = 64
 
 
 def study_of(images: Sequence[Image]) -> Study:
@@ -24,19 +31,31 @@ def study_of(images: Sequence[Image]) -> Study:
     An attribute that cannot be read is left out, as if the image did not have it. What is odd about one, such
     as a name of too many letters, is no matter of whoever looks at the scan.
     """
-    first = images[0].source
-    with refusing(first, "DICOM", []):
-        header = _readable(first.attributes(_tags()))
     seen: dict[str, str] = {}
     studies: dict[str, None] = {}
+    series: dict[tuple[str, str], Image] = {}
     for image in images:
-        kind, uid, study = (
-            str(image.header.get(f"{what}UID") or "") for what in ("SOPClass", "SOPInstance", "StudyInstance")
+        kind, uid, study, part = (
+            str(image.header.get(f"{what}UID") or "")
+            for what in ("SOPClass", "SOPInstance", "StudyInstance", "SeriesInstance")
         )
         seen.setdefault(uid, kind)
         studies[study] = None
+        series.setdefault((study, part), image)
     instances = tuple((kind, uid) for uid, kind in seen.items() if uid and kind)
-    return Study(header, instances, len(studies))
+    header, *further = (_repeated(image.source) for image in _few(list(series.values())))
+    return Study(header, instances, len(studies), tuple(further))
+
+
+def _few(firsts: list[Image]) -> list[Image]:
+    """Some of the first images of series: where each image is its own series, all would take too long."""
+    return firsts[:: -(-len(firsts) // _MOST_SERIES)]
+
+
+def _repeated(source: Source) -> Any:
+    """What is repeated of the header of a file."""
+    with refusing(source, "DICOM", []):
+        return _readable(source.attributes(_tags()))
 
 
 def comments_of(image: Image) -> str:
@@ -63,12 +82,14 @@ def study_below(path: str | os.PathLike[str]) -> Study:
     place = checked_path(path, _EXPECTED)
     if not place.exists():
         raise FileError(str(place), "no such file or folder", _EXPECTED)
-    images = [file.image for file in read_files(place, []) if file.image is not None]
-    if not images:
+    files = [file for file in read_files(place, []) if file.image is not None]
+    if not files:
         raise FormatError(str(place), "no DICOM file", _EXPECTED)
-    study = study_of(images)
+    images = [file.image for file in files if file.image is not None]
     series = {str(image.header.get("SeriesInstanceUID") or "") for image in images}
-    return study if len(series) == 1 else Study(study.header, (), study.study_count)
+    box = box_of_slices(file.record["header"] for file in files)
+    study = replace(study_of(images), box=box)
+    return study if len(series) == 1 else replace(study, instances=())
 
 
 def study_in(header: bytes, instances: Sequence[str] = ()) -> Study:
@@ -89,18 +110,26 @@ def study_in(header: bytes, instances: Sequence[str] = ()) -> Study:
     import pydicom
 
     subject, of_image = "the DICOM file", ("SOPClassUID", "SOPInstanceUID")
-    wanted = [*READ, *of_image]
+    wanted = [*_tags(), *header_tags()]
     with refusing(subject, "DICOM", []):
         # Files without the preamble are DICOM too: what they hold tells.
         read = pydicom.dcmread(io.BytesIO(header), stop_before_pixels=True, specific_tags=wanted, force=True)
         kind, own = (str(read.get(keyword) or "") for keyword in of_image)
+        box = _box_in(read, len(header))
     if not kind:
         mend = "choose another file of the scan's folder"
         raise FormatError(subject, "what is no DICOM image", "an image of the study", mend)
-    for keyword in of_image:
-        read.pop(keyword, None)
     uids = instances or ([own] if own else [])
-    return Study(_readable(read), tuple((kind, uid) for uid in uids))
+    return Study(_readable(read), tuple((kind, uid) for uid in uids), box=box)
+
+
+def _box_in(header: Any, size: int) -> Box | None:
+    """What holds the frames of one header; None where it does not say where they lie."""
+    image = Image(Source(Path("header"), size), header, None, "", "")
+    try:
+        return box_of_slices([header_record(image)])
+    except Exception:  # what pydicom raises for damaged values is nearly everything
+        return None
 
 
 def _tags() -> list[int]:
@@ -114,7 +143,7 @@ def _readable(header: Any) -> Any:
     from pydicom.dataset import Dataset
 
     kept = Dataset()
-    for tag in sorted(header.keys()):
+    for tag in sorted(set(_tags()) & set(header.keys())):
         try:
             kept[tag] = header[tag]
         except Exception:  # what pydicom raises for damaged values is nearly everything

@@ -1,0 +1,95 @@
+"""Boxes that hold a scan or its slices, and how they lie to each other."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+#: An extent of less than this part of the other one is that of a slice or of a few, which show no length.
+_THIN = 0.2
+
+
+@dataclass(frozen=True)
+class Box:
+    """A box along the axes of the patient.
+
+    Attributes
+    ----------
+    low, high : tuple of 3 float
+        Its least and its greatest coordinates (mm, LPS).
+    """
+
+    low: tuple[float, float, float]
+    high: tuple[float, float, float]
+
+    @classmethod
+    def around(cls, points: npt.ArrayLike) -> Box:
+        """Return the box around points (n, 3) (mm, LPS)."""
+        places = np.asarray(points, np.float64).reshape(-1, 3)
+        return cls(_corner(places.min(axis=0)), _corner(places.max(axis=0)))
+
+    def distance(self, other: Box) -> float:
+        """Return how far two boxes lie apart (mm), 0 where they meet."""
+        gaps = np.maximum(np.subtract(other.low, self.high), np.subtract(self.low, other.high))
+        return float(np.linalg.norm(np.maximum(gaps, 0)))
+
+    def part_within(self, other: Box) -> float:
+        """Return the smallest part of a side that lies within another box, between 0 and 1.
+
+        Sides along which the other box is thin, as that of one slice, do not count.
+        """
+        length, its_length = np.subtract(self.high, self.low), np.subtract(other.high, other.low)
+        common = np.minimum(self.high, other.high) - np.maximum(self.low, other.low)
+        is_long = (length > 0) & (its_length > _THIN * length)
+        parts = np.clip(common[is_long] / length[is_long], 0, 1)
+        return float(parts.min()) if parts.size else 1.0
+
+
+def box_of_slices(records: Iterable[dict[str, Any]]) -> Box | None:
+    """Return the box around all slices of DICOM headers, None where none states its place.
+
+    Parameters
+    ----------
+    records : iterable of dict
+        Headers as the judge of series takes them; attributes of a frame stand under ``frames`` or ``shared``.
+    """
+    corners = []
+    for record in records:
+        for frame in record["frames"] or [{}]:
+            found = _corners({**record["attributes"], **record["shared"], **frame})
+            if found is not None:
+                corners.append(found)
+    return Box.around(np.concatenate(corners)) if corners else None
+
+
+def _corners(attributes: dict[str, Any]) -> npt.NDArray[np.float64] | None:
+    """The four corners of a slice, shape (4, 3); None where the header does not state them."""
+    place = _numbers(attributes.get("ImagePositionPatient"), 3)
+    axes = _numbers(attributes.get("ImageOrientationPatient"), 6)
+    spacing = _numbers(attributes.get("PixelSpacing"), 2)
+    shape = _numbers([attributes.get("Rows"), attributes.get("Columns")], 2)
+    if place is None or axes is None or spacing is None or shape is None:
+        return None
+    # The spacing of rows stands first, and the direction along rows.
+    down, right = axes[3:] * spacing[0] * (shape[0] - 1), axes[:3] * spacing[1] * (shape[1] - 1)
+    return np.array([place, place + down, place + right, place + down + right])
+
+
+def _numbers(values: Any, count: int) -> npt.NDArray[np.float64] | None:
+    """Finite numbers of a header, None for anything else."""
+    if not isinstance(values, Sequence) or isinstance(values, str) or len(values) != count:
+        return None
+    try:
+        found = np.array([float(value) for value in values])
+    except (TypeError, ValueError):
+        return None
+    return found if np.isfinite(found).all() else None
+
+
+def _corner(values: npt.NDArray[np.float64]) -> tuple[float, float, float]:
+    x, y, z = (float(value) for value in values)
+    return x, y, z

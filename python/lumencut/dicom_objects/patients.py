@@ -1,0 +1,61 @@
+"""Patients as DICOM identifies them: by ID and issuer, never by name."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+
+@dataclass(frozen=True)
+class Patient:
+    """The identity of a patient.
+
+    Attributes
+    ----------
+    id : str, default ""
+        The PatientID without padding; empty where none is stated.
+    issuer : str, default ""
+        The IssuerOfPatientID without padding; empty where none is stated.
+    """
+
+    id: str = ""
+    issuer: str = ""
+
+    @classmethod
+    def of(cls, patient_id: object, issuer: object) -> Patient:
+        """Return the patient of two values of a header, which may be padded or None."""
+        return cls(_unpadded(patient_id), _unpadded(issuer))
+
+    @classmethod
+    def in_header(cls, header: Any) -> Patient:
+        """Return the patient of a header of DICOM."""
+        return cls.of(header.get("PatientID"), header.get("IssuerOfPatientID"))
+
+    def is_comparable(self, other: Patient) -> bool:
+        """Whether both have an ID."""
+        return bool(self.id and other.id)
+
+    def differs_from(self, other: Patient) -> bool:
+        """Whether both have an ID and are not one patient.
+
+        Issuers count where both are stated: two hospitals can give one ID to two patients.
+        """
+        has_other_issuer = bool(self.issuer and other.issuer) and self.issuer != other.issuer
+        return self.is_comparable(other) and (self.id != other.id or has_other_issuer)
+
+    def has_lone_issuer(self, other: Patient) -> bool:
+        """Whether the IDs are the same and only one of them has an issuer."""
+        return self.is_comparable(other) and self.id == other.id and bool(self.issuer) != bool(other.issuer)
+
+    def __str__(self) -> str:
+        """Return the ID, with its issuer where that is stated."""
+        if not self.id:
+            return "no PatientID"
+        issuer = f" of {self.issuer!r}" if self.issuer else ""
+        return f"PatientID {self.id!r}{issuer}"
+
+
+def _unpadded(value: object) -> str:
+    """A value without the blanks and zero bytes around it, which mean nothing."""
+    text = "" if value is None else str(value).strip(" \0\t\r\n")
+    return "".join(letter if letter.isprintable() else "�" for letter in text)
