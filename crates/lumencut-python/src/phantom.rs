@@ -7,9 +7,7 @@ use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 
-use crate::errors::to_python;
-use crate::pool;
-use crate::renderer::interruptible;
+use crate::watching::computed;
 
 /// The phantom called `name`; `percent` is read by the stenosis alone, `seed` and `scale` by the workloads.
 #[pyfunction]
@@ -21,9 +19,7 @@ pub fn make_phantom<'py>(
     seed: u64,
     scale: f64,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let made = interruptible(py, None, |stop| {
-        pool::install(|| make(name, percent, (seed, scale), stop))?.map_err(to_python)
-    })?;
+    let made = computed(py, |stop| make(name, percent, (seed, scale), stop))?;
     to_dict(py, made)
 }
 

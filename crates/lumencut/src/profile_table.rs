@@ -134,14 +134,14 @@ fn written(value: f64) -> String {
 }
 
 fn write_line(text: &mut String, fields: impl Iterator<Item = String>) {
-    let fields: Vec<String> = fields.map(cell).collect();
+    let fields: Vec<String> = fields.map(|text| cell(&text)).collect();
     text.push_str(&fields.join(","));
     text.push('\n');
 }
 
 /// A field that no spreadsheet runs as a formula, in quotes where it would not be read as one without.
-fn cell(text: String) -> String {
-    let field = marked_cell(&text);
+fn cell(text: &str) -> String {
+    let field = marked_cell(text);
     if field.contains(['"', ',', '\n', '\r']) {
         return format!("\"{}\"", field.replace('"', "\"\""));
     }
@@ -163,7 +163,7 @@ mod tests {
             ("-1.5", "-1.5"),
         ];
         for (field, text) in cases {
-            assert_eq!(cell(field.to_owned()), text);
+            assert_eq!(cell(field), text);
         }
     }
 }
