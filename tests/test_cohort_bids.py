@@ -9,6 +9,7 @@ import pytest
 
 from cohort_scenes import RECIPE, table
 from lumencut.cohort.bids import read_bids
+from lumencut.cohort.distributions import states_of
 from lumencut.errors import FileError, FormatError
 from scene_files import write_volume
 
@@ -45,7 +46,8 @@ def test_each_session_is_a_study(data):
         "sub-02_ses-a_CT.nii.gz",
     ]
     assert [one.id for one in read_bids(data, labels=["02"]).studies] == ["sub-02_ses-a", "sub-02_ses-b"]
-    assert [one.volume.name for one in read_bids(data, ["T1w"]).studies] == ["sub-01_T1w.nii.gz"]
+    taken = [one for one in read_bids(data, ["T1w"]).studies if not one.left_out]
+    assert [one.volume.name for one in taken] == ["sub-01_T1w.nii.gz"]
 
 
 def test_what_cannot_be_told_apart_or_found_is_refused(data, tmp_path):
@@ -80,3 +82,80 @@ def test_participants_and_then_the_group(data):
     refused = run(data, "group", "--participant-label", "01")
     assert refused.returncode == 2
     assert "does nothing" in refused.stderr
+
+
+@pytest.fixture
+def ragged(tmp_path):
+    """Five participants, of whom one alone has an angiography, and a session without one."""
+    names = [
+        "sub-01/anat/sub-01_angio",
+        "sub-02/anat/sub-02_TOF",
+        "sub-04/ses-a/anat/sub-04_ses-a_T1w",
+        "sub-04/ses-b/anat/sub-04_ses-b_angio",
+    ]
+    for name in names:
+        path = tmp_path / f"{name}.nii.gz"
+        path.parent.mkdir(parents=True, exist_ok=True)
+        write_volume(path)
+    (tmp_path / "sub-03").mkdir()
+    (tmp_path / "sub-04/sub-04_sessions.tsv").write_text("session_id\nses-a\nses-c\n", "utf-8")
+    rows = [f"sub-0{number}\t60" for number in (5, 4, 3, 2, 1)]
+    (tmp_path / "participants.tsv").write_text("\n".join(["participant_id\tage", *rows]), "utf-8")
+    (tmp_path / "recipe.toml").write_text(RECIPE, "utf-8")
+    return tmp_path
+
+
+#: What is said of each study of that data set that has no angiography.
+LEFT_OUT = {
+    "sub-02": "no name that ends with _angio.nii.gz, _cta.nii.gz, _ct.nii.gz; found sub-02_TOF.nii.gz",
+    "sub-03": "no name that ends with _angio.nii.gz, _cta.nii.gz, _ct.nii.gz; found no image",
+    "sub-04_ses-a": "no name that ends with _angio.nii.gz, _cta.nii.gz, _ct.nii.gz; "
+    "found sub-04_ses-a_T1w.nii.gz",
+    "sub-04_ses-c": "no folder ses-c of this session of the table of sessions",
+    "sub-05": "no folder of this participant of participants.tsv",
+}
+
+
+def test_participants_without_an_angiography_are_rows_with_their_reason(ragged):
+    done = run(ragged, "participant")
+    assert done.returncode == 0, done.stderr
+    said = [f"{name}: skipped: {reason}" for name, reason in LEFT_OUT.items()]
+    assert done.stdout.splitlines() == [*said, "sub-01: done", "sub-04_ses-b: done"]
+    group = run(ragged, "group")
+    assert group.stdout.splitlines() == [
+        *said,
+        f"{ragged / 'out'}: 2 done, 0 failed, 5 without an angiography",
+    ]
+    rows = table(ragged / "out/studies.csv")
+    ids = ["sub-01", "sub-02", "sub-03", "sub-04_ses-a", "sub-04_ses-b", "sub-04_ses-c", "sub-05"]
+    assert [row["id"] for row in rows] == ids
+    skipped = {row["id"]: row["reason"] for row in rows if row["state"] == "skipped"}
+    assert skipped == LEFT_OUT
+    page = (ragged / "out/index.html").read_text("utf-8")
+    assert "found sub-02_TOF.nii.gz" in page
+    states, reasons = states_of(ragged / "out")
+    assert (states["done"], states["skipped"]) == (2, 5)
+    assert reasons[LEFT_OUT["sub-05"]] == 1
+
+
+def test_the_suffix_that_a_reason_asks_for_takes_the_study_in(ragged):
+    studies = read_bids(ragged, ["TOF", "angio", "T1w"], ["02", "04"]).studies
+    assert [one.id for one in studies if not one.left_out] == ["sub-02", "sub-04_ses-a", "sub-04_ses-b"]
+    with pytest.raises(FormatError, match=r"sub-02: no name .* found sub-02_TOF\.nii\.gz"):
+        read_bids(ragged, labels=["02"])
+
+
+def test_an_angiography_outside_of_the_sessions_is_named(ragged):
+    write_volume(ragged / "sub-04/sub-04_angio.nii.gz")
+    found = {one.id: one.left_out for one in read_bids(ragged).studies}
+    assert "outside of the sessions: sub-04_angio.nii.gz; move it" in found["sub-04"]
+    assert found["sub-04_ses-b"] == ""
+
+
+def test_a_table_of_participants_that_cannot_be_read_is_a_note(ragged):
+    (ragged / "participants.tsv").write_text("name\nx\n", "utf-8")
+    (ragged / "sub-04/sub-04_sessions.tsv").write_text("session_id\ta\nses-c\n", "utf-8")
+    manifest = read_bids(ragged)
+    assert "found no column participant_id" in manifest.notes[0]
+    assert "1 fields in line 2" in manifest.notes[1]
+    assert "sub-05" not in [one.id for one in manifest.studies]

@@ -42,11 +42,11 @@ def test_a_batch_writes_its_tables_as_parquet_too(tmp_path):
 
 def test_words_with_line_breaks_and_empty_tables(tmp_path):
     with (tmp_path / "a.csv").open("w", newline="", encoding="utf-8") as file:
-        csv.writer(file).writerows([["id", "length_mm"], ["two\nlines", "1.5"], ["b", ""]])
+        csv.writer(file).writerows([["id", "length_mm"], ["two\nlines", "1.5"], ["b", ""], ["'=1", "2"]])
     write_parquet(tmp_path / "a.csv")
     assert parquet.read_table(tmp_path / "a.parquet").to_pydict() == {
-        "id": ["two\nlines", "b"],
-        "length_mm": [1.5, None],
+        "id": ["two\nlines", "b", "=1"],
+        "length_mm": [1.5, None, 2.0],
     }
     (tmp_path / "b.csv").write_text("", "utf-8")
     write_parquet(tmp_path / "b.csv")

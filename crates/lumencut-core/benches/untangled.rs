@@ -8,6 +8,7 @@ use lumencut_core::camera::Camera;
 use lumencut_core::error::Result;
 use lumencut_core::reformations::Layout;
 use lumencut_core::reformations::untangled::{Untangled, UntangledParameters};
+use lumencut_core::stop::NEVER;
 use lumencut_core::vessel_tree::{Vessel, VesselTree};
 use lumencut_scenes::timing::{head, row, time};
 
@@ -60,7 +61,7 @@ fn main() -> Result<()> {
         let [width, height] = made(1.0)?.size();
         let spacing = ((width * height) as f64 / PIXELS).sqrt();
         let laid_out = time(RUNS, || drop(made(spacing).expect("a layout")));
-        let both = time(RUNS, || drop(made(spacing).and_then(|made| made.curved()).expect("places")));
+        let both = time(RUNS, || drop(made(spacing).and_then(|made| made.curved(NEVER)).expect("places")));
         let layout = made(spacing)?;
         let [width, height] = layout.size();
         let told = |times: [f64; 2]| format!("{:.1} ({:.1})", times[0], times[1]);

@@ -63,7 +63,7 @@ pub use error::{Error, Result};
 pub use mend::Mend;
 pub use space::Space;
 pub use unit::Unit;
-pub use write::{write_csv, write_mrk_json, write_swc, write_vtk, write_vtp};
+pub use write::{marked_cell, write_csv, write_mrk_json, write_swc, write_vtk, write_vtp};
 
 use kind::Kind;
 

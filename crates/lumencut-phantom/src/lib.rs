@@ -23,6 +23,7 @@ mod workload;
 
 use glam::DAffine3;
 use lumencut_core::error::Result;
+use lumencut_core::stop::Stop;
 use lumencut_core::vessel_tree::{Vessel, VesselTree};
 use lumencut_core::volume::{Volume, Voxels};
 
@@ -30,7 +31,7 @@ pub use lesion::{Plaque, PlaqueKind, Stenosis};
 pub use small::{
     calcified_wall, collinear_run, crossing, helix, stenosis, straight_tube, trefoil, y_junction,
 };
-pub use workload::{aorta, cervical, runoff};
+pub use workload::{AORTA, CERVICAL, RUNOFF, Workload, aorta, cervical, runoff};
 
 /// A volume and its vessel tree, with everything known about them.
 #[derive(Clone, Debug)]
@@ -69,11 +70,11 @@ impl Phantom {
     /// Paints the scene and puts the truth beside it.
     fn of(
         name: &'static str,
-        grid: &paint::Grid,
-        scene: &paint::Scene,
+        (grid, scene): (&paint::Grid, &paint::Scene),
         vasculature: network::Vasculature,
+        stop: Stop,
     ) -> Result<Self> {
-        let voxels = paint::paint(grid, scene, &vasculature)?;
+        let voxels = paint::paint(grid, scene, &vasculature, stop)?;
         let vessel_names = vasculature.vessels.iter().map(|v| v.name.clone()).collect();
         let reference_radius = vasculature.vessels.iter().map(|v| v.reference.clone()).collect();
         let vessel = |v: network::KnownVessel| Vessel::new(v.points, Some(v.lumen));
@@ -168,6 +169,16 @@ mod tests {
             assert!(low.cmpge(corners[0]).all() && high.cmple(corners[7]).all(), "{}", phantom.name);
             assert!(phantom.voxels.iter().all(|v| (-1024..=3071).contains(v)));
         }
+    }
+
+    #[test]
+    fn a_workload_stops_where_its_caller_asks() {
+        let asked = std::sync::atomic::AtomicUsize::new(0);
+        let stop = || asked.fetch_add(1, std::sync::atomic::Ordering::Relaxed) >= 3;
+        let error = AORTA.make(0, 0.1, &stop).unwrap_err();
+        assert_eq!(error.kind, ErrorKind::Interrupted);
+        // Slices that other threads had begun are all that is asked for later.
+        assert!(asked.into_inner() < 26);
     }
 
     #[test]

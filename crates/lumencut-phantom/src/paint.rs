@@ -2,6 +2,7 @@
 
 use glam::{DAffine3, DVec3, Vec2, Vec3};
 use lumencut_core::error::{Error, ErrorKind, Result};
+use lumencut_core::stop::{Stop, go_on};
 use rayon::prelude::*;
 
 use crate::lesion::Rod;
@@ -60,8 +61,8 @@ const SOFT_UNION: f32 = 3.0;
 /// Paints the scene; the outcome depends on nothing but the arguments.
 ///
 /// # Errors
-/// [`ErrorKind::Volume`] where there is no memory for the voxels.
-pub(crate) fn paint(grid: &Grid, scene: &Scene, vasculature: &Vasculature) -> Result<Vec<i16>> {
+/// [`ErrorKind::Volume`] where there is no memory for the voxels, [`ErrorKind::Interrupted`] once the caller asks to stop.
+pub(crate) fn paint(grid: &Grid, scene: &Scene, vasculature: &Vasculature, stop: Stop) -> Result<Vec<i16>> {
     let strokes = strokes(vasculature);
     let painter = Painter::new(grid, scene, &strokes);
     let count = grid.slice_length() * grid.size[2];
@@ -72,11 +73,18 @@ pub(crate) fn paint(grid: &Grid, scene: &Scene, vasculature: &Vasculature) -> Re
             Error::new(ErrorKind::Volume, "size of the phantom", found, "no more than there is memory for");
         return Err(error.mend("make it at a smaller scale"));
     }
-    voxels.resize(count, 0i16);
-    voxels.par_chunks_mut(grid.slice_length()).enumerate().for_each_init(
+    for slices in 1..=grid.size[2] {
+        go_on(stop)?;
+        voxels.resize(slices * grid.slice_length(), 0i16);
+    }
+    voxels.par_chunks_mut(grid.slice_length()).enumerate().try_for_each_init(
         || Scratch::new(grid.slice_length()),
-        |scratch, (k, slice)| painter.paint_slice(k, slice, scratch),
-    );
+        |scratch, (k, slice)| {
+            go_on(stop)?;
+            painter.paint_slice(k, slice, scratch);
+            Ok(())
+        },
+    )?;
     Ok(voxels)
 }
 

@@ -188,5 +188,5 @@ fn made(name: &'static str, vasculature: Vasculature) -> Result<Phantom> {
     let extent = DVec3::from_array(size.map(|n| (n - 1) as f64)) * SPACING;
     let grid = Grid { size, spacing: DVec3::splat(SPACING), origin: (low + high - extent) / 2.0 };
     let scene = Scene { solids: Vec::new(), background: FAT, seed: 0, noise: 0.0 };
-    Phantom::of(name, &grid, &scene, vasculature)
+    Phantom::of(name, (&grid, &scene), vasculature, &|| false)
 }

@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 use lumencut_core::error::{Error, ErrorKind, Result};
+use lumencut_core::stop::Stop;
 
 use crate::Phantom;
 use crate::anatomy::{self, Anatomy};
@@ -11,7 +12,7 @@ use crate::paint::{Grid, Scene};
 const NOISE: f32 = 14.0;
 
 /// What a workload looks like at scale 1.
-struct Workload {
+pub struct Workload {
     name: &'static str,
     size: [usize; 3],
     /// Voxel spacing (mm).
@@ -31,15 +32,7 @@ struct Workload {
 /// # Errors
 /// [`ErrorKind::Settings`] for a scale outside [0.02, 2].
 pub fn aorta(seed: u64, scale: f64) -> Result<Phantom> {
-    let workload = Workload {
-        name: "aorta",
-        size: [512, 512, 256],
-        spacing: DVec3::new(0.75, 0.75, 1.0),
-        corner: DVec3::new(-192.0, -192.0, -128.0),
-        segments: 800,
-        anatomy: anatomy::abdomen,
-    };
-    workload.make(seed, scale)
+    AORTA.make(seed, scale, &|| false)
 }
 
 /// Arteries of the lower extremities, from the abdominal aorta to the feet, with a femoro-femoral
@@ -51,15 +44,7 @@ pub fn aorta(seed: u64, scale: f64) -> Result<Phantom> {
 /// # Errors
 /// As for [`aorta`].
 pub fn runoff(seed: u64, scale: f64) -> Result<Phantom> {
-    let workload = Workload {
-        name: "runoff",
-        size: [512, 512, 1305],
-        spacing: DVec3::new(0.75, 0.75, 1.0),
-        corner: DVec3::new(-192.0, -192.0, -1135.0),
-        segments: 2200,
-        anatomy: anatomy::lower_extremities,
-    };
-    workload.make(seed, scale)
+    RUNOFF.make(seed, scale, &|| false)
 }
 
 /// Cervical arteries from the aortic arch to the circle of Willis: 512×512×575 voxels of 0.75×0.75×0.7 mm,
@@ -70,23 +55,49 @@ pub fn runoff(seed: u64, scale: f64) -> Result<Phantom> {
 /// # Errors
 /// As for [`aorta`].
 pub fn cervical(seed: u64, scale: f64) -> Result<Phantom> {
-    let workload = Workload {
-        name: "cervical",
-        size: [512, 512, 575],
-        spacing: DVec3::new(0.75, 0.75, 0.7),
-        corner: DVec3::new(-192.0, -192.0, -75.0),
-        segments: 1100,
-        anatomy: anatomy::neck,
-    };
-    workload.make(seed, scale)
+    CERVICAL.make(seed, scale, &|| false)
 }
 
+/// The workload of [`aorta`].
+pub const AORTA: Workload = Workload {
+    name: "aorta",
+    size: [512, 512, 256],
+    spacing: DVec3::new(0.75, 0.75, 1.0),
+    corner: DVec3::new(-192.0, -192.0, -128.0),
+    segments: 800,
+    anatomy: anatomy::abdomen,
+};
+
+/// The workload of [`runoff`].
+pub const RUNOFF: Workload = Workload {
+    name: "runoff",
+    size: [512, 512, 1305],
+    spacing: DVec3::new(0.75, 0.75, 1.0),
+    corner: DVec3::new(-192.0, -192.0, -1135.0),
+    segments: 2200,
+    anatomy: anatomy::lower_extremities,
+};
+
+/// The workload of [`cervical`].
+pub const CERVICAL: Workload = Workload {
+    name: "cervical",
+    size: [512, 512, 575],
+    spacing: DVec3::new(0.75, 0.75, 0.7),
+    corner: DVec3::new(-192.0, -192.0, -75.0),
+    segments: 1100,
+    anatomy: anatomy::neck,
+};
+
 impl Workload {
-    fn make(&self, seed: u64, scale: f64) -> Result<Phantom> {
+    /// The phantom; `seed` and `scale` as for [`aorta`].
+    ///
+    /// # Errors
+    /// As for [`aorta`], and [`ErrorKind::Interrupted`] once the caller asks to stop.
+    pub fn make(&self, seed: u64, scale: f64, stop: Stop) -> Result<Phantom> {
         let grid = self.grid(scale)?;
         let Anatomy { vasculature, solids, background } = (self.anatomy)(seed, self.segments);
         let scene = Scene { solids, background, seed, noise: NOISE };
-        Phantom::of(self.name, &grid, &scene, vasculature)
+        Phantom::of(self.name, (&grid, &scene), vasculature, stop)
     }
 
     /// The same field of view in `scale` times as many voxels along each axis.

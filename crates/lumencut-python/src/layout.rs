@@ -4,13 +4,13 @@ use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 use lumencut::reformations;
+use lumencut::stop::go_on;
 use numpy::{PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray2};
 use pyo3::prelude::*;
 use rayon::prelude::*;
 
-use crate::errors::to_python;
-use crate::pool;
 use crate::tree::points_of;
+use crate::watching::computed;
 
 /// Where the pixels of a reformation look; the base of those that know more.
 #[pyclass(frozen, subclass, module = "lumencut._lumencut")]
@@ -32,20 +32,20 @@ impl Layout {
 
     /// The world point of each pixel (mm, LPS), shape (H, W, 3).
     fn position<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<f64>>> {
-        let curved = py.detach(|| pool::install(|| self.0.curved()))?.map_err(to_python)?;
+        let curved = computed(py, |stop| self.0.curved(stop))?;
         let [width, height] = self.0.size();
         numbers_of(py, curved.position()).reshape([height, width, 3])
     }
 
     /// The arc length of the vessel (mm), shape (H,) where rows run along one vessel, else (H * W,).
     fn arc_length<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
-        Ok(PyArray1::from_vec(py, py.detach(|| pool::install(|| self.0.arc_length()))?))
+        Ok(PyArray1::from_vec(py, computed(py, |stop| self.0.arc_length(stop))?))
     }
 
     /// Which pixels are folded, shape (H, W).
     fn folded<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<bool>>> {
         let [width, height] = self.0.size();
-        PyArray1::from_vec(py, py.detach(|| pool::install(|| self.0.folded()))?).reshape([height, width])
+        PyArray1::from_vec(py, computed(py, |stop| self.0.folded(stop))?).reshape([height, width])
     }
 
     /// The world points (n, 3) (mm, LPS) of places in the image (n, 2): column and row.
@@ -57,7 +57,8 @@ impl Layout {
     ) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let pixels: Vec<_> = pixels.as_array().rows().into_iter().map(|p| DVec2::new(p[0], p[1])).collect();
         let world = |pixel: &DVec2| self.0.world_from_pixel(*pixel);
-        let points: Vec<_> = py.detach(|| pool::install(|| pixels.par_iter().map(world).collect()))?;
+        let points: Vec<_> =
+            computed(py, |stop| pixels.par_iter().map(|pixel| go_on(stop).map(|()| world(pixel))).collect())?;
         numbers_of(py, &points).reshape([points.len(), 3])
     }
 
@@ -70,7 +71,8 @@ impl Layout {
     ) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let points = points_of(&points)?;
         let pixel = |point: &DVec3| self.0.pixel_from_world(*point);
-        let pixels: Vec<_> = py.detach(|| pool::install(|| points.par_iter().map(pixel).collect()))?;
+        let pixels: Vec<_> =
+            computed(py, |stop| points.par_iter().map(|point| go_on(stop).map(|()| pixel(point))).collect())?;
         PyArray1::from_vec(py, pixels.iter().flat_map(DVec2::to_array).collect()).reshape([pixels.len(), 2])
     }
 }

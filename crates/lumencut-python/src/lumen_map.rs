@@ -21,6 +21,7 @@ use crate::measuring::Profile;
 use crate::pool;
 use crate::tree::{VesselArrays, vessel as vessel_of};
 use crate::volume::VolumeArgument;
+use crate::watching::computed;
 
 /// An ostium: the id of its vessel, the arc length (mm), the point (mm, LPS), and column and row in the map.
 type OstiumRow = (usize, f64, [f64; 3], [f64; 2]);
@@ -98,8 +99,9 @@ impl LumenWall {
         let volume = volume.volume(&borrowed)?;
         let (angle, overlap) = directions;
         let request = MapRequest { pixel_spacing, angle, overlap, band, calcium_level };
-        let laid = || maps::lumen_map(&volume, &self.path, &self.view, &self.found, &request);
-        let map = py.detach(|| pool::install(laid))?.map_err(to_python)?;
+        let map = computed(py, |stop| {
+            maps::lumen_map(&volume, &self.path, &self.view, &self.found, (&request, stop))
+        })?;
         let layout = Layout(Arc::new(map.clone()));
         Bound::new(py, PyClassInitializer::from(layout).add_subclass(LumenMap(map)))
     }
@@ -125,17 +127,17 @@ impl LumenMap {
 
     /// The radius of the wall at each pixel (mm), shape (H, W).
     fn wall<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        self.shaped(py, py.detach(|| pool::install(|| self.0.wall()))?)
+        self.shaped(py, computed(py, |stop| self.0.wall(stop))?)
     }
 
     /// Which pixels lie in the opening of a branch, shape (H, W).
     fn open<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<bool>>> {
-        self.shaped(py, py.detach(|| pool::install(|| self.0.open()))?)
+        self.shaped(py, computed(py, |stop| self.0.open(stop))?)
     }
 
     /// How bright the wall is at each pixel, lit from the middle of the vessel (0 to 1), shape (H, W).
     fn shades<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f32>>> {
-        self.shaped(py, py.detach(|| pool::install(|| self.0.shades()))?)
+        self.shaped(py, computed(py, |stop| self.0.shades(stop))?)
     }
 
     /// How much of a band beyond the wall (mm) is brighter than a level (mm), shape (H, W).
@@ -149,8 +151,8 @@ impl LumenMap {
     ) -> PyResult<Bound<'py, PyArray2<f32>>> {
         let borrowed = volume.borrow()?;
         let volume = volume.volume(&borrowed)?;
-        let thick = py.detach(|| pool::install(|| maps::thickness(&volume, &self.0, band, level)))?;
-        self.shaped(py, thick.map_err(to_python)?)
+        let thick = computed(py, |stop| maps::thickness(&volume, &self.0, (band, level), stop))?;
+        self.shaped(py, thick)
     }
 
     /// Where the vessels of a tree open into this one.

@@ -1,13 +1,13 @@
 //! Phantoms for Python: the voxels move into numpy, the truth becomes plain dictionaries.
 
 use lumencut::error::{Error, ErrorKind, Result};
-use lumencut_phantom::{Phantom, Plaque, PlaqueKind, Stenosis};
+use lumencut::stop::Stop;
+use lumencut_phantom::{AORTA, CERVICAL, Phantom, Plaque, PlaqueKind, RUNOFF, Stenosis};
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 
-use crate::errors::to_python;
-use crate::pool;
+use crate::watching::computed;
 
 /// The phantom called `name`; `percent` is read by the stenosis alone, `seed` and `scale` by the workloads.
 #[pyfunction]
@@ -19,11 +19,11 @@ pub fn make_phantom<'py>(
     seed: u64,
     scale: f64,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let made = py.detach(|| pool::install(|| make(name, percent, seed, scale)))?.map_err(to_python)?;
+    let made = computed(py, |stop| make(name, percent, (seed, scale), stop))?;
     to_dict(py, made)
 }
 
-fn make(name: &str, percent: f64, seed: u64, scale: f64) -> Result<Phantom> {
+fn make(name: &str, percent: f64, (seed, scale): (u64, f64), stop: Stop) -> Result<Phantom> {
     match name {
         "straight_tube" => lumencut_phantom::straight_tube(),
         "helix" => lumencut_phantom::helix(),
@@ -33,9 +33,9 @@ fn make(name: &str, percent: f64, seed: u64, scale: f64) -> Result<Phantom> {
         "collinear_run" => lumencut_phantom::collinear_run(),
         "stenosis" => lumencut_phantom::stenosis(percent),
         "calcified_wall" => lumencut_phantom::calcified_wall(),
-        "aorta" => lumencut_phantom::aorta(seed, scale),
-        "runoff" => lumencut_phantom::runoff(seed, scale),
-        "cervical" => lumencut_phantom::cervical(seed, scale),
+        "aorta" => AORTA.make(seed, scale, stop),
+        "runoff" => RUNOFF.make(seed, scale, stop),
+        "cervical" => CERVICAL.make(seed, scale, stop),
         _ => Err(Error::new(
             ErrorKind::Settings,
             "name of the phantom",

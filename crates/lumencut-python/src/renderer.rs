@@ -194,7 +194,7 @@ impl Renderer {
             let request = Request { images, stop, ..Request::new(&camera, settings) };
             let mut locked = self.backend.lock().unwrap_or_else(PoisonError::into_inner);
             let backend = &mut *locked;
-            let look = || pollster::block_on(backend.look(&volume, || places(&**layout), &request));
+            let look = || pollster::block_on(backend.look(&volume, || places(&**layout, stop), &request));
             pool::install(look)?.map_err(to_python)
         })?;
         say_that_the_cpu_goes_on(py, given_up)?;
@@ -226,7 +226,8 @@ impl Renderer {
             let backend = &mut *locked;
             let mut given_up = None;
             let look = |turned: &lumencut::reformations::cpr::Cpr| {
-                let (frame, error) = pollster::block_on(backend.look(&volume, || places(turned), &request))?;
+                let (frame, error) =
+                    pollster::block_on(backend.look(&volume, || places(turned, stop), &request))?;
                 given_up = given_up.take().or(error);
                 Ok(frame.value)
             };
@@ -241,9 +242,9 @@ impl Renderer {
 }
 
 /// A frame that knows where the pixels of a reformation look, and how long it took to find out.
-fn places(layout: &dyn lumencut::reformations::Layout) -> lumencut::error::Result<Frame> {
+fn places(layout: &dyn lumencut::reformations::Layout, stop: Stop<'_>) -> lumencut::error::Result<Frame> {
     let start = Instant::now();
-    let mut frame = Frame::of(Geometry::Curved(layout.curved()?));
+    let mut frame = Frame::of(Geometry::Curved(layout.curved(stop)?));
     let milliseconds = start.elapsed().as_secs_f64() * 1e3;
     frame.timings.push(Timing { stage: "places", milliseconds });
     Ok(frame)

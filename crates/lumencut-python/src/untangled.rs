@@ -8,11 +8,9 @@ use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 
 use crate::camera::CameraArgument;
-use crate::errors::to_python;
 use crate::layout::Layout;
-use crate::pool;
-use crate::renderer::interruptible;
 use crate::tree::{VesselArrays, tree};
+use crate::watching::computed;
 
 /// A part of a vessel in the image: the id of the vessel, arc lengths (n,) (mm), columns and rows (n, 2), its turn (radians), and
 /// whether it begins at its last place.
@@ -41,10 +39,7 @@ impl Untangled {
         let parameters =
             UntangledParameters { width, hull_margin, smoothing, pixel_spacing, unknown_radius, root };
         let (tree, camera) = (tree(&vessels)?, camera.camera()?);
-        let made = interruptible(py, None, |stop| {
-            let made = pool::install(|| untangled::Untangled::new(&tree, &camera, parameters, stop))?;
-            made.map_err(to_python)
-        })?;
+        let made = computed(py, |stop| untangled::Untangled::new(&tree, &camera, parameters, stop))?;
         Ok(PyClassInitializer::from(Layout(Arc::new(made.clone()))).add_subclass(Self(made)))
     }
 
@@ -77,7 +72,7 @@ impl Untangled {
         use lumencut::reformations::Layout as _;
 
         let [width, height] = self.0.size();
-        let vessel = py.detach(|| pool::install(|| self.0.vessel()))?;
+        let vessel = computed(py, |stop| self.0.vessel(stop))?;
         PyArray1::from_vec(py, vessel).reshape([height, width])
     }
 

@@ -4,7 +4,17 @@ use lumencut::progress::Progress;
 use lumencut::stop::Stop;
 use pyo3::prelude::*;
 
+use crate::errors::to_python;
+use crate::pool;
 use crate::renderer::{SHARES, Watched, interruptible};
+
+/// Runs what the core computes on the threads of this process, as [`interruptible`] does.
+pub fn computed<T: Send>(
+    py: Python<'_>,
+    work: impl FnOnce(Stop<'_>) -> lumencut::error::Result<T> + Send,
+) -> PyResult<T> {
+    interruptible(py, None, |stop| pool::install(|| work(stop))?.map_err(to_python))
+}
 
 /// Runs long work as [`interruptible`] does, and tells `told` how far it is, to its end.
 pub fn told_while<T: Send>(

@@ -10,6 +10,7 @@ use lumencut_core::math::centerline_path::CenterlinePath;
 use lumencut_core::reformations::Layout;
 use lumencut_core::reformations::cpr::View;
 use lumencut_core::reformations::lumen_map::{LumenMap, LumenMapParameters};
+use lumencut_core::stop::{Stop, go_on};
 use lumencut_core::vessel_tree::Vessel;
 use lumencut_core::volume::Volume;
 use lumencut_vessels::voxels::Voxels;
@@ -47,13 +48,13 @@ const COARSE: f64 = 1.0;
 /// The map of a vessel whose wall was found, with its pixels in the middle of the band.
 ///
 /// # Errors
-/// [`lumencut_core::error::ErrorKind::Camera`] for what cannot be laid out.
+/// [`lumencut_core::error::ErrorKind::Camera`] for what cannot be laid out, [`lumencut_core::error::ErrorKind::Interrupted`].
 pub fn lumen_map(
     volume: &Volume,
     path: &Arc<CenterlinePath>,
     view: &View,
     found: &FoundWall,
-    request: &MapRequest,
+    (request, stop): (&MapRequest, Stop),
 ) -> Result<LumenMap> {
     let parameters = LumenMapParameters {
         pixel_spacing: request.pixel_spacing,
@@ -66,7 +67,7 @@ pub fn lumen_map(
     let level = request.calcium_level.or_else(|| found.levels.map(calcium_level));
     let (None, Some(level)) = (request.angle, level) else { return laid(parameters) };
     let coarse = laid(LumenMapParameters { pixel_spacing: COARSE, overlap: 0.0, ..parameters })?;
-    let angle = thickest_side(&coarse, &thickness(volume, &coarse, request.band, level)?);
+    let angle = thickest_side(&coarse, &thickness(volume, &coarse, (request.band, level), stop)?);
     laid(LumenMapParameters { angle, ..parameters })
 }
 
@@ -79,19 +80,25 @@ pub fn calcium_level([lumen, around]: [f64; 2]) -> f64 {
 /// beyond the wall (mm). NaN outside the volume and where the wall is open.
 ///
 /// # Errors
-/// Those of the layout.
-pub fn thickness(volume: &Volume, map: &LumenMap, band: [f64; 2], level: f64) -> Result<Vec<f32>> {
-    let curved = map.curved()?;
+/// Those of the layout, also where the caller asks to stop.
+pub fn thickness(
+    volume: &Volume,
+    map: &LumenMap,
+    (band, level): ([f64; 2], f64),
+    stop: Stop,
+) -> Result<Vec<f32>> {
+    let curved = map.curved(stop)?;
     let voxels = Voxels::new(volume);
     let index = &voxels.index_from_world;
     let steps = ((band[1] - band[0]) / (SAMPLE * voxels.sampling_side)).ceil().max(1.0);
     let step = (band[1] - band[0]) / steps;
     let own = map.parameters().beyond;
     let through = |values: &mut Vec<f32>, (position, direction): (&DVec3, &Vec3)| {
+        go_on(stop)?;
         let ray = direction.as_dvec3();
         let start = index.transform_point3(*position + ray * (band[0] - own + 0.5 * step));
         if !start.is_finite() {
-            return f32::NAN;
+            return Ok(f32::NAN);
         }
         values.clear();
         while values.len() < steps as usize {
@@ -100,10 +107,10 @@ pub fn thickness(volume: &Volume, map: &LumenMap, band: [f64; 2], level: f64) ->
         let values = &values[..steps as usize];
         let is_outside = values.iter().any(|value| value.is_nan());
         let bright = values.iter().filter(|value| f64::from(**value) > level).count();
-        if is_outside { f32::NAN } else { (bright as f64 * step) as f32 }
+        Ok(if is_outside { f32::NAN } else { (bright as f64 * step) as f32 })
     };
     let pixels = curved.position().par_iter().zip(curved.slab_direction());
-    Ok(pixels.map_init(Vec::new, through).collect())
+    pixels.map_init(Vec::new, through).collect()
 }
 
 /// The direction in which most lies at the wall (radians): a map with it in the middle is cut open on the other side. 0 where nothing

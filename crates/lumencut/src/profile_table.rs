@@ -1,5 +1,6 @@
 //! Profiles as a table: CSV with one line for each section.
 
+use lumencut_io::marked_cell;
 use lumencut_vessels::measure::parts::Part;
 use lumencut_vessels::measure::profile::Profile;
 
@@ -133,22 +134,23 @@ fn written(value: f64) -> String {
 }
 
 fn write_line(text: &mut String, fields: impl Iterator<Item = String>) {
-    let fields: Vec<String> = fields.map(quoted).collect();
+    let fields: Vec<String> = fields.map(|text| cell(&text)).collect();
     text.push_str(&fields.join(","));
     text.push('\n');
 }
 
-/// A field in quotes where it would not be read as one without.
-fn quoted(field: String) -> String {
+/// A field that no spreadsheet runs as a formula, in quotes where it would not be read as one without.
+fn cell(text: &str) -> String {
+    let field = marked_cell(text);
     if field.contains(['"', ',', '\n', '\r']) {
         return format!("\"{}\"", field.replace('"', "\"\""));
     }
-    field
+    field.into_owned()
 }
 
 #[cfg(test)]
 mod tests {
-    use super::quoted;
+    use super::cell;
 
     #[test]
     fn fields_that_would_be_parted_are_in_quotes() {
@@ -157,9 +159,11 @@ mod tests {
             ("a, b", "\"a, b\""),
             ("5\" wide", "\"5\"\" wide\""),
             ("two\nlines", "\"two\nlines\""),
+            ("=A1,2", "\"'=A1,2\""),
+            ("-1.5", "-1.5"),
         ];
         for (field, text) in cases {
-            assert_eq!(quoted(field.to_owned()), text);
+            assert_eq!(cell(field), text);
         }
     }
 }

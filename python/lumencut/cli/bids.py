@@ -9,7 +9,7 @@ import click
 
 from lumencut.cli.batch import tell_ended
 from lumencut.cli.options import FILE, device_option, threads_option
-from lumencut.cli.report import FAILED, say, verbose_option
+from lumencut.cli.report import FAILED, say, verbose_option, warn
 from lumencut.cohort.job import NO_ROOM, SOME_FAILED
 from lumencut.errors import FormatError
 
@@ -49,7 +49,8 @@ def bids(
 
     With "participant" each session of the participants is done, one after the other, in this process: a
     cluster runs one job for each, side by side. With "group" the tables and the contact sheet of all are
-    written. Results are those of lumencut batch.
+    written. A participant or session without an angiography is named, and has a row in the tables. Results
+    are those of lumencut batch.
 
     \b
     lumencut bids data derivatives/lumencut participant --participant-label 01
@@ -69,11 +70,17 @@ def bids(
         how = read_cohort_recipe(recipe)
     except FormatError as error:
         raise click.UsageError(str(error)) from error
+    for note in studies.notes:
+        warn(note)
+    for study in studies.studies:
+        if study.left_out:
+            say(f"{study.id}: skipped: {study.left_out}")
     cohort = Cohort(studies, how, Layout(checked_path(out, WRITABLE).absolute()))
     if level == "group":
         summary = cohort.gather()
         skipped = f", {summary.skipped} not done yet" if summary.skipped else ""
-        say(f"{out}: {summary.done} done, {summary.failed} failed{skipped}")
+        left_out = f", {summary.left_out} without an angiography" if summary.left_out else ""
+        say(f"{out}: {summary.done} done, {summary.failed} failed{skipped}{left_out}")
         failed = summary.failed
     else:
         failed = _participants(cohort, device)

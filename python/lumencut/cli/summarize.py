@@ -80,7 +80,7 @@ def _tell(rows: Sequence[Sequence[str]], output: Path | None) -> None:
         say("  ".join(word.ljust(width) for word, width in zip(row, widths, strict=True)).rstrip())
     if output is not None:
         from lumencut._files import write_text
-        from lumencut.cohort.study_tables import written
+        from lumencut._tables import written
 
         write_text(output, written(rows))
         say(str(output))

@@ -52,6 +52,8 @@ class BatchSummary:
         How many of them this batch did.
     notes : tuple of str
         What is odd about the manifest.
+    left_out : int
+        How many studies have no scan; they count as none of the others.
     """
 
     out: Path
@@ -60,6 +62,7 @@ class BatchSummary:
     skipped: int
     worked: int
     notes: tuple[str, ...] = ()
+    left_out: int = 0
 
 
 @dataclass(frozen=True)
@@ -254,7 +257,7 @@ class Cohort:
         self._make()
         settle_recipe(self.layout, self.recipe, None)
         plans = planned(self.layout, self.manifest, self.recipe)
-        return [one.study for one in plans if one.record is None or one.record.state == "failed"]
+        return [one.study for one in to_do(plans, Shard(1, 1), "failed")]
 
     def _make(self) -> None:
         try:
@@ -310,8 +313,10 @@ class Cohort:
             records = [known_record(self.layout, one.study, one.origin) for one in plans]
             write_tables(self.layout, self.manifest, records)
         states = [None if record is None else record.state for record in records]
+        left_out = sum(bool(one.study.left_out) for one in plans)
+        skipped = states.count(None) - left_out
         return BatchSummary(
-            self.layout.out, states.count("done"), states.count("failed"), states.count(None), 0
+            self.layout.out, states.count("done"), states.count("failed"), skipped, 0, left_out=left_out
         )
 
 

@@ -7,12 +7,17 @@ from pathlib import Path
 
 from lumencut._files import checked_path
 from lumencut.cohort.manifest import Manifest, Study
-from lumencut.errors import FileError, FormatError
+from lumencut.cohort.manifest_table import table_of
+from lumencut.errors import FileError, FormatError, LumencutError
 
 #: How the names of angiographies end; BIDS has ``angio`` for MR and none for CT so far.
 SUFFIXES = ("angio", "cta", "ct")
 _ENDINGS = (".nii.gz", ".nii")
+#: How the names of images end that may stand in the place of an angiography.
+_IMAGES = (*_ENDINGS, ".nrrd", ".nhdr", ".mha", ".mhd", ".hdr", ".dcm", ".mgz")
 _EXPECTED = "a data set of BIDS with folders sub-…"
+#: As many names as one reason lists.
+_MOST_NAMED = 8
 
 
 def read_bids(folder: str | Path, suffixes: Sequence[str] = SUFFIXES, labels: Sequence[str] = ()) -> Manifest:
@@ -31,53 +36,108 @@ def read_bids(folder: str | Path, suffixes: Sequence[str] = SUFFIXES, labels: Se
     Returns
     -------
     Manifest
-        A study for each session whose folder has an angiography; their vessels are found in the scan.
+        A study for each participant, or each session of it. Its vessels are found in the scan. A study
+        without an angiography is left out, with the reason; so is one that ``participants.tsv`` or
+        ``sub-…_sessions.tsv`` names and that has no folder.
 
     Raises
     ------
     FormatError
-        For sessions with several angiographies, participants that are not there, and a data set without any.
+        For sessions with several angiographies, participants that are not there, and a data set without any
+        angiography.
     FileError
         For a folder that is not there.
     """
     home = checked_path(folder, _EXPECTED)
     if not home.is_dir():
         raise FileError(str(home), "no such folder", _EXPECTED)
-    people = sorted(path for path in home.glob("sub-*") if path.is_dir())
+    notes: list[str] = []
+    found = [path.name for path in home.glob("sub-*") if path.is_dir()]
+    listed = _listed(home / "participants.tsv", "participant_id", "sub-", notes)
+    people = sorted({*found, *listed})
     wanted = {f"sub-{label.removeprefix('sub-')}" for label in labels}
-    missing = sorted(wanted - {path.name for path in people})
+    missing = sorted(wanted - set(people))
     if missing:
         expected = f"some of its {len(people)} participants"
         raise FormatError(str(home), f"no {' and no '.join(missing)}", expected)
-    studies = [
-        study
-        for person in people
-        if not wanted or person.name in wanted
-        for place in sorted(person.glob("ses-*")) or [person]
-        for study in _studies(place, suffixes)
-    ]
-    if not studies:
-        ends = ", ".join(f"_{suffix}.nii.gz" for suffix in suffixes)
-        raise FormatError(
-            str(home), "no angiography", f"names that end with {ends}", "name others by --suffix"
-        )
-    return Manifest(str(home), tuple(studies))
+    chosen = [person for person in people if not wanted or person in wanted]
+    studies = [study for person in chosen for study in _of_person(home / person, suffixes, notes)]
+    if all(study.left_out for study in studies):
+        reasons = "; ".join(f"{study.id}: {study.left_out}" for study in studies[:_MOST_NAMED])
+        found_none = f"no angiography ({reasons})" if reasons else "no angiography"
+        mend = "name others by --suffix"
+        raise FormatError(str(home), found_none, f"names that end with {_ends(suffixes)}", mend)
+    return Manifest(str(home), tuple(studies), notes=tuple(notes))
 
 
-def _studies(place: Path, suffixes: Sequence[str]) -> list[Study]:
-    """The study of a session, or none where it has no angiography."""
-    found = [path for path in sorted(place.rglob("sub-*.nii*")) if _is_angiography(path.name, suffixes)]
+def _listed(path: Path, column: str, prefix: str, notes: list[str]) -> list[str]:
+    """The names in a column of a table of BIDS; none where there is no table, or it cannot be read."""
+    if not path.is_file():
+        return []
+    try:
+        table = table_of(path, [column])
+    except LumencutError as error:
+        notes.append(f"{error}; the table is not used")
+        return []
+    if column not in table.names:
+        notes.append(f"{path}: found no column {column}; the table is not used")
+        return []
+    names = [row.values[column] for row in table.rows]
+    return [f"{prefix}{name.removeprefix(prefix)}" for name in names if name]
+
+
+def _of_person(person: Path, suffixes: Sequence[str], notes: list[str]) -> list[Study]:
+    """The studies of a participant: one for each session, or one where there are no sessions."""
+    if not person.is_dir():
+        return [Study(person.name, person, left_out="no folder of this participant of participants.tsv")]
+    table = person / f"{person.name}_sessions.tsv"
+    listed = _listed(table, "session_id", "ses-", notes)
+    sessions = sorted({*(path.name for path in person.glob("ses-*") if path.is_dir()), *listed})
+    if not sessions:
+        return [_study(person, person.name, suffixes)]
+    studies = [_study(person / session, f"{person.name}_{session}", suffixes) for session in sessions]
+    beside = [path for path in _images(person) if path.relative_to(person).parts[0] not in sessions]
+    beside = [path for path in beside if _is_angiography(path.name, suffixes)]
+    if beside:
+        reason = f"an angiography outside of the sessions: {_names(beside)}; move it into a folder ses-…"
+        studies.insert(0, Study(person.name, beside[0].absolute(), left_out=reason))
+    return studies
+
+
+def _study(place: Path, name: str, suffixes: Sequence[str]) -> Study:
+    """The study of a folder, which is left out where the folder has no angiography."""
+    if not place.is_dir():
+        return Study(name, place, left_out=f"no folder {place.name} of this session of the table of sessions")
+    images = _images(place)
+    found = [path for path in images if _is_angiography(path.name, suffixes)]
     if len(found) > 1:
         names = ", ".join(path.name for path in found)
         mend = "name one by --suffix, such as --suffix acq-cta_ct"
         raise FormatError(str(place), f"{len(found)} angiographies: {names}", "one", mend)
-    name = place.name if place.name.startswith("sub-") else f"{place.parent.name}_{place.name}"
-    return [Study(name, path.absolute()) for path in found]
+    if found:
+        return Study(name, found[0].absolute())
+    there = f"found {_names(images)}" if images else "found no image"
+    return Study(name, place, left_out=f"no name that ends with {_ends(suffixes)}; {there}")
+
+
+def _images(place: Path) -> list[Path]:
+    """All files of a folder that may be images, by their names."""
+    return sorted(path for path in place.rglob("*") if path.name.lower().endswith(_IMAGES))
+
+
+def _names(paths: Sequence[Path]) -> str:
+    more = len(paths) - _MOST_NAMED
+    return ", ".join(path.name for path in paths[:_MOST_NAMED]) + (f" and {more} more" if more > 0 else "")
+
+
+def _ends(suffixes: Sequence[str]) -> str:
+    return ", ".join(f"_{suffix}.nii.gz" for suffix in suffixes)
 
 
 def _is_angiography(name: str, suffixes: Sequence[str]) -> bool:
-    ending = next((ending for ending in _ENDINGS if name.endswith(ending)), None)
-    if ending is None:
+    lower = name.lower()
+    ending = next((ending for ending in _ENDINGS if lower.endswith(ending)), None)
+    if ending is None or not lower.startswith("sub-"):
         return False
-    stem = name.removesuffix(ending).lower()
+    stem = lower.removesuffix(ending)
     return any(stem.endswith(f"_{suffix.lower()}") for suffix in suffixes)

@@ -105,7 +105,7 @@ def _tile(layout: Layout, row: int, study: Study, record: Record | None) -> str:
         "seconds": "" if record is None else f"{record.seconds:.3f}",
     }
     attributes = " ".join(f'data-{name}="{escape(value)}"' for name, value in data.items())
-    lines = _lines(record, narrowest, flags, doubtful)
+    lines = [study.left_out] if study.left_out else _lines(record, narrowest, flags, doubtful)
     told = "".join(f'<p title="{escape(line)}">{escape(line)}</p>' for line in lines)
     picture = _picture(layout, study) if state == "done" else f"<a>{state}</a>"
     name = f'<b title="{escape(study.id)}">{escape(study.id)}</b>'

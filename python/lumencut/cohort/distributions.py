@@ -60,12 +60,12 @@ def written(number: float) -> str:
 
 
 def states_of(out: Path) -> tuple[Counter[str], Counter[str]]:
-    """Return how many studies have each state, and for which reasons studies failed."""
+    """Return how many studies have each state, and for which reasons studies failed or were skipped."""
     studies = ResultTable(out, "studies", ("state", "reason"))
     states = studies.words("state")
     reasons = studies.words("reason")
-    failed = (reason for state, reason in zip(states, reasons, strict=True) if state == "failed")
-    return Counter(states), Counter(failed)
+    told = (reason for state, reason in zip(states, reasons, strict=True) if state != "done")
+    return Counter(states), Counter(told)
 
 
 def distributions(out: Path) -> list[Distribution]:

@@ -48,6 +48,8 @@ class Study:
         What the manifest says of ``label``, ``series``, ``phase`` and ``fwhm``, where it says something.
     further : tuple of str
         What stands in the further columns of the manifest, in their order.
+    left_out : str
+        Why nothing is done with it, such as a scan that is not there; empty for all others.
     """
 
     id: str
@@ -56,6 +58,7 @@ class Study:
     given: str = ""
     reading: Mapping[str, str] = field(default_factory=dict)
     further: tuple[str, ...] = ()
+    left_out: str = ""
 
     @property
     def label(self) -> str:

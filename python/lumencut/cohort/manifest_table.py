@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from lumencut._tables import unmarked
 from lumencut.errors import FileError, FormatError
 
 _EXPECTED = "a table of studies (.csv or .tsv)"
@@ -50,7 +51,7 @@ def table_of(path: Path, known: Sequence[str]) -> Table:
     rows: list[tuple[int, list[str]]] = []
     try:
         for fields in reader:
-            values = [value.strip() for value in fields]
+            values = [unmarked(value.strip()) for value in fields]
             if any(values):
                 rows.append((reader.line_num, values))
     except csv.Error as error:

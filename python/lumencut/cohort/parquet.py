@@ -4,9 +4,14 @@ from __future__ import annotations
 
 import csv
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from lumencut._files import replace_whole
+from lumencut._tables import FORMULA
 from lumencut.errors import MissingPackageError
+
+if TYPE_CHECKING:
+    import pyarrow as pa
 
 #: How the names of columns of numbers end, and those that end otherwise. All others hold words, ids too.
 _ENDINGS = ("_mm", "_mm2", "_lps", "_level", "_mean")
@@ -67,7 +72,20 @@ def write_parquet(table: Path, words: frozenset[str] = frozenset()) -> None:
     else:
         # A cohort of which nothing is measured has no sections, and no columns of them.
         found = pa.table({})
+    found = _unmarked(found)
     replace_whole(table.with_suffix(".parquet"), lambda whole: parquet.write_table(found, whole))
+
+
+def _unmarked(table: pa.Table) -> pa.Table:
+    """The table with its texts as they were before they were marked in CSV."""
+    import pyarrow as pa
+    from pyarrow import compute
+
+    for place, field in enumerate(table.schema):
+        if field.type == pa.string():
+            texts = compute.replace_substring_regex(table.column(place), f"^'({FORMULA})", r"\1")
+            table = table.set_column(place, field, texts)
+    return table
 
 
 def _is_number(name: str) -> bool:

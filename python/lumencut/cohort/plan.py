@@ -43,9 +43,12 @@ def known_record(layout: Layout, study: Study, origin: Origin) -> Record | None:
 
 
 def planned(layout: Layout, manifest: Manifest, recipe: CohortRecipe) -> list[Planned]:
-    """Look at each study of the manifest, in its order."""
+    """Look at each study of the manifest, in its order. One that is left out has no record."""
     found = []
     for study in manifest.studies:
+        if study.left_out:
+            found.append(Planned(study, Origin("", recipe.digest), None))
+            continue
         origin = origin_of(study, recipe.digest)
         found.append(Planned(study, origin, known_record(layout, study, origin)))
     return found
@@ -57,6 +60,7 @@ def to_do(plans: Sequence[Planned], shard: Shard, retry: Retry | None) -> list[P
         one
         for place, one in enumerate(plans)
         if shard.has(place)
+        and not one.study.left_out
         and (one.record is None or retry == "all" or (retry == "failed" and one.record.state == "failed"))
     ]
 

@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
+from lumencut._tables import read_rows
 from lumencut.errors import FileError, FormatError
 
 _EXPECTED = "the results of lumencut batch"
@@ -40,7 +41,7 @@ class ResultTable:
         self._count = 0
         try:
             with self.path.open(encoding="utf-8", newline="") as file:
-                self._read(csv.reader(file, strict=True))
+                self._read(read_rows(file))
         except OSError as error:
             mend = "name the folder that lumencut batch -o wrote"
             raise FileError(str(self.path), error.strerror or str(error), _EXPECTED, mend) from error

@@ -8,12 +8,13 @@ from typing import Literal
 import numpy as np
 import numpy.typing as npt
 
+from lumencut._tables import written
 from lumencut.camera import VIEWS, Camera
 from lumencut.centerline_writers import write_centerlines
 from lumencut.cohort.manifest import Study
 from lumencut.cohort.recipe import CohortRecipe, Measure, Pictures
 from lumencut.cohort.sources import StudyVessels, scan_of, vessels_of
-from lumencut.cohort.study_tables import StudyVessel, flag_counts, sections_rows, vessels_rows, written
+from lumencut.cohort.study_tables import StudyVessel, flag_counts, sections_rows, vessels_rows
 from lumencut.contact_sheet import contact_sheet
 from lumencut.errors import MeasuringError
 from lumencut.frame import save_picture

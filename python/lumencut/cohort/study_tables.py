@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-import csv
 import io
 from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
+from lumencut._tables import read_rows
 from lumencut.measured_vessel import MeasuredVessel, vessels_csv
 from lumencut.profile_sections import counts
 from lumencut.vessel import Vessel
@@ -66,19 +66,12 @@ class StudyVessel:
     not_measured: str = ""
 
 
-def written(rows: Iterable[Sequence[object]]) -> str:
-    """Return rows as CSV."""
-    text = io.StringIO(newline="")
-    csv.writer(text, lineterminator="\n").writerows(rows)
-    return text.getvalue()
-
-
 def sections_rows(study_id: str, source: str, vessels: Sequence[StudyVessel]) -> list[list[str]]:
     """Return the rows of the sections of a study, below the names; none where nothing is measured."""
     measured = [one.measured for one in vessels if one.measured is not None]
     if not measured:
         return []
-    names, *rows = csv.reader(io.StringIO(vessels_csv(measured), newline=""))
+    names, *rows = read_rows(io.StringIO(vessels_csv(measured), newline=""))
     return [[*SECTION_BEGIN, *names], *([study_id, source, *row] for row in rows)]
 
 

@@ -10,11 +10,11 @@ from typing import BinaryIO
 
 from lumencut import _lumencut
 from lumencut._files import replace_whole, write_text
+from lumencut._tables import written
 from lumencut.cohort.contact_page import contact_page
 from lumencut.cohort.layout import Layout
 from lumencut.cohort.manifest import Manifest, Study
 from lumencut.cohort.record import Record
-from lumencut.cohort.study_tables import written
 from lumencut.errors import FormatError
 
 #: The columns of ``studies.csv`` before the further ones; the numbers are those of `do_study`.
@@ -82,7 +82,7 @@ def _description() -> str:
 def _row(study: Study, record: Record | None) -> list[str]:
     """The row of a study, whether it is done, failed, or not done yet."""
     if record is None:
-        told = ["skipped", "not done yet", ""]
+        told = ["skipped", study.left_out or "not done yet", ""]
     else:
         told = [record.state, record.reason, f"{record.seconds:.3f}"]
     numbers = {} if record is None else record.numbers

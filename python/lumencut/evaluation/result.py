@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import os
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -11,6 +9,7 @@ from pathlib import Path
 
 from lumencut._files import WRITABLE, checked_path, write_text
 from lumencut._pickles import by_name
+from lumencut._tables import written
 from lumencut.camera import Camera
 from lumencut.errors import FileError, VolumeError
 from lumencut.evaluation.methods import METHODS
@@ -71,11 +70,8 @@ class Evaluation:
         FileError
             Where the file cannot be written.
         """
-        text = io.StringIO()
-        writer = csv.DictWriter(text, list(self.table[0]), lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(self.table)
-        write_text(path, text.getvalue())
+        names = list(self.table[0])
+        write_text(path, written([names, *([row[name] for name in names] for row in self.table)]))
 
     def to_markdown(self) -> str:
         """Return the table as Markdown: a line for each number, a column for each method.

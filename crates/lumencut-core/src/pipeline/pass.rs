@@ -19,6 +19,7 @@ use crate::stages::leap::{LeapParameters, leap};
 use crate::stages::silhouette::{SilhouetteParameters, silhouette, silhouette_of_leaps};
 use crate::stages::surface::{SurfaceScene, surface};
 use crate::stages::{Image, ImageSet, Stage, Work};
+use crate::stop::{filled, resize};
 
 /// What the stages that find the cut surface share.
 pub struct CutSurfacePass<'a> {
@@ -50,7 +51,7 @@ impl CutSurfacePass<'_> {
                 images.unfiltered_depth = vec![0.0; pixels];
                 images.vessel = vec![0; pixels];
                 // What is there from another view is written anew.
-                images.sheet.resize(if self.has_sheet { pixels } else { 0 }, [0.0; 4]);
+                resize(&mut images.sheet, if self.has_sheet { pixels } else { 0 }, [0.0; 4], work.stop)?;
                 let Images { unfiltered_depth, vessel, sheet, .. } = images;
                 let written = DepthImages { depth: unfiltered_depth, vessel, sheet };
                 depth(work, &self.surface, &images.distance, written)
@@ -166,19 +167,20 @@ impl LookPass<'_> {
 
     /// Where the rays start, and the volume's blocks, where any ray does.
     fn blocks(&self, images: &mut Images) -> Result<()> {
-        self.starts(images);
+        self.starts(images)?;
         if has_rays(&images.start) { self.volume.blocks(self.work.stop).map(drop) } else { Ok(()) }
     }
 
     /// Where the rays start: without a cut surface every one crosses the whole volume.
-    fn starts(&self, images: &mut Images) {
-        images.start = vec![WHOLE; self.work.pixels()];
+    fn starts(&self, images: &mut Images) -> Result<()> {
+        images.start = filled(self.work.pixels(), WHOLE, self.work.stop)?;
         if self.geometry.has_surface() {
             let parameters = StartParameters::new(self.settings);
             let surface =
                 SurfaceImages { value: &images.value, depth: self.geometry.depth(), focus: self.focus() };
             starts(&self.work, &parameters, &surface, &mut images.start);
         }
+        Ok(())
     }
 
     /// Behind a cut surface that hides everything there is nothing to gather.
@@ -187,7 +189,7 @@ impl LookPass<'_> {
             return Ok(());
         };
         if images.start.is_empty() {
-            self.starts(images);
+            self.starts(images)?;
         }
         if !has_rays(&images.start) {
             return Ok(());
@@ -207,7 +209,8 @@ impl LookPass<'_> {
                 layer(&self.work, &images.gathered, &mut images.context)?;
             }
         }
-        let nothing = vec![f32::NAN; if images.value.is_empty() { pixels } else { 0 }];
+        let unknown = if images.value.is_empty() { pixels } else { 0 };
+        let nothing = filled(unknown, f32::NAN, self.work.stop)?;
         let layers = Layers {
             value: if images.value.is_empty() { &nothing } else { &images.value },
             strength: Some(&images.strength[..]).filter(|strength| !strength.is_empty()),

@@ -16,8 +16,7 @@ mod view;
 
 use std::sync::Arc;
 
-use glam::{DVec2, DVec3, Vec3};
-use rayon::prelude::*;
+use glam::{DVec2, DVec3};
 
 use self::projected::Projected;
 pub use self::roll::{Roll, Side};
@@ -26,12 +25,13 @@ pub use self::straightened::Straightened;
 use self::stretched::Stretched;
 use self::surface::Surface;
 pub use self::view::View;
-use super::layout::{Layout, checked_size, whole_pixels};
+use super::layout::{Layout, by_rows, checked_size, curved_by_rows, whole_pixels};
 use crate::camera::MAX_PIXEL_SPACING;
 use crate::error::{Error, ErrorKind, Result};
 use crate::geometry::Curved;
 use crate::math::centerline_path::CenterlinePath;
 use crate::named::Named;
+use crate::stop::Stop;
 
 /// What a default width leaves free on each side of the vessel (mm).
 const MARGIN: f64 = 25.0;
@@ -149,8 +149,9 @@ impl Cpr {
         (0..self.size[0]).map(|i| self.x(i as f64)).collect()
     }
 
-    fn rows(&self) -> impl IndexedParallelIterator<Item = Row> {
-        (0..self.size[1]).into_par_iter().map(|j| self.surface.row(j as f64 * self.pixel_spacing))
+    /// What lies in a row of pixels.
+    fn row(&self, j: usize) -> Row {
+        self.surface.row(j as f64 * self.pixel_spacing)
     }
 }
 
@@ -163,27 +164,24 @@ impl Layout for Cpr {
         self.pixel_spacing
     }
 
-    fn curved(&self) -> Result<Curved> {
-        let (width, x) = (self.size[0], self.columns());
-        let mut direction = vec![Vec3::ZERO; width * self.size[1]];
-        let mut position = vec![DVec3::ZERO; width * self.size[1]];
-        self.rows().zip(position.par_chunks_mut(width)).zip(direction.par_chunks_mut(width)).for_each(
-            |((row, position), direction)| {
-                row.place_all(&x, position);
-                direction.fill(row.ahead.as_vec3());
-            },
-        );
-        Curved::new(self.size, position, direction)
+    fn curved(&self, stop: Stop) -> Result<Curved> {
+        let x = self.columns();
+        curved_by_rows(self.size, stop, |j, position, direction| {
+            let row = self.row(j);
+            row.place_all(&x, position);
+            direction.fill(row.ahead.as_vec3());
+        })
     }
 
-    fn arc_length(&self) -> Vec<f64> {
-        self.rows().map(|row| row.arc_length()).collect()
+    fn arc_length(&self, stop: Stop) -> Result<Vec<f64>> {
+        by_rows([1, self.size[1]], 0.0, stop, |j, row| row.fill(self.row(j).arc_length()))
     }
 
-    fn folded(&self) -> Vec<bool> {
+    fn folded(&self, stop: Stop) -> Result<Vec<bool>> {
         let (x, spacing) = (self.columns(), self.pixel_spacing);
-        let rows = (0..self.size[1]).into_par_iter();
-        rows.flat_map(|j| self.surface.folded(j as f64 * spacing, &x)).collect()
+        by_rows(self.size, false, stop, |j, row| {
+            row.copy_from_slice(&self.surface.folded(j as f64 * spacing, &x));
+        })
     }
 
     fn world_from_pixel(&self, pixel: DVec2) -> DVec3 {

@@ -1,11 +1,13 @@
 //! What every reformation that lays vessels out as an image has in common: a place in the world for each pixel, and the way
 //! between both.
 
-use glam::{DVec2, DVec3};
+use glam::{DVec2, DVec3, Vec3};
+use rayon::prelude::*;
 
 use crate::camera::{MAX_PIXELS, MAX_SIZE};
 use crate::error::{Error, ErrorKind, Mend, Result};
 use crate::geometry::Curved;
+use crate::stop::{Stop, filled, go_on};
 
 /// An image of which every pixel looks at a place of its own.
 ///
@@ -20,22 +22,68 @@ pub trait Layout: Send + Sync {
     /// Where each pixel looks, and the direction in which a slab is thick there. Where nothing is shown the place is not finite.
     ///
     /// # Errors
-    /// [`crate::error::ErrorKind::Interrupted`] where finding the places takes long and the caller asks to stop.
-    fn curved(&self) -> Result<Curved>;
+    /// [`ErrorKind::Interrupted`] once the caller asks to stop.
+    fn curved(&self, stop: Stop) -> Result<Curved>;
 
     /// The arc length of the vessel (mm): one for each row where rows run along one vessel, else one for each pixel, NaN where
     /// nothing is shown.
-    fn arc_length(&self) -> Vec<f64>;
+    ///
+    /// # Errors
+    /// [`ErrorKind::Interrupted`] once the caller asks to stop.
+    fn arc_length(&self, stop: Stop) -> Result<Vec<f64>>;
 
     /// Whether each pixel is folded, row by row: not to be trusted, because the image runs backwards there or shows what it
     /// shows elsewhere too.
-    fn folded(&self) -> Vec<bool>;
+    ///
+    /// # Errors
+    /// [`ErrorKind::Interrupted`] once the caller asks to stop.
+    fn folded(&self, stop: Stop) -> Result<Vec<bool>>;
 
     /// The world point that a place in the image shows.
     fn world_from_pixel(&self, pixel: DVec2) -> DVec3;
 
     /// Where the image shows a world point.
     fn pixel_from_world(&self, point: DVec3) -> DVec2;
+}
+
+/// An image of which each row is written by a function of its number. Whether to stop is asked before each row.
+///
+/// # Errors
+/// [`ErrorKind::Interrupted`].
+pub(super) fn by_rows<T: Clone + Send>(
+    [width, height]: [usize; 2],
+    nothing: T,
+    stop: Stop,
+    write: impl Fn(usize, &mut [T]) + Sync,
+) -> Result<Vec<T>> {
+    let mut image = filled(width * height, nothing, stop)?;
+    image.par_chunks_mut(width).enumerate().try_for_each(|(row, pixels)| {
+        go_on(stop)?;
+        write(row, pixels);
+        Ok(())
+    })?;
+    Ok(image)
+}
+
+/// The same of where the pixels look, and of the directions of their slabs; a pixel that is not written shows nothing.
+///
+/// # Errors
+/// As [`by_rows`].
+pub(super) fn curved_by_rows(
+    size: [usize; 2],
+    stop: Stop,
+    write: impl Fn(usize, &mut [DVec3], &mut [Vec3]) + Sync,
+) -> Result<Curved> {
+    let [width, height] = size;
+    let mut position = filled(width * height, DVec3::NAN, stop)?;
+    let mut direction = filled(width * height, Vec3::ZERO, stop)?;
+    let rows = position.par_chunks_mut(width).zip(direction.par_chunks_mut(width));
+    rows.enumerate().try_for_each(|(row, (position, direction))| {
+        go_on(stop)?;
+        write(row, position, direction);
+        Ok(())
+    })?;
+    Curved::new(size, position, direction)
 }
 
 /// A length that is a whole number of pixels but for rounding is that many.

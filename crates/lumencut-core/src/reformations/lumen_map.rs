@@ -7,18 +7,19 @@
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-use glam::{DVec2, DVec3, Vec3};
+use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
 use super::cpr::{Straightened, View};
 use super::cut_locus::CutLocus;
-use super::layout::{Layout, checked_size, whole_pixels};
+use super::layout::{Layout, by_rows, checked_size, curved_by_rows, whole_pixels};
 use super::wall::Wall;
 use crate::error::{Error, ErrorKind, Result};
 use crate::geometry::Curved;
 use crate::limits::Limits;
 use crate::math::centerline_path::CenterlinePath;
 use crate::math::same_place::ON_PICTURE;
+use crate::stop::{Stop, go_on};
 
 const PIXEL_SPACING: Limits = Limits::new(1e-6, 1e4, "mm");
 const OVERLAP: Limits = Limits::new(0.0, 3.0, "rad");
@@ -99,8 +100,11 @@ impl LumenMap {
     }
 
     /// The radius of the wall at each pixel (mm).
-    pub fn wall(&self) -> Vec<f64> {
-        self.each(|at, around| self.wall.radius(at, around))
+    ///
+    /// # Errors
+    /// [`crate::error::ErrorKind::Interrupted`] once the caller asks to stop.
+    pub fn wall(&self, stop: Stop) -> Result<Vec<f64>> {
+        self.each(0.0, stop, |at, around| self.wall.radius(at, around))
     }
 
     /// The radius of the wall (mm) at an arc length (mm), in a direction (radians).
@@ -109,16 +113,23 @@ impl LumenMap {
     }
 
     /// Whether each pixel lies in the opening of a branch, where no wall was met.
-    pub fn open(&self) -> Vec<bool> {
-        self.each(|at, around| self.wall.is_open(at, around))
+    ///
+    /// # Errors
+    /// [`crate::error::ErrorKind::Interrupted`] once the caller asks to stop.
+    pub fn open(&self, stop: Stop) -> Result<Vec<bool>> {
+        self.each(false, stop, |at, around| self.wall.is_open(at, around))
     }
 
     /// How bright the wall is at each pixel, lit from the middle of the vessel: 1 where it is met at right angles. Its slope is that
     /// between the pixels on both sides.
-    pub fn shades(&self) -> Vec<f32> {
-        let [width, height] = self.size();
-        let rows: Vec<(Vec<DVec3>, Vec<DVec3>)> =
-            (0..height + 2).into_par_iter().map(|j| self.wall_row(j)).collect();
+    ///
+    /// # Errors
+    /// [`crate::error::ErrorKind::Interrupted`] once the caller asks to stop.
+    pub fn shades(&self, stop: Stop) -> Result<Vec<f32>> {
+        let numbers = (0..self.size()[1] + 2).into_par_iter();
+        let rows = numbers
+            .map(|j| go_on(stop).map(|()| self.wall_row(j)))
+            .collect::<Result<Vec<(Vec<DVec3>, Vec<DVec3>)>>>()?;
         let shade = |j: usize, i: usize| {
             let [before, here, after] = [0, 1, 2].map(|step| &rows[j + step]);
             let along = after.0[i + 1] - before.0[i + 1];
@@ -126,8 +137,9 @@ impl LumenMap {
             let normal = along.cross(across).normalize_or_zero();
             (SHADES[0] + SHADES[1] * normal.dot(here.1[i + 1]).abs()) as f32
         };
-        let shade = &shade;
-        (0..height).into_par_iter().flat_map_iter(|j| (0..width).map(move |i| shade(j, i))).collect()
+        by_rows(self.size(), 0.0, stop, |j, row| {
+            row.iter_mut().enumerate().for_each(|(i, pixel)| *pixel = shade(j, i));
+        })
     }
 
     /// The points of the wall and the directions to them in a row before the first one, in the first one, and so on, each with one
@@ -169,14 +181,18 @@ impl LumenMap {
     }
 
     /// What a function of arc length and direction says of each pixel, row by row.
-    fn each<T: Send>(&self, told: impl Fn(f64, f64) -> T + Sync) -> Vec<T> {
-        let [width, height] = self.size();
-        let told = &told;
-        let row = |j: usize| {
+    fn each<T: Clone + Send>(
+        &self,
+        nothing: T,
+        stop: Stop,
+        told: impl Fn(f64, f64) -> T + Sync,
+    ) -> Result<Vec<T>> {
+        by_rows(self.size(), nothing, stop, |j, row| {
             let at = j as f64 * self.parameters.pixel_spacing;
-            (0..width).into_par_iter().map(move |i| told(at, self.around(i as f64)))
-        };
-        (0..height).into_par_iter().flat_map(row).collect()
+            for (i, pixel) in row.iter_mut().enumerate() {
+                *pixel = told(at, self.around(i as f64));
+            }
+        })
     }
 }
 
@@ -189,14 +205,10 @@ impl Layout for LumenMap {
         self.parameters.pixel_spacing
     }
 
-    fn curved(&self) -> Result<Curved> {
+    fn curved(&self, stop: Stop) -> Result<Curved> {
         let beyond = self.parameters.beyond;
-        let width = self.size()[0];
-        let directions: Vec<_> = (0..width).map(|i| self.around(i as f64)).collect();
-        let mut position = vec![DVec3::NAN; width * self.rows];
-        let mut direction = vec![Vec3::ZERO; width * self.rows];
-        let rows = position.par_chunks_mut(width).zip(direction.par_chunks_mut(width));
-        rows.enumerate().for_each(|(j, (position, direction))| {
+        let directions: Vec<_> = (0..self.size()[0]).map(|i| self.around(i as f64)).collect();
+        curved_by_rows(self.size(), stop, |j, position, direction| {
             let at = j as f64 * self.parameters.pixel_spacing;
             let (middle, frame) = (self.path.at(at), self.straightened.frame(at));
             for (i, around) in directions.iter().enumerate() {
@@ -208,17 +220,16 @@ impl Layout for LumenMap {
                     position[i] = middle + ray * self.distance(at, *around, beyond);
                 }
             }
-        });
-        Curved::new(self.size(), position, direction)
+        })
     }
 
-    fn arc_length(&self) -> Vec<f64> {
-        (0..self.rows).map(|j| j as f64 * self.parameters.pixel_spacing).collect()
+    fn arc_length(&self, _: Stop) -> Result<Vec<f64>> {
+        Ok((0..self.rows).map(|j| j as f64 * self.parameters.pixel_spacing).collect())
     }
 
-    fn folded(&self) -> Vec<bool> {
+    fn folded(&self, stop: Stop) -> Result<Vec<bool>> {
         let cut_locus = CutLocus::new(&self.path);
-        self.each(|at, around| {
+        self.each(false, stop, |at, around| {
             let offset = DVec2::from_angle(around) * self.distance(at, around, self.parameters.beyond);
             let point = self.straightened.world_from_straightened(offset.extend(at));
             self.straightened.advance(at, offset) <= 0.0 || cut_locus.is_beyond(point, at)

@@ -7,11 +7,10 @@
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-use glam::{DVec2, DVec3, Vec3};
-use rayon::prelude::*;
+use glam::{DVec2, DVec3};
 
 use super::cpr::{Straightened, View};
-use super::layout::{Layout, checked_size, whole_pixels};
+use super::layout::{Layout, by_rows, checked_size, curved_by_rows, whole_pixels};
 use crate::camera::{MAX_PIXELS, MAX_SIZE};
 use crate::error::{Error, ErrorKind, Result};
 use crate::geometry::Curved;
@@ -19,6 +18,7 @@ use crate::limits::Limits;
 use crate::math::centerline_path::CenterlinePath;
 use crate::math::same_place::ON_PICTURE;
 use crate::named::Named;
+use crate::stop::Stop;
 
 const LENGTH: Limits = Limits::new(1e-6, 1e4, "mm");
 
@@ -178,12 +178,8 @@ impl Layout for Spiral {
         self.parameters.pixel_spacing
     }
 
-    fn curved(&self) -> Result<Curved> {
-        let width = self.columns.len();
-        let mut position = vec![DVec3::ZERO; width * self.rows];
-        let mut direction = vec![Vec3::ZERO; width * self.rows];
-        let rows = position.par_chunks_mut(width).zip(direction.par_chunks_mut(width));
-        rows.enumerate().for_each(|(j, (position, direction))| {
+    fn curved(&self, stop: Stop) -> Result<Curved> {
+        curved_by_rows(self.size(), stop, |j, position, direction| {
             let at = j as f64 * self.parameters.pixel_spacing;
             let middle = self.straightened.world_from_straightened(DVec3::new(0.0, 0.0, at));
             let frame = self.straightened.frame(at);
@@ -192,20 +188,20 @@ impl Layout for Spiral {
                 position[i] = middle + world(*place);
                 direction[i] = world(*across).as_vec3();
             }
-        });
-        Curved::new(self.size(), position, direction)
+        })
     }
 
-    fn arc_length(&self) -> Vec<f64> {
-        (0..self.rows).map(|j| j as f64 * self.parameters.pixel_spacing).collect()
+    fn arc_length(&self, _: Stop) -> Result<Vec<f64>> {
+        Ok((0..self.rows).map(|j| j as f64 * self.parameters.pixel_spacing).collect())
     }
 
-    fn folded(&self) -> Vec<bool> {
-        let row = |j: usize| {
+    fn folded(&self, stop: Stop) -> Result<Vec<bool>> {
+        by_rows(self.size(), false, stop, |j, row| {
             let at = j as f64 * self.parameters.pixel_spacing;
-            self.columns.par_iter().map(move |[place, _]| self.straightened.advance(at, *place) <= 0.0)
-        };
-        (0..self.rows).into_par_iter().flat_map(row).collect()
+            for (folded, [place, _]) in row.iter_mut().zip(&self.columns) {
+                *folded = self.straightened.advance(at, *place) <= 0.0;
+            }
+        })
     }
 
     fn world_from_pixel(&self, pixel: DVec2) -> DVec3 {

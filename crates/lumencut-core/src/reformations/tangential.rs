@@ -13,6 +13,7 @@ use crate::camera::Camera;
 use crate::error::{Error, ErrorKind, Result};
 use crate::geometry::Curved;
 use crate::math::centerline_path::CenterlinePath;
+use crate::stop::Stop;
 
 /// The tangential CPR of one vessel in the pixels of a camera.
 #[derive(Clone, Debug)]
@@ -50,16 +51,16 @@ impl Layout for Tangential {
         self.camera.pixel_spacing()
     }
 
-    fn curved(&self) -> Result<Curved> {
-        self.curled.curved()
+    fn curved(&self, stop: Stop) -> Result<Curved> {
+        self.curled.curved(stop)
     }
 
-    fn arc_length(&self) -> Vec<f64> {
-        self.curled.arc_length()
+    fn arc_length(&self, stop: Stop) -> Result<Vec<f64>> {
+        self.curled.arc_length(stop)
     }
 
-    fn folded(&self) -> Vec<bool> {
-        self.curled.folded()
+    fn folded(&self, stop: Stop) -> Result<Vec<bool>> {
+        self.curled.folded(stop)
     }
 
     fn world_from_pixel(&self, pixel: DVec2) -> DVec3 {

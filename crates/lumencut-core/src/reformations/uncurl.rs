@@ -7,18 +7,18 @@ mod feet;
 
 use std::sync::Arc;
 
-use glam::{DVec2, DVec3, Vec3};
-use rayon::prelude::*;
+use glam::{DVec2, DVec3};
 
 use self::bent::Bent;
 use self::feet::{Feet, Foot};
 use super::cut_locus::CutLocus;
-use super::layout::Layout;
+use super::layout::{Layout, by_rows, curved_by_rows};
 use crate::camera::Camera;
 use crate::error::{Error, ErrorKind, Result};
 use crate::geometry::Curved;
 use crate::math::centerline_path::CenterlinePath;
 use crate::math::same_place::ON_PICTURE;
+use crate::stop::{Stop, filled};
 
 /// How often an interval of the vessel is halved to find a foot: below what a number can tell.
 const HALVINGS: usize = 60;
@@ -93,14 +93,22 @@ impl Uncurl {
     }
 
     /// What a function says of the foot of each pixel that shows something, and `nothing` for others.
-    fn each<T: Send + Clone + Sync>(&self, nothing: T, told: impl Fn(&Foot) -> T + Sync) -> Result<Vec<T>> {
+    fn each<T: Send + Clone + Sync>(
+        &self,
+        nothing: T,
+        stop: Stop,
+        told: impl Fn(&Foot) -> T + Sync,
+    ) -> Result<Vec<T>> {
         let [width, height] = self.camera.size();
-        let foot_of = self.feet.of_pixels()?;
-        let pixel = |n: usize| {
-            let foot = foot_of(n);
-            if self.is_shown(&foot) { told(&foot) } else { nothing.clone() }
-        };
-        Ok((0..width * height).into_par_iter().with_min_len(width).map(pixel).collect())
+        let foot_of = self.feet.of_pixels(stop)?;
+        by_rows([width, height], nothing, stop, |row, pixels| {
+            for (column, pixel) in pixels.iter_mut().enumerate() {
+                let foot = foot_of(row * width + column);
+                if self.is_shown(&foot) {
+                    *pixel = told(&foot);
+                }
+            }
+        })
     }
 }
 
@@ -113,13 +121,10 @@ impl Layout for Uncurl {
         self.camera.pixel_spacing()
     }
 
-    fn curved(&self) -> Result<Curved> {
+    fn curved(&self, stop: Stop) -> Result<Curved> {
         let [width, height] = self.camera.size();
-        let foot_of = self.feet.of_pixels()?;
-        let mut position = vec![DVec3::NAN; width * height];
-        let mut direction = vec![Vec3::Z; width * height];
-        let rows = position.par_chunks_mut(width).zip(direction.par_chunks_mut(width));
-        rows.enumerate().for_each(|(row, (position, direction))| {
+        let foot_of = self.feet.of_pixels(stop)?;
+        curved_by_rows([width, height], stop, |row, position, direction| {
             for (column, (position, direction)) in position.iter_mut().zip(direction).enumerate() {
                 let foot = foot_of(row * width + column);
                 if self.is_shown(&foot) {
@@ -127,22 +132,21 @@ impl Layout for Uncurl {
                     (*position, *direction) = (point, slab.as_vec3());
                 }
             }
-        });
-        Curved::new([width, height], position, direction)
+        })
     }
 
-    fn arc_length(&self) -> Vec<f64> {
-        self.each(f64::NAN, |foot| foot.at).unwrap_or_default()
+    fn arc_length(&self, stop: Stop) -> Result<Vec<f64>> {
+        self.each(f64::NAN, stop, |foot| foot.at)
     }
 
-    fn folded(&self) -> Vec<bool> {
+    fn folded(&self, stop: Stop) -> Result<Vec<bool>> {
         let [width, height] = self.camera.size();
         if self.amount == 0.0 {
             // In space no place of the vessel is nearer to a pixel's point than the nearest one in the image is.
-            return vec![false; width * height];
+            return filled(width * height, false, stop);
         }
         let cut_locus = CutLocus::new(&self.path);
-        self.each(false, |foot| cut_locus.is_beyond(self.look(foot).0, foot.at)).unwrap_or_default()
+        self.each(false, stop, |foot| cut_locus.is_beyond(self.look(foot).0, foot.at))
     }
 
     fn world_from_pixel(&self, pixel: DVec2) -> DVec3 {

@@ -15,7 +15,7 @@ mod turning;
 
 use std::sync::{Arc, OnceLock};
 
-use glam::{DVec2, DVec3, Vec3};
+use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
 use self::growth::Growth;
@@ -25,12 +25,12 @@ use self::sheet::{Place, Sheet, placed};
 use self::strip::Strip;
 use self::turning::{BEYOND_NEAR, Tree, Turning, untangle};
 use super::found::NO_VESSEL;
-use super::layout::Layout;
+use super::layout::{Layout, by_rows, curved_by_rows};
 use crate::camera::{Camera, MAX_PIXEL_SPACING};
 use crate::error::{Error, ErrorKind, Result};
 use crate::geometry::Curved;
 use crate::limits::Limits;
-use crate::stop::{Stop, go_on};
+use crate::stop::{Stop, filled, go_on};
 use crate::vessel_tree::VesselTree;
 
 const WIDTH: Limits = Limits::new(1e-3, 1e4, "mm");
@@ -258,8 +258,11 @@ impl Untangled {
     }
 
     /// The vessel that each pixel shows, row by row; [`NO_VESSEL`] where nothing is shown.
-    pub fn vessel(&self) -> Vec<i32> {
-        self.each(NO_VESSEL, |place| self.laid_out[self.sheet.piece(place)].vessel as i32)
+    ///
+    /// # Errors
+    /// [`crate::error::ErrorKind::Interrupted`] once the caller asks to stop.
+    pub fn vessel(&self, stop: Stop) -> Result<Vec<i32>> {
+        self.each(NO_VESSEL, stop, |place| self.laid_out[self.sheet.piece(place)].vessel as i32)
     }
 
     fn laid(&self, n: usize, pieces: &[Piece], growth: &Growth, turning: &Turning) -> LaidOut {
@@ -293,17 +296,24 @@ impl Untangled {
     }
 
     /// The segment that each pixel shows, found at the first call.
-    fn segments(&self) -> &[u32] {
+    ///
+    /// # Errors
+    /// [`crate::error::ErrorKind::Interrupted`].
+    fn segments(&self, stop: Stop) -> Result<&[u32]> {
         // Made outside the lock: a thread of the pool that waited for its part could wait for itself.
         if let Some(known) = self.segments.get() {
-            return known;
+            return Ok(known);
         }
         let [width, height] = self.size;
-        let mut segments = vec![NONE; width * height];
-        segments.par_chunks_mut(TILE * width).enumerate().for_each(|(n, rows)| {
-            (0..width).step_by(TILE).for_each(|first| self.fill_tile([first, n * TILE], rows));
-        });
-        self.segments.get_or_init(|| segments)
+        let mut segments = filled(width * height, NONE, stop)?;
+        segments.par_chunks_mut(TILE * width).enumerate().try_for_each(|(n, rows)| {
+            (0..width).step_by(TILE).try_for_each(|first| {
+                go_on(stop)?;
+                self.fill_tile([first, n * TILE], rows);
+                Ok(())
+            })
+        })?;
+        Ok(self.segments.get_or_init(|| segments))
     }
 
     /// Finds the segments of a square of pixels; `rows` begin with its first row.
@@ -325,19 +335,28 @@ impl Untangled {
         }
     }
 
+    /// The place that a pixel shows, column and row; None where nothing is shown.
+    fn shown(&self, segments: &[u32], [i, j]: [usize; 2]) -> Option<Place> {
+        let segment = segments[j * self.size[0] + i];
+        let seen = self.seen(DVec2::new(i as f64, j as f64));
+        (segment != NONE).then(|| self.sheet.on_segment(segment as usize, seen))
+    }
+
     /// What a function says of the place that each pixel shows, row by row, and `nothing` where none is shown.
-    fn each<T: Clone + Send + Sync>(&self, nothing: T, told: impl Fn(&Place) -> T + Sync) -> Vec<T> {
-        let width = self.size[0];
-        let pixels = self.segments().par_iter().enumerate();
-        pixels
-            .map(|(n, segment)| {
-                if *segment == NONE {
-                    return nothing.clone();
+    fn each<T: Clone + Send>(
+        &self,
+        nothing: T,
+        stop: Stop,
+        told: impl Fn(&Place) -> T + Sync,
+    ) -> Result<Vec<T>> {
+        let segments = self.segments(stop)?;
+        by_rows(self.size, nothing, stop, |j, row| {
+            for (i, pixel) in row.iter_mut().enumerate() {
+                if let Some(place) = self.shown(segments, [i, j]) {
+                    *pixel = told(&place);
                 }
-                let seen = self.seen(DVec2::new((n % width) as f64, (n / width) as f64));
-                told(&self.sheet.on_segment(*segment as usize, seen))
-            })
-            .collect()
+            }
+        })
     }
 }
 
@@ -350,19 +369,24 @@ impl Layout for Untangled {
         self.parameters.pixel_spacing
     }
 
-    fn curved(&self) -> Result<Curved> {
-        let nothing = (DVec3::NAN, Vec3::ZERO);
-        let looked = |place: &Place| (self.sheet.point(place), self.sheet.slab_direction(place).as_vec3());
-        let (position, direction) = self.each(nothing, looked).into_iter().unzip();
-        Curved::new(self.size, position, direction)
+    fn curved(&self, stop: Stop) -> Result<Curved> {
+        let segments = self.segments(stop)?;
+        curved_by_rows(self.size, stop, |j, position, direction| {
+            for i in 0..self.size[0] {
+                if let Some(place) = self.shown(segments, [i, j]) {
+                    position[i] = self.sheet.point(&place);
+                    direction[i] = self.sheet.slab_direction(&place).as_vec3();
+                }
+            }
+        })
     }
 
-    fn arc_length(&self) -> Vec<f64> {
-        self.each(f64::NAN, |place| self.sheet.arc_length(place))
+    fn arc_length(&self, stop: Stop) -> Result<Vec<f64>> {
+        self.each(f64::NAN, stop, |place| self.sheet.arc_length(place))
     }
 
-    fn folded(&self) -> Vec<bool> {
-        self.each(false, |place| self.sheet.is_folded(place))
+    fn folded(&self, stop: Stop) -> Result<Vec<bool>> {
+        self.each(false, stop, |place| self.sheet.is_folded(place))
     }
 
     fn world_from_pixel(&self, pixel: DVec2) -> DVec3 {

@@ -96,6 +96,10 @@ fn names_stand_in_tables_and_in_legacy_vtk() {
     let table = String::from_utf8(write_csv(&lines).unwrap()).unwrap();
     assert!(table.starts_with("line,name,l (mm),p (mm),s (mm)\n0,\"a, \"\"b\"\"\",0.0,0.0,0.0\n"), "{table}");
     assert_eq!(read(table.as_bytes(), "a.csv").unwrap().lines.len(), 3);
+    let mut formula = fork(None);
+    formula[0].name = Some("=1+1".into());
+    let table = String::from_utf8(write_csv(&formula).unwrap()).unwrap();
+    assert!(table.contains("\n0,'=1+1,0.0,"), "{table}");
     let vtk = String::from_utf8(write_vtk(&lines).unwrap()).unwrap();
     assert!(vtk.contains("Name 1 3 string\na,%20%22b%22\n\n50%20%25\n"), "{vtk}");
     lines[0].name = Some("two\nlines".into());

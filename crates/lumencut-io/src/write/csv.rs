@@ -1,12 +1,14 @@
 //! Tables (`.csv`): a row per point.
 
-use super::{check_all, confidences};
+use super::{check_all, confidences, marked_cell};
 use crate::centerlines::Line;
 use crate::error::{Error, Result};
 
 /// A `.csv` file of vessels (mm, LPS): the columns `line`, which counts the vessels from 0, `name` where any
 /// vessel has one, `l (mm)`, `p (mm)`, `s (mm)`, `radius (mm)` where any vessel has radii, and
 /// `confidence`, 0 to 1, where any vessel was traced.
+///
+/// A name that a spreadsheet would run as a formula stands behind an apostrophe.
 ///
 /// Where only some vessels have radii, those of the others are 0. Coordinates and radii are read back to the
 /// bit; names are not read, and lines that meet are joined anew as those of any table.
@@ -29,7 +31,7 @@ pub fn write_csv(vessels: &[Line]) -> Result<Vec<u8>> {
     let sure = if confidence.is_some() { ",confidence" } else { "" };
     let mut out = format!("line{name},l (mm),p (mm),s (mm){radius}{sure}\n");
     for (index, vessel) in vessels.iter().enumerate() {
-        let name = quoted(vessel.name.as_deref().unwrap_or_default());
+        let name = quoted(&marked_cell(vessel.name.as_deref().unwrap_or_default()));
         for (i, point) in vessel.points.iter().enumerate() {
             out += &index.to_string();
             if with_names {

@@ -5,12 +5,14 @@
 //! are marked as vessels already (`LumencutVessels`), so that no reader of this crate joins their lines anew;
 //! other programs pass over the mark. Groups are not written: they tell which lines are one vessel.
 
+mod cell;
 mod csv;
 pub(crate) mod mrk_json;
 mod swc;
 mod vtk;
 mod vtp;
 
+pub use cell::marked_cell;
 pub use csv::write_csv;
 pub use mrk_json::write_mrk_json;
 pub use swc::write_swc;

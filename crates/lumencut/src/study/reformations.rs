@@ -208,9 +208,9 @@ pub fn spiral(vessel: &Vessel, angle: f64, smallest_side: f64, size: [usize; 2])
 /// Those of [`LumenMap::new`].
 pub fn map(
     volume: &Volume,
-    path: &Arc<CenterlinePath>,
-    found: &FoundWall,
+    (path, found): (&Arc<CenterlinePath>, &FoundWall),
     (of, size): (MapOf, [usize; 2]),
+    stop: Stop,
 ) -> Result<LumenMap> {
     let around = TAU * found.mean_radius;
     let request = MapRequest {
@@ -220,7 +220,7 @@ pub fn map(
         band: band_of(of),
         calcium_level: None,
     };
-    Ok(lumen_map(volume, path, &head_up(), found, &request)?)
+    Ok(lumen_map(volume, path, &head_up(), found, (&request, stop))?)
 }
 
 /// Where the pixels of a map look beyond the wall (mm): about the wall itself where its radius is shown.

@@ -41,7 +41,7 @@ impl Study {
             Some(kept) if kept.size == size => kept,
             kept => {
                 let laid = self.laid_out(&message, size, (kept.as_ref(), stop))?;
-                let value = self.values_of(&message, &laid)?;
+                let value = self.values_of(&message, &laid, stop)?;
                 Reformed { message, size, laid, value }
             }
         };
@@ -104,7 +104,7 @@ impl Study {
                 let (path, found) = self.wall_of(*vessel, stop)?;
                 let volume = self.content.held.as_ref().ok_or_else(no_volume)?.volume()?;
                 let level = found.levels.map(crate::lumen_map::calcium_level);
-                Laid::Map(map(&volume, &path, &found, (*of, size))?, level)
+                Laid::Map(map(&volume, (&path, &found), (*of, size), stop)?, level)
             }
         })
     }
@@ -128,7 +128,7 @@ impl Study {
     }
 
     /// What each pixel shows: a value of the volume, or a length (mm); NaN where it shows nothing.
-    fn values_of(&self, message: &ReformationMessage, laid: &Laid) -> Result<Vec<f32>> {
+    fn values_of(&self, message: &ReformationMessage, laid: &Laid, stop: Stop) -> Result<Vec<f32>> {
         let volume = self.scene()?.volume.ok_or_else(no_volume)?;
         let of = match message {
             ReformationMessage::Map { of, .. } => Some(*of),
@@ -139,22 +139,25 @@ impl Study {
         };
         match (of, laid) {
             (Some(MapOf::Radius), Laid::Map(layout, _)) => {
-                let wall = layout.wall();
-                Ok(in_walls(&|n| wall[n] as f32, layout.open()))
+                let wall = layout.wall(stop)?;
+                Ok(in_walls(&|n| wall[n] as f32, layout.open(stop)?))
             }
             (Some(MapOf::Thickness), Laid::Map(layout, level)) => {
                 let level = level.ok_or_else(no_level)?;
                 let held = self.content.held.as_ref().ok_or_else(no_volume)?.volume()?;
-                let thick = thickness(&held, layout, BAND, level)?;
-                Ok(in_walls(&|n| thick[n], layout.open()))
+                let thick = thickness(&held, layout, (BAND, level), stop)?;
+                Ok(in_walls(&|n| thick[n], layout.open(stop)?))
             }
             _ => {
                 let (camera, flat) = shown_flat([0.0, 1.0])?;
                 let band = Slab { thickness: BAND[1] - BAND[0], mode: SlabMode::Max };
                 let settings = Settings { slab: of.map(|_| band), ..flat };
-                let request =
-                    Request { images: ImageSet::of(&[Image::Value]), ..Request::new(&camera, &settings) };
-                let frame = Frame::of(Geometry::Curved(laid.layout().curved()?));
+                let request = Request {
+                    images: ImageSet::of(&[Image::Value]),
+                    stop,
+                    ..Request::new(&camera, &settings)
+                };
+                let frame = Frame::of(Geometry::Curved(laid.layout().curved(stop)?));
                 Ok(self.cpu.look(&volume, frame, &request)?.value)
             }
         }

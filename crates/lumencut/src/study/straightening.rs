@@ -47,8 +47,10 @@ impl Study {
         }
         let picture = match message.feature {
             Some(_) if message.roll.is_some() => return Err(feature_of_roll()),
-            Some(feature) => self.aggregated(&laid, message.pixel_spacing, feature.into(), window)?,
-            None => self.shown(Geometry::Curved(laid.cpr.curved()?), window)?,
+            Some(feature) => {
+                self.aggregated(&laid, (message.pixel_spacing, feature.into()), (window, stop))?
+            }
+            None => self.shown(Geometry::Curved(laid.cpr.curved(stop)?), window)?,
         };
         self.laid = Some(laid);
         Ok(picture)
@@ -83,12 +85,19 @@ impl Study {
         self.laid.as_ref().map(|laid| laid.pixel(point))
     }
 
-    fn aggregated(&self, laid: &Laid, spacing: f64, feature: Feature, window: [f64; 2]) -> Result<Picture> {
+    fn aggregated(
+        &self,
+        laid: &Laid,
+        (spacing, feature): (f64, Feature),
+        (window, stop): ([f64; 2], Stop),
+    ) -> Result<Picture> {
         let volume = self.scene()?.volume.ok_or_else(no_volume)?;
         let (camera, settings) = shown_flat(window)?;
-        let request = Request { images: ImageSet::of(&[Image::Value]), ..Request::new(&camera, &settings) };
+        let request =
+            Request { images: ImageSet::of(&[Image::Value]), stop, ..Request::new(&camera, &settings) };
         let look = |turned: &Cpr| {
-            let frame = self.cpu.look(&volume, Frame::of(Geometry::Curved(turned.curved()?)), &request)?;
+            let frame =
+                self.cpu.look(&volume, Frame::of(Geometry::Curved(turned.curved(stop)?)), &request)?;
             Ok(frame.value)
         };
         let value = feature_aggregation(&laid.cpr, spacing, feature, look)?;

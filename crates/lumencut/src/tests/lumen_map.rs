@@ -1,5 +1,6 @@
 use glam::{DAffine3, DMat3};
 use lumencut_core::reformations::Wall;
+use lumencut_core::stop::NEVER;
 use lumencut_core::volume::Voxels as Samples;
 
 use super::*;
@@ -47,8 +48,8 @@ const REQUEST: MapRequest = MapRequest {
 fn calcium_is_as_thick_as_it_is() {
     let values = values();
     let (map, thick) = with(&values, |volume| {
-        let map = lumen_map(volume, &path(), &FRONT, &found(), &REQUEST).expect("a map");
-        let thick = thickness(volume, &map, REQUEST.band, 600.0).expect("values");
+        let map = lumen_map(volume, &path(), &FRONT, &found(), (&REQUEST, NEVER)).expect("a map");
+        let thick = thickness(volume, &map, (REQUEST.band, 600.0), NEVER).expect("values");
         (map, thick)
     });
     let row = map.size()[1] / 2 * map.size()[0];
@@ -61,19 +62,22 @@ fn calcium_is_as_thick_as_it_is() {
 fn the_cut_lies_opposite_to_the_calcium() {
     let values = values();
     let map = with(&values, |volume| {
-        lumen_map(volume, &path(), &FRONT, &found(), &MapRequest { angle: None, ..REQUEST }).expect("a map")
+        lumen_map(volume, &path(), &FRONT, &found(), (&MapRequest { angle: None, ..REQUEST }, NEVER))
+            .expect("a map")
     });
     assert!((map.parameters().angle.to_degrees() - 90.0).abs() < 5.0, "{}", map.parameters().angle);
     let plain = with(&[0.0; SIZE[0] * SIZE[1] * SIZE[2]], |volume| {
-        lumen_map(volume, &path(), &FRONT, &found(), &MapRequest { angle: None, ..REQUEST }).expect("a map")
+        lumen_map(volume, &path(), &FRONT, &found(), (&MapRequest { angle: None, ..REQUEST }, NEVER))
+            .expect("a map")
     });
     assert_eq!(plain.parameters().angle, 0.0);
 }
 
 #[test]
 fn branches_open_where_they_leave_the_wall() {
-    let map =
-        with(&values(), |volume| lumen_map(volume, &path(), &FRONT, &found(), &REQUEST).expect("a map"));
+    let map = with(&values(), |volume| {
+        lumen_map(volume, &path(), &FRONT, &found(), (&REQUEST, NEVER)).expect("a map")
+    });
     let vessel = |points: &[[f64; 3]]| {
         Vessel::new(points.iter().map(|point| DVec3::from_array(*point)).collect(), None).expect("a vessel")
     };

@@ -3,6 +3,7 @@
 use rayon::prelude::*;
 
 use crate::camera::Camera;
+use crate::error::Result;
 use crate::math::cost::Rule;
 use crate::math::hierarchy::Hierarchy;
 use crate::math::lanes::{COLUMNS, Isa, Kernel, PIXELS, ROWS, dispatch};
@@ -11,9 +12,13 @@ use crate::math::projection::{Level, ProjectedLevel, Radii};
 use crate::math::tile::{Tile, scatter};
 use crate::math::walk::{Seeds, lowest_keys};
 use crate::settings::Settings;
+use crate::stop::{Stop, go_on};
 
 /// The slot at which the piece begins that is nearest to each pixel of a camera, row by row; of those equally near the first one.
-pub(in crate::reformations) fn nearest_slots(level: &Level, camera: &Camera) -> Vec<u32> {
+///
+/// # Errors
+/// [`crate::error::ErrorKind::Interrupted`] once the caller asks to stop.
+pub(in crate::reformations) fn nearest_slots(level: &Level, camera: &Camera, stop: Stop) -> Result<Vec<u32>> {
     let mut view = ProjectedLevel::new(level);
     view.project(level, camera, Radii { scale: 1.0, unknown: 0.0 });
     let view_reach = camera.view_x(0).abs().max(camera.view_y(0).abs()) as f32;
@@ -22,10 +27,12 @@ pub(in crate::reformations) fn nearest_slots(level: &Level, camera: &Camera) -> 
     plane.flatten();
     let [width, height] = camera.size();
     let mut slots = vec![0; width * height];
-    slots.par_chunks_mut(ROWS * width).enumerate().for_each(|(row, slots)| {
+    slots.par_chunks_mut(ROWS * width).enumerate().try_for_each(|(row, slots)| {
+        go_on(stop)?;
         dispatch(Isa::widest(), NearestRow { plane: &plane, rule: &rule, level, camera, row, slots });
-    });
-    slots
+        Ok(())
+    })?;
+    Ok(slots)
 }
 
 /// One row of tiles.

@@ -1,4 +1,5 @@
 use super::*;
+use crate::stop::NEVER;
 use crate::vessel_tree::Vessel;
 
 const FRONT: View = View { up: DVec3::Z, angle: 0.0, normal: None };
@@ -19,14 +20,14 @@ fn a_straight_vessel_is_the_same_plane_in_all_modes() {
     for mode in MODES {
         let cpr = layout(&points, mode, FRONT).unwrap();
         assert_eq!(cpr.size(), [41, 41]);
-        let curved = cpr.curved().unwrap();
+        let curved = cpr.curved(NEVER).unwrap();
         for (p, place) in curved.position().iter().enumerate() {
             let [i, j] = [p % 41, p / 41].map(|n| n as f64);
             let expected = DVec3::new(3.0 + 0.5 * (i - 20.0), 4.0, 30.0 - 0.5 * j);
             assert!(place.distance(expected) < 1e-12, "{mode:?} {place} {expected}");
         }
-        assert!(curved.slab_direction().iter().all(|direction| direction.distance(Vec3::Y) < 1e-6));
-        assert!(!cpr.folded().contains(&true));
+        assert!(curved.slab_direction().iter().all(|direction| direction.distance(glam::Vec3::Y) < 1e-6));
+        assert!(!cpr.folded(NEVER).unwrap().contains(&true));
     }
 }
 
@@ -35,7 +36,7 @@ fn pixels_and_world_are_inverse_in_all_modes() {
     let points: Vec<_> = (0..200).map(wave).collect();
     for (mode, angle) in MODES.into_iter().flat_map(|mode| [0.0, 0.8].map(|angle| (mode, angle))) {
         let cpr = layout(&points, mode, View { angle, ..FRONT }).unwrap();
-        let (folded, [width, height]) = (cpr.folded(), cpr.size());
+        let (folded, [width, height]) = (cpr.folded(NEVER).unwrap(), cpr.size());
         let mut tried = 0;
         for p in (0..width * height).step_by(7).filter(|p| mode == CprMode::Projected || !folded[*p]) {
             let pixel = DVec2::new((p % width) as f64, (p / width) as f64);
@@ -51,8 +52,8 @@ fn pixels_and_world_are_inverse_in_all_modes() {
 fn a_turned_layout_is_one_made_at_that_angle() {
     let points: Vec<_> = (0..200).map(wave).collect();
     for mode in MODES {
-        let made = layout(&points, mode, View { angle: 1.1, ..FRONT }).unwrap().curved().unwrap();
-        let turned = layout(&points, mode, FRONT).unwrap().rotated(1.1).unwrap().curved().unwrap();
+        let made = layout(&points, mode, View { angle: 1.1, ..FRONT }).unwrap().curved(NEVER).unwrap();
+        let turned = layout(&points, mode, FRONT).unwrap().rotated(1.1).unwrap().curved(NEVER).unwrap();
         assert_eq!(made.position(), turned.position());
     }
 }

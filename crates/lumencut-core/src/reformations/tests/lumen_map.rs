@@ -1,6 +1,7 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use super::*;
+use crate::stop::NEVER;
 use crate::vessel_tree::Vessel;
 
 const FRONT: View = View { up: DVec3::Z, angle: 0.0, normal: None };
@@ -33,7 +34,7 @@ fn half_circle(radius: f64) -> Vec<DVec3> {
 fn a_tube_is_unrolled_by_direction() {
     let map = map(&STRAIGHT, |_| 4.0, TUBE);
     assert_eq!(map.size(), [50, 61]);
-    let curved = map.curved().unwrap();
+    let curved = map.curved(NEVER).unwrap();
     for (n, point) in curved.position().iter().enumerate() {
         let around = TAU * ((n % 50) as f64 + 0.5) / 50.0 - PI;
         // A vessel that runs downwards has the patient's left on its right, and its back ahead.
@@ -43,20 +44,20 @@ fn a_tube_is_unrolled_by_direction() {
         let ray = (expected - DVec3::new(1.0, 2.0, expected.z)) / 4.0;
         assert!(curved.slab_direction()[n].as_dvec3().distance(ray) < 1e-6);
     }
-    assert!(map.shades().iter().all(|shade| (shade - 1.0).abs() < 1e-3));
-    assert!(map.folded().iter().all(|folded| !folded));
+    assert!(map.shades(NEVER).unwrap().iter().all(|shade| (shade - 1.0).abs() < 1e-3));
+    assert!(map.folded(NEVER).unwrap().iter().all(|folded| !folded));
 }
 
 #[test]
 fn an_ellipse_has_its_polar_radius() {
     let polar = |t: f64| 12.0 / (9.0 * t.cos().powi(2) + 16.0 * t.sin().powi(2)).sqrt();
     let map = map(&STRAIGHT, polar, LumenMapParameters { angle: 0.7, ..TUBE });
-    for (n, radius) in map.wall().iter().enumerate() {
+    for (n, radius) in map.wall(NEVER).unwrap().iter().enumerate() {
         let around = TAU * ((n % 50) as f64 + 0.5) / 50.0 - PI + 0.7;
         assert!((radius - polar(around)).abs() < 1e-3, "{n}: {radius}");
     }
     // The wall is met at right angles at both axes alone.
-    let shades = map.shades();
+    let shades = map.shades(NEVER).unwrap();
     assert!(shades.iter().all(|shade| *shade <= 1.0) && shades.iter().any(|shade| *shade < 0.98));
 }
 
@@ -77,7 +78,7 @@ fn places_and_pixels_are_inverse() {
             < 1e-5
     );
     assert!(map.pixel_from_world(DVec3::new(40.0, 0.0, -9.0)).is_nan());
-    let position = map.curved().unwrap().position()[7 * width + 20];
+    let position = map.curved(NEVER).unwrap().position()[7 * width + 20];
     assert!(position.distance(map.world_from_pixel(DVec2::new(20.0, 7.0))) < 1e-12);
 }
 
@@ -86,7 +87,7 @@ fn the_area_of_a_torus_is_that_of_its_pixels() {
     // The area of a pixel is (1 - cos α · r / R) r dα ds, whose mean over α is r dα ds.
     let map = map(&half_circle(40.0), |_| 4.0, LumenMapParameters { pixel_spacing: 0.25, ..TUBE });
     let [width, height] = map.size();
-    let curved = map.curved().unwrap();
+    let curved = map.curved(NEVER).unwrap();
     let row = height / 2;
     let area: f64 = (0..width)
         .map(|i| {
@@ -105,7 +106,7 @@ fn beyond_the_middle_of_a_circle_it_is_folded() {
     // Sections of a circle of 10 mm meet in its middle: beyond 10 mm / cos α towards it.
     let map = map(&half_circle(10.0), |_| 9.0, LumenMapParameters { beyond: 4.0, mean_radius: 9.0, ..TUBE });
     let [width, height] = map.size();
-    let folded = map.folded();
+    let folded = map.folded(NEVER).unwrap();
     let towards = map.pixel_from_world(DVec3::new(0.0, 0.0, 9.9)).x;
     for i in 0..width {
         let away = TAU * (i as f64 - towards) / width as f64;
@@ -129,13 +130,13 @@ fn an_opening_shows_nothing() {
     let path = CenterlinePath::new(&Vessel::new(STRAIGHT.to_vec(), None).unwrap(), 0.0).unwrap();
     let map = LumenMap::new(Arc::new(path), &FRONT, wall, TUBE).unwrap();
     let middle = map.column(FRAC_PI_2).round() as usize;
-    let curved = map.curved().unwrap();
+    let curved = map.curved(NEVER).unwrap();
     for (n, point) in curved.position().iter().enumerate() {
         let away = (n % 50).abs_diff(middle) as f64 * 360.0 / 50.0;
         if (away - 10.0).abs() > 4.0 {
             assert_eq!(point.is_nan(), away < 10.0, "column {}", n % 50);
         }
-        assert_eq!(map.open()[n], point.is_nan());
+        assert_eq!(map.open(NEVER).unwrap()[n], point.is_nan());
     }
 }
 

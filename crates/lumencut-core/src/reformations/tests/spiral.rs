@@ -1,4 +1,5 @@
 use super::*;
+use crate::stop::NEVER;
 use crate::vessel_tree::Vessel;
 
 const FRONT: View = View { up: DVec3::Z, angle: 0.0, normal: None };
@@ -98,7 +99,7 @@ fn places_and_pixels_are_inverse() {
                 assert!(back.distance(pixel) < 1e-5, "{pixel} came back as {back}");
             }
         }
-        let curved = spiral.curved().unwrap();
+        let curved = spiral.curved(NEVER).unwrap();
         let there = spiral.world_from_pixel(DVec2::new(9.0, 4.0));
         assert!(curved.position()[4 * width + 9].distance(there) < 1e-9);
         assert!(spiral.pixel_from_world(DVec3::new(0.0, 0.0, 99.0)).is_nan());

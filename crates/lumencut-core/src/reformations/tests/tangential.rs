@@ -3,6 +3,7 @@ use crate::pipeline::Request;
 use crate::reformations::cr::{CrParameters, cr};
 use crate::scene::LeveledTree;
 use crate::settings::Settings;
+use crate::stop::NEVER;
 use crate::vessel_tree::{Vessel, VesselTree};
 
 fn camera(direction: DVec3) -> Camera {
@@ -26,7 +27,7 @@ fn it_is_cr_of_one_vessel_without_a_threshold() {
         let tree = LeveledTree::new(VesselTree::new(vec![winding()]).unwrap());
         let parameters = CrParameters { arc_threshold: 1e6, ..CrParameters::default() };
         let frame = cr(&tree, &parameters, &Request::new(&camera, &settings)).unwrap();
-        let curved = tangential(&winding(), camera).curved().unwrap();
+        let curved = tangential(&winding(), camera).curved(NEVER).unwrap();
         let same = |(point, depth): (&DVec3, &f32)| {
             (camera.view_from_world(*point).z - f64::from(*depth)).abs() < 1e-3
         };
@@ -58,10 +59,10 @@ fn a_plane_arc_is_shown_as_it_is() {
     let arc =
         (0..=90).map(|n| f64::from(n).to_radians()).map(|t| DVec3::new(20.0 * t.cos(), 4.0, 20.0 * t.sin()));
     let layout = tangential(&Vessel::new(arc.collect(), None).unwrap(), camera(DVec3::Y));
-    for point in layout.curved().unwrap().position() {
+    for point in layout.curved(NEVER).unwrap().position() {
         assert!((point.y - 4.0).abs() < 1e-9);
     }
-    let arc_length = layout.arc_length();
+    let arc_length = layout.arc_length(NEVER).unwrap();
     let pixel = layout.pixel_from_world(DVec3::new(12.0, 4.0, 12.0));
     let at = arc_length[pixel.y.round() as usize * 97 + pixel.x.round() as usize];
     assert!((at - 20.0 * std::f64::consts::FRAC_PI_4).abs() < 0.7);
@@ -74,7 +75,7 @@ fn every_point_has_the_pixel_where_it_is_seen() {
     assert!(layout.pixel_from_world(layout.world_from_pixel(pixel)).distance(pixel) < 1e-9);
     let nearer = layout.world_from_pixel(pixel) - layout.camera.direction() * 7.0;
     assert!(layout.pixel_from_world(nearer).distance(pixel) < 1e-9);
-    assert!(layout.folded().iter().all(|folded| !folded));
+    assert!(layout.folded(NEVER).unwrap().iter().all(|folded| !folded));
 }
 
 #[test]

@@ -2,6 +2,7 @@ use std::f64::consts::{PI, TAU};
 
 use super::*;
 use crate::reformations::cpr::{Straightened, View};
+use crate::stop::NEVER;
 use crate::vessel_tree::Vessel;
 
 fn path(points: Vec<DVec3>) -> Arc<CenterlinePath> {
@@ -29,7 +30,7 @@ fn uncurled(points: Vec<DVec3>, amount: f64) -> Uncurl {
 #[test]
 fn at_0_every_pixel_lies_on_its_ray_at_the_depth_of_the_nearest_place() {
     let uncurl = uncurled(helix(12.0, 20.0), 0.0);
-    let curved = uncurl.curved().unwrap();
+    let curved = uncurl.curved(NEVER).unwrap();
     for (point, own) in uncurl.points().iter().zip(uncurl.path.points()) {
         assert!(point.distance(*own) < 1e-9);
     }
@@ -58,7 +59,7 @@ fn at_0_every_pixel_lies_on_its_ray_at_the_depth_of_the_nearest_place() {
         );
         assert!(curved.slab_direction()[n].as_dvec3().distance(oblique().direction()) < 1e-6);
     }
-    assert!(uncurl.folded().iter().all(|folded| !folded));
+    assert!(uncurl.folded(NEVER).unwrap().iter().all(|folded| !folded));
 }
 
 #[test]
@@ -69,7 +70,7 @@ fn at_1_it_is_the_straightened_cpr() {
         let uncurl = uncurled(points, 1.0);
         let view = View { up: DVec3::Z, angle: 0.0, normal: Some(-oblique().direction()) };
         let straightened = Straightened::new(Arc::clone(&uncurl.path), &view).unwrap();
-        let curved = uncurl.curved().unwrap();
+        let curved = uncurl.curved(NEVER).unwrap();
         let half = uncurl.path.length() / 2.0;
         for (n, point) in curved.position().iter().enumerate() {
             let (x, y) = (oblique().view_x(n % 121), half - oblique().view_y(n / 121));
@@ -127,7 +128,7 @@ fn a_helix_stays_a_helix_of_the_same_torsion() {
 fn places_and_pixels_are_inverse() {
     for amount in [0.0, 0.4, 1.0] {
         let uncurl = uncurled(helix(12.0, 20.0), amount);
-        let curved = uncurl.curved().unwrap();
+        let curved = uncurl.curved(NEVER).unwrap();
         for pixel in [[60.0, 80.0], [57.3, 70.8], [63.1, 99.9], [40.5, 90.25]].map(DVec2::from_array) {
             let there = uncurl.world_from_pixel(pixel);
             let back = uncurl.pixel_from_world(there);
@@ -144,7 +145,7 @@ fn a_pixel_beyond_the_middle_of_an_arc_is_folded_once_it_is_straight() {
     let arc =
         (0..=360).map(|n| PI * f64::from(n) / 360.0).map(|t| DVec3::new(20.0 * t.sin(), 0.0, 20.0 * t.cos()));
     let uncurl = Uncurl::new(path(arc.collect()), camera(DVec3::Y), 1.0, None).unwrap();
-    let folded = uncurl.folded();
+    let folded = uncurl.folded(NEVER).unwrap();
     // The middle of the arc lies to the left of a vessel that bends to the left.
     let at = |millimetres: f64| folded[80 * 121 + (60.0 + millimetres) as usize];
     assert_eq!([-25.0, -15.0, 0.0, 15.0, 40.0].map(at), [true, false, false, false, false]);
@@ -154,7 +155,7 @@ fn a_pixel_beyond_the_middle_of_an_arc_is_folded_once_it_is_straight() {
 fn what_lies_beyond_the_width_is_left_out() {
     let uncurl = Uncurl::new(path(helix(12.0, 20.0)), oblique(), 0.5, Some(20.0)).unwrap();
     let whole = uncurled(helix(12.0, 20.0), 0.5);
-    let (curved, arc_length) = (uncurl.curved().unwrap(), uncurl.arc_length());
+    let (curved, arc_length) = (uncurl.curved(NEVER).unwrap(), uncurl.arc_length(NEVER).unwrap());
     let left_out = curved.position().iter().filter(|point| point.is_nan()).count();
     assert!(left_out > 1000 && left_out < 121 * 161 - 1000, "{left_out} pixels");
     for (n, point) in curved.position().iter().enumerate() {
@@ -177,7 +178,7 @@ fn a_vessel_that_runs_to_the_head_or_along_the_view_turns_downwards() {
         for amount in [0.0, 0.5, 1.0] {
             let uncurl = Uncurl::new(path(points.clone()), camera(direction), amount, None).unwrap();
             assert!(uncurl.points().iter().all(|point| point.is_finite()), "{points:?} at {amount}");
-            assert!(uncurl.curved().unwrap().position().iter().all(|point| point.is_finite()));
+            assert!(uncurl.curved(NEVER).unwrap().position().iter().all(|point| point.is_finite()));
         }
         let straight = Uncurl::new(path(points), camera(direction), 1.0, None).unwrap();
         let ends = [straight.points()[0], straight.points()[straight.points().len() - 1]];

@@ -1,6 +1,7 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use super::*;
+use crate::stop::NEVER;
 use crate::vessel_tree::Vessel;
 
 fn go() -> bool {
@@ -94,8 +95,8 @@ fn a_tree_in_the_plane_of_the_view_is_shown_as_it_is() {
     assert_eq!(made.rotations(), [0.0; 3]);
     assert!(made.overlaps().is_empty());
     let origin = made.pixel_from_world(DVec3::new(0.0, 5.0, 0.0));
-    let (curved, [width, _]) = (made.curved().unwrap(), made.size());
-    let folded = made.folded();
+    let (curved, [width, _]) = (made.curved(NEVER).unwrap(), made.size());
+    let folded = made.folded(NEVER).unwrap();
     for (n, point) in curved.position().iter().enumerate().filter(|(_, point)| point.is_finite()) {
         let from = (DVec2::new((n % width) as f64, (n / width) as f64) - origin) * PIXEL;
         let expected = DVec3::new(from.x, 5.0, -from.y);
@@ -103,7 +104,7 @@ fn a_tree_in_the_plane_of_the_view_is_shown_as_it_is() {
         assert!(!folded[n]);
         assert!(curved.slab_direction()[n].as_dvec3().distance(DVec3::Y) < 1e-6);
     }
-    for (vessel, point) in made.vessel().iter().zip(curved.position()) {
+    for (vessel, point) in made.vessel(NEVER).unwrap().iter().zip(curved.position()) {
         assert_eq!(*vessel >= 0, point.is_finite());
     }
 }
@@ -214,7 +215,8 @@ fn places_in_the_image_and_in_the_world_agree_both_ways() {
         let tree = random_tree(&mut random, 7);
         let camera = Camera::new(DVec3::ZERO, random.direction(), random.direction(), [8, 8], 1.0).unwrap();
         let made = Untangled::new(&tree, &camera, UntangledParameters::new(PIXEL), &go).unwrap();
-        let (curved, folded, [width, _]) = (made.curved().unwrap(), made.folded(), made.size());
+        let (curved, folded, [width, _]) =
+            (made.curved(NEVER).unwrap(), made.folded(NEVER).unwrap(), made.size());
         let (mut met, mut back) = (0, 0);
         for n in (0..folded.len()).step_by(37) {
             let (pixel, point) = (DVec2::new((n % width) as f64, (n / width) as f64), curved.position()[n]);
@@ -309,7 +311,7 @@ fn the_same_tree_gives_the_same_layout_to_the_bit() {
     let [first, second] = [(); 2].map(|()| untangled(&tree, UntangledParameters::new(PIXEL)));
     assert_eq!(first.laid_out(), second.laid_out());
     let bits = |made: &Untangled| -> Vec<u64> {
-        made.curved().unwrap().position().iter().map(|point| point.x.to_bits()).collect()
+        made.curved(NEVER).unwrap().position().iter().map(|point| point.x.to_bits()).collect()
     };
     assert_eq!(bits(&first), bits(&second));
 }
@@ -345,7 +347,7 @@ fn other_pixels_show_the_same_layout_and_places_tell_their_vessel() {
     let coarse = fine.with_pixels(1.0).unwrap();
     let made = untangled(&tree, UntangledParameters::new(1.0));
     assert_eq!((coarse.size(), coarse.parameters()), (made.size(), made.parameters()));
-    assert_eq!(coarse.vessel(), made.vessel());
+    assert_eq!(coarse.vessel(NEVER).unwrap(), made.vessel(NEVER).unwrap());
     for (part, same) in coarse.laid_out().iter().zip(made.laid_out()) {
         assert!(part.pixels.iter().zip(&same.pixels).all(|(one, other)| one.distance(*other) < 1e-9));
     }

@@ -9,6 +9,7 @@ use crate::error::Result;
 use crate::math::projection::Level;
 use crate::reformations::cr::nearest_slots;
 use crate::scene::LeveledTree;
+use crate::stop::Stop;
 use crate::vessel_tree::{Vessel, VesselTree};
 
 /// A place along a vessel.
@@ -54,11 +55,12 @@ impl Feet {
     /// The foot of each pixel, row by row, by a function that is given the pixel's number and the foot.
     ///
     /// # Errors
-    /// Those of a vessel tree that cannot be made of the points.
-    pub fn of_pixels(&self) -> Result<impl Fn(usize) -> Foot + Sync + '_> {
+    /// Those of a vessel tree that cannot be made of the points, and [`crate::error::ErrorKind::Interrupted`].
+    pub fn of_pixels(&self, stop: Stop) -> Result<impl Fn(usize) -> Foot + Sync + '_> {
         let vessel = Vessel::new(self.points.clone(), None)?;
         let levels = LeveledTree::new(VesselTree::new(vec![vessel])?).levels(0, 0.0);
-        let (slots, points) = (nearest_slots(&levels[0], &self.camera), self.points_of_slots(&levels[0]));
+        let slots = nearest_slots(&levels[0], &self.camera, stop)?;
+        let points = self.points_of_slots(&levels[0]);
         let width = self.camera.size()[0];
         Ok(move |pixel: usize| {
             let slot = slots[pixel] as usize;

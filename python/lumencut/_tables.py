@@ -1,0 +1,47 @@
+"""Rows as CSV and back: a text that a spreadsheet would run as a formula is marked, and read back unchanged."""
+
+from __future__ import annotations
+
+import csv
+import re
+from collections.abc import Iterable, Iterator, Sequence
+
+#: How cells begin that spreadsheets run as formulas, behind apostrophes that the text itself has.
+FORMULA = r"'*[=+\-@\t\r]"
+_FORMULA = re.compile(FORMULA)
+#: What begins with a sign and is no formula.
+_NUMBER = re.compile(r"[-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]+)?")
+_PARTED = re.compile(r'[",\n\r]')
+
+
+def written(rows: Iterable[Sequence[object]]) -> str:
+    """Return rows as CSV, as `crates/lumencut/src/profile_table.rs` writes them; None is an empty cell."""
+    return "".join(",".join(map(_cell, row)) + "\n" for row in rows)
+
+
+def _cell(value: object) -> str:
+    """A value as a cell, in quotes where it would not be read as one without."""
+    text = marked(value) if isinstance(value, str) else "" if value is None else str(value)
+    return '"' + text.replace('"', '""') + '"' if _PARTED.search(text) else text
+
+
+def marked(text: str) -> str:
+    """Return a text behind an apostrophe where it begins as a formula does and is no number."""
+    return f"'{text}" if _FORMULA.match(text) and not _NUMBER.fullmatch(text) else text
+
+
+def unmarked(cell: str) -> str:
+    """Return the text that `marked` made this cell of."""
+    return cell[1:] if cell.startswith("'") and _FORMULA.match(cell) else cell
+
+
+def read_rows(lines: Iterable[str]) -> Iterator[list[str]]:
+    """Read the rows of a CSV, with their texts as they were before `written` marked them.
+
+    Raises
+    ------
+    csv.Error
+        For quotes that do not fit.
+    """
+    for row in csv.reader(lines, strict=True):
+        yield [unmarked(cell) for cell in row]
