@@ -36,7 +36,9 @@ def record_of(number: int, study: Study) -> Record:
 def write_page(folder: Path, count: int) -> Path:
     """Write the page, with a thumbnail for each study that is done, and return its path."""
     layout = Layout(folder)
-    studies = tuple(Study(f"p{number}", folder / f"{number}.nii.gz") for number in range(count))
+    # A spreadsheet would run the id of one of them.
+    ids = ["=p3,1" if number == 3 else f"p{number}" for number in range(count)]
+    studies = tuple(Study(one, folder / f"{number}.nii.gz") for number, one in enumerate(ids))
     noise = np.random.default_rng(5)
     records = [record_of(number, study) for number, study in enumerate(studies)]
     for study, record in zip(studies, records, strict=True):

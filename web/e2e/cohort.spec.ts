@@ -60,6 +60,14 @@ test('studies are filtered, ordered and rated, and the ratings outlive the page'
   expect(saved).toBe('id,rating\np199,good\np1990,redo\n');
   await page.selectOption('#filter', 'redo');
   expect(await ids(page)).toEqual(['p1990']);
+  await page.selectOption('#filter', 'all');
+  await page.fill('#search', '=p3');
+  await page.locator('li:not(.hidden)').first().focus();
+  await page.keyboard.press('x');
+  const again = page.waitForEvent('download');
+  await page.click('#save');
+  const marked = readFileSync((await (await again).path()) ?? '', 'utf-8');
+  expect(marked).toBe(`id,rating\n"'=p3,1",exclude\np199,good\np1990,redo\n`);
 });
 
 test('a click selects a tile; Enter and a double click open its picture in a new tab', async ({
@@ -67,7 +75,7 @@ test('a click selects a tile; Enter and a double click open its picture in a new
   context,
 }) => {
   await page.goto(address);
-  const tile = page.locator('li[data-id="p3"]');
+  const tile = page.locator('li[data-id="p4"]');
   await tile.locator('img').click();
   await expect(tile).toBeFocused();
   expect(page.url()).toBe(address);
@@ -76,7 +84,7 @@ test('a click selects a tile; Enter and a double click open its picture in a new
     const opening = context.waitForEvent('page');
     await act();
     const opened = await opening;
-    expect(opened.url()).toContain('sub-p3/sub-p3_view-anterior_desc-focus.png');
+    expect(opened.url()).toContain('sub-p4/sub-p4_view-anterior_desc-focus.png');
     await opened.close();
   }
   await expect(tile).toBeFocused();

@@ -136,10 +136,17 @@ function select(event) {
   event.target.closest('li')?.focus();
 }
 
+/** An id as a cell of CSV, by the rule of the other tables: behind an apostrophe where a spreadsheet would run it. */
+function cell(id) {
+  const isNumber = /^[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?$/.test(id);
+  const marked = /^'*[=+\-@\t\r]/.test(id) && !isNumber ? `'${id}` : id;
+  return /[",\n\r]/.test(marked) ? `"${marked.replaceAll('"', '""')}"` : marked;
+}
+
 function save() {
   const rows = tiles
     .filter((tile) => tile.dataset.rating)
-    .map((tile) => `${tile.dataset.id},${tile.dataset.rating}\n`);
+    .map((tile) => `${cell(tile.dataset.id)},${tile.dataset.rating}\n`);
   const link = document.createElement('a');
   link.href = URL.createObjectURL(new Blob(['id,rating\n', ...rows], { type: 'text/csv' }));
   link.download = 'ratings.csv';
