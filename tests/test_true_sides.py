@@ -309,3 +309,33 @@ def test_info_names_each_axis_of_the_patient_once():
         # Where the grid is not far from the axes nibabel says the same.
         if (np.abs(turn).max(axis=0) > 0.9).all():
             assert letters == "".join(nibabel.aff2axcodes(np.diag([-1, -1, 1, 1]) @ affine))
+
+
+def test_the_wall_is_unrolled_from_its_true_side(profile):
+    made = lumencut.lumen_map(tube(), bow(), profile=profile, pixel_spacing=0.5)
+    straight = lumencut.cpr(tube(), bow(), "straightened", 10.0, 0.5)
+    middle = (made.size[0] - 1) // 2
+    for row in range(10, made.size[1] - 10, 12):
+        at = made.arc_length[row]
+        line = straight.world_from_pixel([[10, at / 0.5], [14, at / 0.5]])
+        right = line[1] - line[0]
+        along = np.diff(straight.world_from_pixel([[10, at / 0.5 - 1], [10, at / 0.5 + 1]]), axis=0)[0]
+        out = made.position[row, middle] - line[0]
+        turned = math.atan2(out @ np.cross(right, along) / np.linalg.norm(along), out @ right)
+        expected = made.angle
+        away = (turned - expected + math.pi) % (2 * math.pi) - math.pi
+        assert abs(away) < 0.15, (row, turned, expected)
+
+
+@pytest.mark.parametrize("found", ["trace", "trace_mask"])
+def test_traced_lines_lie_in_their_vessel(found):
+    scan = tube()
+    if found == "trace":
+        tree = lumencut.trace(scan, [bow().points[2], bow().points[-3]])
+    else:
+        tree = lumencut.trace_mask(Volume(scan.array > 200, world_from_index=scan.world_from_index))
+    assert sum(vessel.length for vessel in tree) > 40
+    away = np.linalg.norm(tree.points[:, None] - bow().points, axis=2).min(axis=1)
+    # A line through a mask goes on to the end of its tube, which is round.
+    assert np.quantile(away, 0.75) < 0.8
+    assert away.max() < 3.5

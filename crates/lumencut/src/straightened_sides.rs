@@ -9,6 +9,10 @@ use crate::letters::{PREFERRED, nearest_axes, sides};
 /// Readers are warned where a true axis turns farther than this from its stated side (degrees).
 const MOST_TURN: f64 = 45.0;
 
+/// How far before and after the middle of the vessel its frame is looked at (mm), and at how many places, less one.
+const MIDDLE: f64 = 5.0;
+const PLACES: u32 = 40;
+
 /// The letters of sides with the words for them.
 const SIDES: [(char, &str); 6] =
     [('R', "right"), ('L', "left"), ('A', "front"), ('P', "back"), ('I', "feet"), ('S', "head")];
@@ -34,7 +38,7 @@ impl StraightenedSides {
     /// The signed axes of the patient nearest to the frame at the middle of the vessel, with the handedness of the frame. Along
     /// the vessel the frame is compared with them every `step` mm.
     pub fn of(space: &Straightened, step: f64, is_stated: bool) -> Self {
-        let stated = nearest_axes(axes(space.frame(space.length() / 2.0)));
+        let stated = nearest_axes(middle(space));
         let sections = (space.length() / step).floor() as usize;
         let places = (0..=sections).map(|n| n as f64 * step).chain([space.length()]);
         let least = places.flat_map(|at| cosines(axes(space.frame(at)), stated)).fold(1.0_f64, f64::min);
@@ -100,6 +104,18 @@ impl StraightenedSides {
     fn degrees(&self) -> f64 {
         f64::from(self.turn) / 10.0
     }
+}
+
+/// The directions of i, j and k at the middle of the vessel, in the mean over a short way: noise of the line does not decide.
+fn middle(space: &Straightened) -> [DVec3; 3] {
+    let half = space.length() / 2.0;
+    let reach = MIDDLE.min(half);
+    let frames =
+        (0..=PLACES).map(|n| space.frame(half + reach * (2.0 * f64::from(n) / f64::from(PLACES) - 1.0)));
+    let [tangent, ahead] = frames
+        .map(|frame| [frame.tangent, frame.ahead])
+        .fold([DVec3::ZERO; 2], |sum, frame| [sum[0] + frame[0], sum[1] + frame[1]]);
+    axes(MovingFrame::looking(tangent.normalize_or(space.frame(half).tangent), ahead))
 }
 
 /// The directions of i, j and k.

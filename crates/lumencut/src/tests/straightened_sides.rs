@@ -75,6 +75,17 @@ fn equally_near_axes_do_not_depend_on_rounding() {
 }
 
 #[test]
+fn noise_of_the_line_does_not_choose_sides() {
+    for seed in 0..30 {
+        let noise = |n: i32| f64::from((n * 7919 + seed * 104_729).rem_euclid(1000)) / 1000.0 - 0.5;
+        let place = |n: i32| DVec3::new(noise(3 * n), noise(3 * n + 1), f64::from(n) * 0.5);
+        let found = StraightenedSides::of(&space((0..=80).map(place).collect(), 0.0), 0.5, true);
+        let letters = found.letters();
+        assert!(letters.ends_with('S'), "{letters}");
+    }
+}
+
+#[test]
 fn a_vessel_that_turns_away_from_its_sides_says_how_far() {
     let bent = StraightenedSides::of(&arc(0.45), 0.5, true);
     assert_eq!((bent.letters(), bent.notes().len()), ("RPS", 0));

@@ -10,6 +10,7 @@ mod planes;
 mod pretty;
 mod telling;
 mod tracing;
+mod true_sides;
 pub(crate) mod typescript;
 mod whole_vessel;
 
