@@ -108,6 +108,14 @@ class DeviceWarning(UserWarning):
     """A GPU that was given up; the CPU goes on in its place."""
 
 
+class LineWarning(UserWarning):
+    """A centerline that is doubtful by itself: its points are in another order, far away, or missing."""
+
+    def written(self, write: Write) -> str:
+        """Return the warning with its options as a host writes them."""
+        return written(self.args[0], write)
+
+
 class SpaceWarning(UserWarning):
     """Coordinates that fit the volume better in another space than the one stated."""
 

@@ -14,7 +14,7 @@ from typing import NoReturn, TextIO
 import click
 
 from lumencut.cli.signals import EndedError, ended_by_signals
-from lumencut.errors import DeviceWarning, LumencutError, SpaceWarning
+from lumencut.errors import DeviceWarning, LineWarning, LumencutError, SpaceWarning
 from lumencut.mends import Told, as_option, written
 
 #: Exit codes beside 0 and click's 2 for wrong usage.
@@ -131,7 +131,7 @@ def _show_warning(
     file: TextIO | None = None,
     line: str | None = None,
 ) -> None:
-    if issubclass(category, (DeviceWarning, SpaceWarning)):
+    if issubclass(category, (DeviceWarning, LineWarning, SpaceWarning)):
         warn(message)
     else:
         detail(f"{category.__name__}: {message}")
