@@ -71,7 +71,7 @@ def test_info_tells_what_is_odd(files, tmp_path):
         write_lines(tmp_path / "cm.vtk", bent_line() / 10),
     )
     assert "1 of 1 vessels have no radius" in found.stdout
-    assert "a gap of 400.0 mm" in found.stdout
+    assert "lies far from all others, 400.0 mm" in found.stdout
     assert "perhaps its unit is not mm" in found.stdout
     assert "a spacing of exactly 1 mm" in info(files[0]).stdout
 

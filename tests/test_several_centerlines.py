@@ -17,6 +17,7 @@ from lumencut import (
     CameraError,
     FileError,
     FormatError,
+    LineWarning,
     Renderer,
     SpaceWarning,
     Vessel,
@@ -122,13 +123,14 @@ def test_each_file_has_its_own_space(tmp_path):
     volume = read_volume(write_volume(tmp_path / "ct.nii.gz"))
     lps = write_lines(tmp_path / "lps.vtk", title="SPACE=LPS")
     ras = write_lines(tmp_path / "ras.vtk", bent_line() * (-1, -1, 1), title="SPACE=RAS")
-    one, other = read_centerlines([lps, ras], volume=volume)
+    with pytest.warns(LineWarning, match="side by side"):
+        one, other = read_centerlines([lps, ras], volume=volume)
     np.testing.assert_allclose(one.points, other.points, atol=1e-4)
 
 
 def test_a_file_that_states_no_space_beside_one_in_ras_is_told(tmp_path, caplog):
     silent = write_lines(tmp_path / "silent.vtk")
-    ras = write_lines(tmp_path / "ras.vtk", bent_line() * (-1, -1, 1), title="SPACE=RAS")
+    ras = write_lines(tmp_path / "ras.vtk", bent_line() * (-1, -1, 1) + (0, 5, 0), title="SPACE=RAS")
     with caplog.at_level(logging.WARNING, "lumencut"):
         read_centerlines([silent, ras])
     assert any("silent.vtk: taken as lps" in text and "ras.vtk is in ras" in text for text in caplog.messages)

@@ -7,11 +7,12 @@ import numpy as np
 import numpy.typing as npt
 from typing_extensions import disjoint_base
 
-from lumencut.mends import MendName
+from lumencut.mends import MendName, Told
 from lumencut.placement import Coordinates, Unit
 
 _Axis = str | npt.NDArray[np.float64]
 _Arrays = tuple[npt.NDArray[np.float64], npt.NDArray[np.float64] | None]
+_LineDoubt = tuple[int, int | None, str, Told]
 _WrittenArrays = tuple[
     npt.NDArray[np.float64], npt.NDArray[np.float64] | None, str | None, npt.NDArray[np.float64] | None
 ]
@@ -51,6 +52,7 @@ __all__ = [
     "MENDS",
     "MILLIMETRES",
     "PAPER",
+    "REORDERED",
     "SETTINGS",
     "SIGNS",
     "SMALLEST_EXTENT",
@@ -115,6 +117,7 @@ __all__ = [
     "join",
     "judge_dicom",
     "levels",
+    "line_doubts",
     "make_phantom",
     "marked_places",
     "meant_place",
@@ -215,6 +218,8 @@ VIEW_METHODS: list[tuple[str, str]]
 DEFAULTS: dict[str, float]
 SMALLEST_EXTENT: float
 LARGEST_EXTENT: float
+#: How the note ends that says of a line that its points were moved.
+REORDERED: str
 
 @final
 class CenterlineFile:
@@ -227,8 +232,9 @@ class CenterlineFile:
     def unit(self) -> str | None: ...
     @property
     def conventional_unit(self) -> str: ...
+    def parted_doubts(self) -> list[_LineDoubt]: ...
     def vessels(
-        self, mm_per_unit: float
+        self, mm_per_unit: float, reorder: bool
     ) -> tuple[
         list[tuple[npt.NDArray[np.float64], npt.NDArray[np.float64] | None, str | None]], list[str]
     ]: ...
@@ -549,6 +555,7 @@ def frame_angles(frames: int, degrees: float) -> list[float]: ...
 def grade(profile: Profile, marked: _Marked) -> Grade | None: ...
 def is_session_file(content: bytes) -> bool: ...
 def levels(vessels: list[_Arrays], count: int) -> list[list[_Arrays]]: ...
+def line_doubts(vessels: list[tuple[_Arrays, str | None]], beside: bool) -> list[_LineDoubt]: ...
 def marked_places(profile: Profile, marked: _Marked) -> list[_MarkParts]: ...
 def measure(
     volume: Any,

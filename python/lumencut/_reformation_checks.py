@@ -9,6 +9,7 @@ from typing import Any, TypeAlias
 from lumencut._checked_settings import checked
 from lumencut._checks import number
 from lumencut.errors import CameraError, SettingsError, VesselTreeError
+from lumencut.line_doubts import check_lines_once
 from lumencut.settings import Settings
 from lumencut.slab import Slab
 from lumencut.vessel import Vessel
@@ -19,7 +20,7 @@ SlabArgument: TypeAlias = "Slab | tuple[float, str] | float | None"
 
 
 def check_vessel(vessel: Any) -> None:
-    """Refuse what is no vessel."""
+    """Refuse what is no vessel, and say once what is doubtful about its line."""
     if not isinstance(vessel, Vessel):
         mend = (
             "take one of its vessels, or several as one by its path()"
@@ -27,6 +28,7 @@ def check_vessel(vessel: Any) -> None:
             else ""
         )
         raise VesselTreeError("vessel of the CPR", type(vessel).__name__, "a Vessel", mend)
+    check_lines_once([vessel], "vessel of the CPR")
 
 
 def flat_settings(settings: Any, slab: SlabArgument = None) -> Settings:

@@ -11,8 +11,9 @@ from typing import Any, cast
 
 from lumencut import _lumencut
 from lumencut._files import checked_path
-from lumencut.errors import FileError, FormatError, SpaceWarning
+from lumencut.errors import FileError, FormatError, SettingsError, SpaceWarning
 from lumencut.file_kinds import kind_of
+from lumencut.line_doubts import LineDoubt, line_doubts, settle, warn_of, worded
 from lumencut.mends import Told
 from lumencut.placement import (
     MILLIMETRES,
@@ -58,7 +59,9 @@ class CenterlineReport:
     is_unusual : bool
         Whether the volume decided against LPS or the usual unit of the format, or the space by its values.
     notes : tuple of str
-        What was odd about the file, one sentence each.
+        What was odd about the file, one sentence each, those of `doubts` among them.
+    doubts : tuple of LineDoubt
+        What is doubtful about its lines.
     """
 
     format: str
@@ -74,6 +77,12 @@ class CenterlineReport:
     decision: Told
     is_unusual: bool
     notes: tuple[str, ...]
+    doubts: tuple[LineDoubt, ...] = ()
+
+    @property
+    def reordered(self) -> tuple[str, ...]:
+        """The notes that say of which lines the points were put in another order."""
+        return tuple(note for note in self.notes if note.endswith(_lumencut.REORDERED))
 
 
 class CenterlineFile:
@@ -110,10 +119,17 @@ class CenterlineFile:
         self._content = _lumencut.CenterlineFile(content, self.path.name)
 
     def placed(
-        self, coordinates: Coordinates | None = None, unit: Unit | None = None, volume: Any = None
+        self,
+        coordinates: Coordinates | None = None,
+        unit: Unit | None = None,
+        volume: Any = None,
+        *,
+        reorder: bool = False,
     ) -> tuple[VesselTree, CenterlineReport]:
         """Give the vessels in world space and tell how they were read; parameters as `read_centerlines`."""
         check_choice(coordinates, unit)
+        if not isinstance(reorder, bool):
+            raise SettingsError("reorder", repr(reorder), "True or False")
         volume = None if volume is None else as_volume(volume)
         content = self._content
         stated = Stated(
@@ -122,28 +138,47 @@ class CenterlineFile:
             cast(Unit, content.conventional_unit),
         )
         likely = unit or stated.unit or stated.usual_unit
-        vessels, notes = content.vessels(MILLIMETRES[likely])
+        vessels, notes = content.vessels(MILLIMETRES[likely], reorder)
         in_mm = Lines.of((points, radius) for points, radius, _ in vessels)
         lines = Lines(in_mm.points / MILLIMETRES[likely], in_mm.radii / MILLIMETRES[likely])
         place = placement(self.path.name, lines, stated, coordinates, unit, volume)
         if place.unit != likely:
             # Lines are joined by distances in mm.
-            vessels, notes = content.vessels(MILLIMETRES[place.unit])
+            vessels, notes = content.vessels(MILLIMETRES[place.unit], reorder)
         tree = VesselTree([Vessel(points * place.signs, radius, name) for points, radius, name in vessels])
         tree._space_settled = place.space_from == "asked" or place.is_unusual
-        return tree, self._report(tree, stated, place, notes)
+        doubts = line_doubts(tree, beside=True)
+        if not reorder:
+            doubts += worded(content.parted_doubts())
+        return tree, self._report(tree, stated, place, notes, doubts)
 
     def tree(
-        self, coordinates: Coordinates | None = None, unit: Unit | None = None, volume: Any = None
+        self,
+        coordinates: Coordinates | None = None,
+        unit: Unit | None = None,
+        volume: Any = None,
+        *,
+        reorder: bool = False,
     ) -> VesselTree:
         """Give the vessels in world space, and say what was assumed or decided as `read_centerlines` does."""
-        return self.told(coordinates, unit, volume)[0]
+        return self.told(coordinates, unit, volume, reorder=reorder)[0]
 
     def told(
-        self, coordinates: Coordinates | None = None, unit: Unit | None = None, volume: Any = None
+        self,
+        coordinates: Coordinates | None = None,
+        unit: Unit | None = None,
+        volume: Any = None,
+        *,
+        reorder: bool = False,
+        are_lines: bool = True,
     ) -> tuple[VesselTree, CenterlineReport]:
-        """Do as `tree`, and tell how the file was read."""
-        tree, report = self.placed(coordinates, unit, volume)
+        """Do as `tree`, and tell how the file was read; points that are no lines may be in any order."""
+        tree, report = self.placed(coordinates, unit, volume, reorder=reorder)
+        if are_lines:
+            warn_of(report.doubts, self.path.name)
+            settle(tree)
+        for note in report.reordered:
+            _log.warning("%s: %s", self.path, note)
         if report.is_unusual:
             told = report.decision.after(f"{self.path.name}: ")
             warnings.warn(SpaceWarning(told), stacklevel=4)
@@ -154,10 +189,14 @@ class CenterlineFile:
         return tree, report
 
     def beside(
-        self, volume: Volume | None, coordinates: Coordinates | None = None, unit: Unit | None = None
+        self,
+        volume: Volume | None,
+        coordinates: Coordinates | None = None,
+        unit: Unit | None = None,
+        **how: bool,
     ) -> tuple[VesselTree, CenterlineReport]:
         """Do as `told` for the caller's caller, and say where vessels lie wrongly in the volume."""
-        tree, report = self.told(coordinates, unit, volume)
+        tree, report = self.told(coordinates, unit, volume, **how)
         if volume is not None:
             check_space_once(tree, volume, self.path.name, stacklevel=4)
             if fits_nowhere(tree.points, volume):
@@ -166,7 +205,12 @@ class CenterlineFile:
         return tree, report
 
     def _report(
-        self, tree: VesselTree, stated: Stated, place: Placement, notes: list[str]
+        self,
+        tree: VesselTree,
+        stated: Stated,
+        place: Placement,
+        notes: list[str],
+        doubts: list[LineDoubt],
     ) -> CenterlineReport:
         return CenterlineReport(
             format=self._content.format,
@@ -181,7 +225,8 @@ class CenterlineFile:
             radius=all(vessel.radius is not None for vessel in tree),
             decision=place.decision,
             is_unusual=place.is_unusual,
-            notes=tuple(notes),
+            notes=(*notes, *(doubt.text for doubt in doubts)),
+            doubts=tuple(doubts),
         )
 
 

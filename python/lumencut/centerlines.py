@@ -18,6 +18,7 @@ def read_centerlines(
     *,
     unit: Unit | None = None,
     volume: Any = None,
+    reorder: bool = False,
 ) -> VesselTree:
     """Read centerline files, or lines of VTK in memory, as vessels that meet at shared end points (mm, LPS).
 
@@ -46,6 +47,9 @@ def read_centerlines(
         values along the lines decide if at least three times as many points look like lumen in the one space
         as in the other, and at least half of all and twenty of them. What the file states is compared with
         both.
+    reorder : bool, default False
+        Whether the points of each line are put into their order along the vessel, with their radii. A log
+        message says how many points moved.
 
     Raises
     ------
@@ -53,12 +57,16 @@ def read_centerlines(
         Where the file cannot be read.
     FormatError
         Where its content is not what its format promises, or holds no centerline; where several spaces or
-        units fit the volume and its values do not tell which, or none does.
+        units fit the volume and its values do not tell which, or none does; with `reorder` where the order
+        of a line is doubtful and no other is found without doubt.
     VolumeError
         For what is no volume.
 
     Warns
     -----
+    LineWarning
+        Where the points of a line seem to be in another order, a point lies far from all others, a part
+        seems to be missing, or two lines lie side by side in one vessel.
     SpaceWarning
         Where the volume decides against LPS or the usual unit, or the space by its values; where what the
         file states fits the volume clearly worse than another space or unit, which is not repaired. The text
@@ -70,9 +78,9 @@ def read_centerlines(
         files, read = CenterlineFiles(path), []
         # No further function between here and the warnings: they name the line of the caller.
         for file in files:
-            read.append(file.beside(volume, coordinates, unit))  # noqa: PERF401
+            read.append(file.beside(volume, coordinates, unit, reorder=reorder))  # noqa: PERF401
         return files.joined(read)
-    return CenterlineFile(path).beside(volume, coordinates, unit)[0]
+    return CenterlineFile(path).beside(volume, coordinates, unit, reorder=reorder)[0]
 
 
 def inspect_centerlines(
@@ -81,6 +89,7 @@ def inspect_centerlines(
     *,
     unit: Unit | None = None,
     volume: Any = None,
+    reorder: bool = False,
 ) -> CenterlineReport:
     """Tell how `read_centerlines` reads a file, with the same parameters and errors."""
-    return CenterlineFile(path).placed(coordinates, unit, volume)[1]
+    return CenterlineFile(path).placed(coordinates, unit, volume, reorder=reorder)[1]

@@ -112,6 +112,14 @@ class StudyWarning(UserWarning):
     """A chosen study that another scan than the given one may belong to: of another day, part or place."""
 
 
+class LineWarning(UserWarning):
+    """A centerline that is doubtful by itself: its points are in another order, far away, or missing."""
+
+    def written(self, write: Write) -> str:
+        """Return the warning with its options as a host writes them."""
+        return written(self.args[0], write)
+
+
 class SpaceWarning(UserWarning):
     """Coordinates that fit the volume better in another space than the one stated."""
 

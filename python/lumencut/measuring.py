@@ -14,6 +14,7 @@ from lumencut._checks import number
 from lumencut._pickles import by_name
 from lumencut._wall_level import Wall, wall_level
 from lumencut.errors import MeasuringError, SettingsError, VesselTreeError
+from lumencut.line_doubts import check_lines_once
 from lumencut.profile import Profile
 from lumencut.vessel import Vessel
 from lumencut.vessel_tree import VesselTree
@@ -223,3 +224,4 @@ def cross_section(
 def _check_vessel(vessel: Vessel) -> None:
     if not isinstance(vessel, Vessel):
         raise VesselTreeError("vessel to measure", type(vessel).__name__, "a Vessel")
+    check_lines_once([vessel], "vessel to measure")

@@ -10,7 +10,7 @@ from lumencut._pickles import by_name
 
 MendName: TypeAlias = Literal[
     "bridge", "every_second", "cpu", "windows", "threshold", "fewer_pixels", "doubtful", "smaller_radius",
-    "coordinates", "unit", "place",
+    "coordinates", "unit", "place", "reorder",
     "series", "phase", "fill_gaps", "resample_slices", "resample_and_fill",
 ]  # fmt: skip
 
@@ -72,8 +72,9 @@ class Mend:
     ----------
     name : str
         The same on every host: "bridge", "every_second", "cpu", "windows", "threshold", "fewer_pixels",
-        "doubtful" and "smaller_radius" of tracing, devices and volumes; "coordinates", "unit" and "place" of
-        centerlines; "series", "phase", "fill_gaps", "resample_slices" and "resample_and_fill" of DICOM.
+        "doubtful" and "smaller_radius" of tracing, devices and volumes; "coordinates", "unit", "place" and
+        "reorder" of centerlines; "series", "phase", "fill_gaps", "resample_slices" and "resample_and_fill" of
+        DICOM.
     values : tuple of str
         What can be chosen among, such as units or phases; empty where there is nothing to choose.
     """
@@ -130,6 +131,7 @@ WORDS: dict[MendName, Callable[[Sequence[str]], _Parts]] = {
     "coordinates": lambda values: _one_of("coordinates", values),
     "unit": lambda values: _one_of("unit", values),
     "place": _place,
+    "reorder": lambda _: (Option("reorder", value=True), " puts the points of the file in order"),
     "series": lambda _: ("its number or UID as ", Option("series", None, "quoted")),
     "phase": lambda _: ("give the value of the one to read as ", Option("phase", None, "quoted")),
     "fill_gaps": lambda _: ("have them interpolated with ", Option("fill_gaps", value=True)),

@@ -17,6 +17,7 @@ import numpy.typing as npt
 
 from lumencut import _lumencut
 from lumencut.errors import SettingsError, SpaceWarning, VesselTreeError
+from lumencut.line_doubts import check_lines_once
 from lumencut.mends import Mend, Option, Told
 
 if TYPE_CHECKING:
@@ -165,13 +166,14 @@ def check_space_once(
 
 
 def check_meeting(volume: Volume, tree: VesselTree) -> None:
-    """Refuse a tree wholly outside the volume, and for the caller's caller do as `check_space_once`.
+    """Refuse a tree wholly outside the volume, and warn once of doubtful lines and space.
 
     Raises
     ------
     VesselTreeError
         Where no point lies inside the volume.
     """
+    check_lines_once(tree[:])
     points = tree.points
     if not volume.contains(points).any():
         low, high = np.round(tree.bounds, 1).tolist()

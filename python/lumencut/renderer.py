@@ -82,6 +82,10 @@ class Renderer:
             from lumencut.placement import check_meeting
 
             check_meeting(volume, tree)
+        elif tree is not None:
+            from lumencut.line_doubts import check_lines_once
+
+            check_lines_once(tree[:])
         self._volume, self._tree, self._scene = volume, tree, scene
 
     def with_tree(self, tree: VesselTree | None) -> Renderer:

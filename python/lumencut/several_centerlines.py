@@ -9,6 +9,7 @@ from typing import Any
 
 from lumencut.centerline_file import CenterlineFile, CenterlineReport
 from lumencut.errors import FormatError
+from lumencut.line_doubts import LineDoubt, line_doubts, settle, warn_of
 from lumencut.mends import Option, Told
 from lumencut.placement import Coordinates, Unit
 from lumencut.vessel import Vessel
@@ -44,11 +45,16 @@ class CenterlineFiles:
             raise FormatError(str(twice), "a file that is named twice", "each file once")
 
     def tree(
-        self, coordinates: Coordinates | None = None, unit: Unit | None = None, volume: Any = None
+        self,
+        coordinates: Coordinates | None = None,
+        unit: Unit | None = None,
+        volume: Any = None,
+        *,
+        reorder: bool = False,
     ) -> VesselTree:
         """Give the vessels of all files in world space, as `read_centerlines` does."""
         volume = None if volume is None else as_volume(volume)
-        return self.joined([file.beside(volume, coordinates, unit) for file in self._files])
+        return self.joined([file.beside(volume, coordinates, unit, reorder=reorder) for file in self._files])
 
     def __iter__(self) -> Iterator[CenterlineFile]:
         return iter(self._files)
@@ -62,6 +68,10 @@ class CenterlineFiles:
             for vessel in (_called(part, file.path) if named else part)
         )
         tree._space_settled = all(part._space_settled for part, _ in read)
+        settle(tree)
+        owner = [number for number, (part, _) in enumerate(read) for _ in part]
+        across = [doubt for doubt in line_doubts(tree, beside=True) if _is_across(doubt, owner)]
+        warn_of(across, "centerline files")
         return tree
 
     def _compare(self, reports: Sequence[CenterlineReport]) -> None:
@@ -84,6 +94,11 @@ def _called(part: VesselTree, path: Path) -> Iterable[Vessel]:
     name = path.name.removesuffix(path.suffix)
     name = name.removesuffix(".mrk") if path.suffix.lower() == ".json" else name
     return [Vessel(part[0].points, part[0].radius, name)]
+
+
+def _is_across(doubt: LineDoubt, owner: Sequence[int]) -> bool:
+    """Whether a doubt is about vessels of two files."""
+    return doubt.other is not None and owner[doubt.vessel] != owner[doubt.other]
 
 
 def _resolved(paths: Iterable[Path]) -> set[Path]:

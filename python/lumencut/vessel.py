@@ -38,6 +38,9 @@ class Vessel(Value):
         For points or radii of another shape or value.
     """
 
+    #: Whether it was said what is doubtful about its line.
+    _line_settled = False
+
     def __init__(
         self,
         points: npt.ArrayLike,
@@ -83,7 +86,9 @@ class Vessel(Value):
 
     def named(self, name: str | None) -> Vessel:
         """Return the vessel with another name."""
-        return Vessel(self._points, self._radius, name, confidence=self._confidence, bridged=self._bridged)
+        made = Vessel(self._points, self._radius, name, confidence=self._confidence, bridged=self._bridged)
+        made._line_settled = self._line_settled
+        return made
 
     @property
     def length(self) -> float:

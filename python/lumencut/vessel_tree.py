@@ -106,6 +106,7 @@ class VesselTree(Value):
             Vessel(points, vessel.radius, vessel.name, confidence=vessel.confidence, bridged=vessel.bridged)
             for points, vessel in zip(made, self._vessels, strict=True)
         )
+        smoothed._settle_lines_of(self)
         smoothed._space_settled, smoothed._parts = self._space_settled, self._parts
         return smoothed
 
@@ -150,6 +151,7 @@ class VesselTree(Value):
             Vessel(vessel.points, radius, vessel.name, confidence=vessel.confidence, bridged=vessel.bridged)
             for vessel, radius in zip(self._vessels, found, strict=True)
         )
+        measured._settle_lines_of(self)
         measured._space_settled, measured._gaps = self._space_settled, self._gaps
         measured._notes, measured._parts = (*self._notes, *notes), self._parts
         return measured
@@ -216,7 +218,9 @@ class VesselTree(Value):
         lines = [(vessel.points, vessel.radius) for vessel in vessels]
         points, radius = _lumencut.path(lines, [f"vessel {one!r}" for one in wanted])
         names = [vessel.name for vessel in vessels if vessel.name is not None]
-        return Vessel(points, radius, " + ".join(names) if len(names) == len(vessels) else None)
+        path = Vessel(points, radius, " + ".join(names) if len(names) == len(vessels) else None)
+        path._line_settled = all(vessel._line_settled for vessel in vessels)
+        return path
 
     def cut(self, vessel: SupportsIndex | str, at: float) -> VesselTree:
         """Return the tree with a vessel cut in two; both parts have the point where it was cut.
@@ -272,6 +276,11 @@ class VesselTree(Value):
         tree = VesselTree(vessels)
         tree._space_settled = self._space_settled
         return tree
+
+    def _settle_lines_of(self, other: VesselTree) -> None:
+        """Keep in mind which lines were looked at in a tree of the same vessels."""
+        for vessel, same in zip(self._vessels, other._vessels, strict=True):
+            vessel._line_settled = same._line_settled
 
     def _id(self, vessel: SupportsIndex | str) -> int:
         """The id of the one vessel that is meant."""

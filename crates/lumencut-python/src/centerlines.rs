@@ -74,13 +74,13 @@ impl CenterlineFile {
     }
 }
 
-/// What is doubtful about a line: the number of its vessel, a word for programs, what was found, and what mends it.
-type Doubt<'py> = (usize, &'static str, String, Bound<'py, PyAny>);
+/// What is doubtful about a line: the number of its vessel, that of another one beside it, what was found, and what mends it.
+type Doubt<'py> = (usize, Option<usize>, String, Bound<'py, PyAny>);
 
 fn told<'py>(py: Python<'py>, doubts: Vec<LineDoubt>) -> PyResult<Vec<Doubt<'py>>> {
     let told = |doubt: LineDoubt| {
         let advice = if doubt.mend.is_some() { "" } else { doubt.advice };
-        Ok((doubt.vessel, doubt.kind, doubt.found, advised(py, advice, doubt.mend.as_ref())?))
+        Ok((doubt.vessel, doubt.other, doubt.found, advised(py, advice, doubt.mend.as_ref())?))
     };
     doubts.into_iter().map(told).collect()
 }

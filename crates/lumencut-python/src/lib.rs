@@ -138,6 +138,7 @@ fn _lumencut(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(windows::context_window, module)?)?;
     windows::add_presets(module)?;
     module.add_function(wrap_pyfunction!(placement::placement, module)?)?;
+    module.add("REORDERED", lumencut::reordering::REORDERED)?;
     module.add_function(wrap_pyfunction!(centerlines::line_doubts, module)?)?;
     module.add_function(wrap_pyfunction!(placement::better_place, module)?)?;
     module.add_function(wrap_pyfunction!(placement::fits_nowhere, module)?)?;

@@ -34,6 +34,8 @@ pub struct DoubtedLine<'a> {
 pub struct LineDoubt {
     /// The number of the vessel among those that were looked at.
     pub vessel: usize,
+    /// The number of the other vessel where two lie side by side.
+    pub other: Option<usize>,
     /// What it is, in a word for programs: `order`, `gap`, `far` or `beside`.
     pub kind: &'static str,
     /// What was found and what it may mean, in words.
@@ -56,7 +58,8 @@ pub fn order_doubts_of(lines: &[DoubtedLine]) -> Vec<LineDoubt> {
     let mut found = Vec::new();
     for (vessel, line) in lines.iter().enumerate() {
         let doubts = order_doubts(line.points);
-        found.extend(doubts.iter().map(|doubt| order_doubt(vessel, doubt, line)));
+        let called = if lines.len() > 1 { called(vessel, line) } else { called_alone(line) };
+        found.extend(doubts.iter().map(|doubt| order_doubt((vessel, &called), doubt, line)));
     }
     found
 }
@@ -73,6 +76,7 @@ pub fn beside_doubts_of(lines: &[DoubtedLine]) -> Vec<LineDoubt> {
         );
         LineDoubt {
             vessel: first,
+            other: Some(second),
             kind: "beside",
             found: found.replacen("vessel ", "vessels ", 1),
             advice: "leave one of them out",
@@ -87,8 +91,12 @@ fn called(vessel: usize, line: &DoubtedLine) -> String {
     if line.name.is_empty() { format!("vessel {vessel}") } else { format!("vessel {vessel} ({})", line.name) }
 }
 
-fn order_doubt(vessel: usize, doubt: &OrderDoubt, line: &DoubtedLine) -> LineDoubt {
-    let called = &called(vessel, line);
+/// How the only vessel is called.
+fn called_alone(line: &DoubtedLine) -> String {
+    if line.name.is_empty() { "the vessel".to_owned() } else { line.name.to_owned() }
+}
+
+fn order_doubt((vessel, called): (usize, &str), doubt: &OrderDoubt, line: &DoubtedLine) -> LineDoubt {
     let (kind, found, advice, mend) = match doubt {
         OrderDoubt::Disorder(disorder) => {
             let mend = disorder.is_found.then(|| OfCenterlines::Reorder.into());
@@ -103,7 +111,7 @@ fn order_doubt(vessel: usize, doubt: &OrderDoubt, line: &DoubtedLine) -> LineDou
             ("far", strayed(called, points, *distance, line), advice, None)
         }
     };
-    LineDoubt { vessel, kind, found, advice, mend }
+    LineDoubt { vessel, other: None, kind, found, advice, mend }
 }
 
 fn disordered(called: &str, disorder: &Disorder) -> String {

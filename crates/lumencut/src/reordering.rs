@@ -6,6 +6,9 @@ use lumencut_io::{Centerlines, Error, Line, Result};
 use crate::line_doubts::{DoubtedLine, LineDoubt, found_order, order_doubts_of};
 use crate::mends::OfCenterlines;
 
+/// How the note ends that says of a line that its points were moved.
+pub const REORDERED: &str = "points were put in another order";
+
 /// The lines of a file with their points in the order along the vessel; radii keep to their points, and each line keeps the
 /// direction that is nearest to the given order. A note says how many points were moved.
 ///
@@ -23,9 +26,7 @@ pub fn in_order(mut lines: Centerlines) -> Result<Centerlines> {
                 if moved > 0 {
                     let called = line.name.clone().unwrap_or_else(|| format!("line {number}"));
                     let count = order.len();
-                    lines
-                        .notes
-                        .push(format!("{called}: {moved} of {count} points were put in another order"));
+                    lines.notes.push(format!("{called}: {moved} of {count} {REORDERED}"));
                 }
                 lines.lines.push(sorted(line, &order));
             }
@@ -45,6 +46,7 @@ pub fn parted_doubt(lines: &Centerlines) -> Option<LineDoubt> {
     let parts = lines.lines.len() - joined.len() + 1;
     Some(LineDoubt {
         vessel,
+        other: None,
         kind: "order",
         found: format!(
             "a list of points was parted into {parts} lines at long steps: perhaps it is one line in another order"
@@ -118,9 +120,8 @@ fn refuse_doubtful(number: usize, line: &Line) -> Result<()> {
     let Some(doubt) = doubt else { return Ok(()) };
     let subject =
         if name.is_empty() { format!("points of line {number}") } else { format!("points of {name}") };
-    let found = doubt.found.split_once(": ").map_or(doubt.found.as_str(), |(_, found)| found);
     let expected = "points of which each is nearest to its neighbours along one line";
-    let error = Error::new(subject, format!("no order without doubt: {found}"), expected);
+    let error = Error::new(subject, format!("no order without doubt: {}", doubt.found), expected);
     Err(error.mend(doubt.advice))
 }
 

@@ -44,18 +44,20 @@ def best(
     coordinates: Literal["lps", "ras"] | None,
     unit: Literal["um", "mm", "cm", "dm", "m"] | None,
     volumes: Sequence[dict[str, Any]],
+    *,
+    reorder: bool = False,
 ) -> Place:
     """Place a file by the volume into which it brings the most points, the first one of several alike."""
     if not volumes:
-        return Place(*file.placed(coordinates, unit))
+        return Place(*file.placed(coordinates, unit, reorder=reorder))
     places: list[Place] = []
     counts: list[tuple[int, int]] = []
     for volume in volumes:
         grid, undecided = volume["_volume"], []
         try:
-            tree, report = file.placed(coordinates, unit, grid)
+            tree, report = file.placed(coordinates, unit, grid, reorder=reorder)
         except FormatError as error:
-            tree, report = file.placed(coordinates, unit)
+            tree, report = file.placed(coordinates, unit, reorder=reorder)
             undecided = [f"{one_line(error.found)}; {one_line(error.mend)}"]
         places.append(Place(tree, report, volume["file"], tuple(undecided)))
         counts.append(_counts(tree, grid))

@@ -73,12 +73,14 @@ def of_centerlines(
     coordinates: Literal["lps", "ras"] | None,
     unit: Literal["um", "mm", "cm", "dm", "m"] | None,
     volumes: list[dict[str, Any]],
+    *,
+    reorder: bool = False,
 ) -> dict[str, Any]:
     """Look into a centerline file; the volume that it fits best decides what it leaves open."""
     from lumencut.centerline_file import CenterlineFile
 
     file = CenterlineFile(path)
-    place = best(file, coordinates, unit, volumes)
+    place = best(file, coordinates, unit, volumes, reorder=reorder)
     tree, report = place.tree, place.report
     lengths, radii = [vessel.length for vessel in tree], [vessel.radius for vessel in tree]
     known = [float(value) for radius in radii if radius is not None for value in (radius.min(), radius.max())]
@@ -101,7 +103,7 @@ def of_centerlines(
         "largest_shift": _largest_shift(tree),
         "judged_by": place.judge,
         "decisions": [one_line(text) for text in (place.choice, report.decision) if text],
-        "notes": [*place.undecided, *report.notes, *_odd_tree(tree)],
+        "notes": [*place.undecided, *map(one_line, report.notes), *_odd_tree(tree)],
         "_tree": tree,
     }
 
@@ -164,9 +166,6 @@ def _odd_tree(tree: VesselTree) -> list[str]:
     zero = sum(int((vessel.radius == 0).sum()) for vessel in tree if vessel.radius is not None)
     if zero:
         notes.append(f"{zero} points have radius 0: {taken}")
-    steps = np.concatenate([np.linalg.norm(np.diff(vessel.points, axis=0), axis=1) for vessel in tree])
-    if steps.max() > 10 * max(float(np.median(steps)), 1.0):
-        notes.append(f"a gap of {steps.max():.1f} mm between neighbouring points")
     return notes
 
 

@@ -14,6 +14,7 @@ from lumencut.cli.options import (
     coordinates_option,
     fill_gaps_option,
     phase_option,
+    reorder_option,
     resample_slices_option,
     series_option,
     unit_option,
@@ -32,6 +33,7 @@ _ONLY_IN_JSON |= {"kind", "error"}
 @click.argument("files", type=FILE, nargs=-1, metavar="FILE…")
 @coordinates_option
 @unit_option
+@reorder_option
 @series_option
 @phase_option
 @fill_gaps_option
@@ -45,6 +47,7 @@ def info(
     files: tuple[Path, ...],
     coordinates: Literal["lps", "ras"] | None,
     unit: Literal["um", "mm", "cm", "dm", "m"] | None,
+    reorder: bool,
     series: str | None,
     phase: str | None,
     fill_gaps: bool,
@@ -69,7 +72,7 @@ def info(
         volumes = [one for one in found.values() if one["kind"] == "volume"]
         try:
             if _holds_centerlines(path):
-                found[path] = findings.of_centerlines(path, coordinates, unit, volumes)
+                found[path] = findings.of_centerlines(path, coordinates, unit, volumes, reorder=reorder)
             else:
                 found[path] = findings.of_volume(
                     path, series=series, phase=phase, fill_gaps=fill_gaps, resample_slices=resample_slices

@@ -61,7 +61,7 @@ def check_reading(chosen: dict[str, Any], volumes: Iterable[Path], *, has_center
         _refuse(chosen, _DICOM, f"{why}: it is for DICOM series", "leave it out")
     if not has_centerlines:
         why = "without CENTERLINES; it says how they are to be understood"
-        _refuse(chosen, ("coordinates", "unit"), why, "name their file, or leave it out")
+        _refuse(chosen, ("coordinates", "unit", "reorder"), why, "name their file, or leave it out")
         _refuse(chosen, _VESSELS, "without CENTERLINES", "name their file, or leave it out")
 
 

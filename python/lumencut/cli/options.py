@@ -76,6 +76,11 @@ unit_option = click.option(
     help="Unit of the centerline file; default: the one it states, else the one that fits the volume, "
     "first of all that of its format (.pth cm, others mm).",
 )
+reorder_option = click.option(
+    "--reorder",
+    is_flag=True,
+    help="Put the points of each centerline into their order along the vessel; refused where it is in doubt.",
+)
 
 
 #: What computes.
@@ -149,6 +154,7 @@ def file_options(command: Command) -> Command:
     parts = (
         coordinates_option,
         unit_option,
+        reorder_option,
         series_option,
         phase_option,
         fill_gaps_option,

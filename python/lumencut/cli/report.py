@@ -14,7 +14,7 @@ from typing import NoReturn
 import click
 
 from lumencut.cli.signals import EndedError, ended_by_signals
-from lumencut.errors import DeviceWarning, LumencutError, SpaceWarning, StudyWarning
+from lumencut.errors import DeviceWarning, LineWarning, LumencutError, SpaceWarning, StudyWarning
 from lumencut.mends import Told, as_option, written
 
 #: Exit codes beside 0 and click's 2 for wrong usage.
@@ -129,7 +129,7 @@ def _shown_once() -> Callable[..., None]:
 
     def show(message: Warning | str, category: type[Warning], *_: object) -> None:
         words = str(message)
-        if not issubclass(category, (DeviceWarning, SpaceWarning, StudyWarning)):
+        if not issubclass(category, (DeviceWarning, LineWarning, SpaceWarning, StudyWarning)):
             detail(f"{category.__name__}: {message}")
         elif words not in told:
             warn(message)

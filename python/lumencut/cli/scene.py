@@ -38,6 +38,7 @@ class SceneFiles:
     centerlines: tuple[Path, ...]
     coordinates: Literal["lps", "ras"] | None
     unit: Literal["um", "mm", "cm", "dm", "m"] | None
+    reorder: bool
     series: str | None
     phase: str | None
     fill_gaps: bool
@@ -85,7 +86,7 @@ def read_files(files: SceneFiles, chosen: dict[str, Any]) -> tuple[Volume | None
     # The small files first: what is wrong with them shows before gigabytes are read.
     lines = centerlines_of(files.centerlines)
     voxels = None if files.volume is None else _read_volume(files.volume, files)
-    tree = None if lines is None else lines.tree(files.coordinates, files.unit, voxels)
+    tree = None if lines is None else lines.tree(files.coordinates, files.unit, voxels, reorder=files.reorder)
     if voxels is not None and found_by(chosen) is not None:
         tree = shown_vessels(chosen, voxels)
     check_radii(chosen, tree)

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from lumencut.centerline_file import CenterlineFile
 from lumencut.centerlines import read_centerlines
 from lumencut.cohort.manifest import Study
 from lumencut.cohort.recipe import Centerlines, Reading
@@ -116,7 +117,7 @@ def places_of(study: Study, volume: Volume | None = None) -> _Points:
         For a text that is no such points.
     """
     if not study.given_as_text:
-        return read_centerlines(study.given, volume=volume).points
+        return CenterlineFile(study.given).beside(volume, are_lines=False)[0].points
     try:
         written = [place for place in study.given.split(";") if place.strip()]
         return np.array([[float(x) for x in place.split(",")] for place in written]).reshape(-1, 3)

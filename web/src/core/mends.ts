@@ -13,6 +13,7 @@ export const MEND_NAMES = [
   'coordinates',
   'unit',
   'place',
+  'reorder',
   'series',
   'phase',
   'fill_gaps',
@@ -44,6 +45,7 @@ const WORDS: Record<MendName, (mend: Mend) => string> = {
   coordinates: (mend) => `choose the space of its coordinates, ${spaces(mend)}`,
   unit: ({ values }) => `choose the unit of its coordinates, ${values.join(' or ')}`,
   place: (mend) => `choose the space of its coordinates, ${spaces(mend)}, if it belongs to this scan`,
+  reorder: () => 'put the points of the file in order',
   series: () => 'choose one of the series',
   phase: ({ values }) =>
     values.length > 0 ? 'choose one of the phases' : 'read one phase by the Python package',

@@ -30,6 +30,8 @@ export interface SeriesWish {
   readonly coordinates?: string;
   /** The unit of centerlines. */
   readonly unit?: string;
+  /** Whether the points of centerlines are put into their order. */
+  readonly reorder?: boolean;
   /** Every second voxel along each axis alone: where there is no memory for all of them. */
   readonly every_second?: boolean;
 }

@@ -25,6 +25,7 @@ const BUTTONS: Record<MendName, (mend: Mend) => readonly Button[]> = {
   coordinates: spaces,
   unit: ({ values }) => values.map((unit) => [`Read in ${unit}`, { unit }]),
   place: spaces,
+  reorder: () => [['Put the points in order', { reorder: true }]],
   series: NONE,
   phase: ({ values }) => values.map((phase) => [`Read the phase ${phase}`, { phase }]),
   fill_gaps: () => [['Interpolate the missing slices', { fill_gaps: true }]],

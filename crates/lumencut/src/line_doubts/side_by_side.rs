@@ -14,6 +14,8 @@ const NEAR: f64 = 0.5;
 const NEAR_PART: f64 = 0.5;
 /// Lines are looked at every so many mm.
 const STEP: f64 = 1.0;
+/// Spots in a chord of a stretch.
+const CHORD: usize = 5;
 /// And at so many places at most, in all.
 const MOST_PLACES: f64 = 200_000.0;
 /// A stretch side by side is at least so long (mm) …
@@ -35,7 +37,6 @@ pub(super) fn side_by_side(lines: &[DoubtedLine]) -> Vec<(usize, usize, f64)> {
     }
     let (points, spots, step) = spots(lines);
     let nearby = Nearby::new(&points);
-    // For each pair the stretch under way and the longest one: where it begins and ends, and the mean radius.
     let mut runs: BTreeMap<(usize, usize), Runs> = BTreeMap::new();
     for (n, spot) in spots.iter().enumerate() {
         let mut others: Vec<(usize, f64)> = Vec::new();
@@ -54,10 +55,11 @@ pub(super) fn side_by_side(lines: &[DoubtedLine]) -> Vec<(usize, usize, f64)> {
             true
         });
         for (other, radius) in others {
-            runs.entry((spot.vessel, other)).or_default().add(spot.along, radius, 1.5 * step);
+            runs.entry((spot.vessel, other)).or_default().add(n, radius);
         }
     }
-    let long = runs.into_iter().filter_map(|((a, b), runs)| Some((a.min(b), a.max(b), runs.longest()?)));
+    let longest = |runs: &Runs| runs.longest(&points);
+    let long = runs.iter().filter_map(|((a, b), runs)| Some((*a.min(b), *a.max(b), longest(runs)?)));
     let mut pairs: BTreeMap<(usize, usize), f64> = BTreeMap::new();
     for (a, b, length) in long {
         let most = pairs.entry((a, b)).or_default();
@@ -69,24 +71,30 @@ pub(super) fn side_by_side(lines: &[DoubtedLine]) -> Vec<(usize, usize, f64)> {
 /// Stretches of a vessel beside another one.
 #[derive(Default)]
 struct Runs {
-    /// Begin, end and largest radius of each.
-    found: Vec<[f64; 3]>,
+    /// The first and the last spot of each, and its largest radius.
+    found: Vec<(usize, usize, f64)>,
 }
 
 impl Runs {
-    fn add(&mut self, along: f64, radius: f64, gap: f64) {
+    fn add(&mut self, spot: usize, radius: f64) {
         match self.found.last_mut() {
-            Some(last) if along - last[1] <= gap => *last = [last[0], along, last[2].max(radius)],
-            _ => self.found.push([along, along, radius]),
+            Some((_, end, largest)) if spot - *end <= 2 => (*end, *largest) = (spot, largest.max(radius)),
+            _ => self.found.push((spot, spot, radius)),
         }
     }
 
     /// The length of the longest one that is long enough.
-    fn longest(&self) -> Option<f64> {
-        let lengths = self.found.iter().map(|[from, to, radius]| (to - from, radius));
+    fn longest(&self, points: &[DVec3]) -> Option<f64> {
+        let lengths = self.found.iter().map(|(from, to, radius)| (length(&points[*from..=*to]), radius));
         let long = lengths.filter(|(length, radius)| *length >= SHORTEST.max(SHORTEST_RADII * **radius));
         long.map(|(length, _)| length).max_by(f64::total_cmp)
     }
+}
+
+/// The length of a stretch by chords, which noise does not lengthen.
+fn length(points: &[DVec3]) -> f64 {
+    let corners: Vec<DVec3> = points.iter().step_by(CHORD).chain(points.last()).copied().collect();
+    corners.windows(2).map(|pair| pair[0].distance(pair[1])).sum()
 }
 
 /// Places along all vessels, and how far they are apart.

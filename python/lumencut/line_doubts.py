@@ -1,0 +1,77 @@
+"""What is doubtful about lines, said once for each vessel: their order, points far away, missing parts."""
+
+from __future__ import annotations
+
+import sys
+import warnings
+from collections.abc import Iterable, Sequence
+from typing import Any, NamedTuple
+
+from lumencut import _lumencut
+from lumencut.errors import LineWarning
+from lumencut.mends import Told
+from lumencut.vessel import Vessel
+
+
+class LineDoubt(NamedTuple):
+    """A doubt about a vessel.
+
+    Attributes
+    ----------
+    vessel : int
+        Its id among the vessels that were looked at.
+    other : int or None
+        The id of the other vessel where two lie side by side.
+    text : Told
+        What was found, and what mends it.
+    """
+
+    vessel: int
+    other: int | None
+    text: Told
+
+
+def line_doubts(vessels: Iterable[Vessel], *, beside: bool = False) -> list[LineDoubt]:
+    """Return what is doubtful about the order of points; with `beside` also vessels side by side."""
+    arrays = [((vessel.points, vessel.radius), vessel.name) for vessel in vessels]
+    return worded(_lumencut.line_doubts(arrays, beside))
+
+
+def worded(doubts: Iterable[tuple[int, int | None, str, Any]]) -> list[LineDoubt]:
+    """Return doubts of the facade with their mends in words."""
+    return [LineDoubt(vessel, other, mend.after(f"{found}; ")) for vessel, other, found, mend in doubts]
+
+
+def check_lines_once(vessels: Sequence[Vessel], subject: str = "vessel tree") -> None:
+    """Warn of doubts about the order of points, unless that was done before.
+
+    Warns
+    -----
+    LineWarning
+        For each doubt about a vessel that was not looked at before.
+    """
+    if all(vessel._line_settled for vessel in vessels):
+        return
+    new = [number for number, vessel in enumerate(vessels) if not vessel._line_settled]
+    warn_of([doubt for doubt in line_doubts(vessels) if doubt.vessel in new], subject)
+    settle(vessels)
+
+
+def warn_of(doubts: Iterable[LineDoubt], subject: str) -> None:
+    """Warn whoever called the package of doubts."""
+    for doubt in doubts:
+        warnings.warn(LineWarning(doubt.text.after(f"{subject}: ")), stacklevel=_level_outside())
+
+
+def _level_outside() -> int:
+    """Count the frames up to the first one outside of the package, as `warnings.warn` does for its caller."""
+    level, frame = 1, sys._getframe(1)
+    while frame.f_back is not None and frame.f_globals.get("__name__", "").partition(".")[0] == "lumencut":
+        level, frame = level + 1, frame.f_back
+    return level
+
+
+def settle(vessels: Iterable[Vessel]) -> None:
+    """Keep in mind that the lines of vessels were looked at."""
+    for vessel in vessels:
+        vessel._line_settled = True
