@@ -1,9 +1,8 @@
-"""The segments that 3D Slicer describes in the header of a ``.seg.nrrd``, and the label map that they make."""
+"""The segments that 3D Slicer describes in the header of a ``.seg.nrrd``, and their label map."""
 
 from __future__ import annotations
 
 import re
-from collections import Counter
 from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -13,8 +12,8 @@ import numpy as np
 import numpy.typing as npt
 
 from lumencut.errors import FormatError
-from lumencut.volume_files.opened import decoded, printable
-from lumencut.volume_files.rescale import slabs
+from lumencut.volume_files.opened import Filled, Progress, VolumeFile, decoded, printable, unfollowed
+from lumencut.volume_files.overlaps import Overlaps, put, refuse_overlaps
 from lumencut.volume_files.room import require_memory
 
 _FIELD = re.compile(r"Segment(\d{1,6})_(ID|Name|LabelValue|Layer):=(.*)")
@@ -33,6 +32,61 @@ class Segment:
 
     def __str__(self) -> str:
         return f"{self.number} {self.name}"
+
+
+def has_segments(lines: Iterable[bytes]) -> bool:
+    """Tell whether a header describes segments."""
+    return any(_FIELD.fullmatch(decoded(line).strip()) for line in lines)
+
+
+def no_segmentation(path: Path) -> FormatError:
+    """Return the error for segments that are asked of something else."""
+    expected = "a segmentation (DICOM SEG, or .seg.nrrd of 3D Slicer), of which segments are read"
+    return FormatError(str(path), "no segmentation", expected, "leave segments out")
+
+
+def segmentation_file(
+    file: VolumeFile,
+    segments: Sequence[Segment],
+    stored: tuple[int, int | None],
+    numbers: Collection[int] | None,
+) -> VolumeFile:
+    """Return a file as the label map that its segments make.
+
+    Parameters
+    ----------
+    file : VolumeFile
+        The file, which loads the stored values.
+    segments : sequence of Segment
+        The segments that it describes.
+    stored : int, int or None
+        How many layers there are, and the axis of the stored array along which they lie.
+    numbers : collection of int, optional
+        The numbers of the segments that are read; by default all.
+    """
+    layers, along = stored
+    wanted = chosen_segments(file.path, segments, layers, numbers)
+    is_as_stored = layers == 1 and numbers is None and all(one.number == one.value for one in segments)
+    dtype = file.dtype if is_as_stored else label_type(segments)
+
+    def load(progress: Progress, filled: Filled) -> npt.NDArray[Any]:
+        values = file.load(progress, filled if is_as_stored else unfollowed)
+        if is_as_stored:
+            return values
+        by_layer = values[..., None] if along is None else np.moveaxis(values, along, -1)
+        return label_map(file.path, by_layer, wanted, dtype)
+
+    names = {segment.number: segment.name for segment in segments}
+    details = {
+        "segmentation": "1 layer" if layers == 1 else f"{layers} layers",
+        "segments": "; ".join(map(str, segments)),
+    }
+    if any(segment.number != segment.value for segment in segments):
+        file.remarks.append("several segments share a label: segments are numbered from 1")
+    return replace(
+        file, load=load, details=details, settled_type=dtype.newbyteorder("="), label_names=names,
+        is_segmentation=True,
+    )  # fmt: skip
 
 
 def segments_of(lines: Iterable[bytes], layers: int) -> tuple[Segment, ...]:
@@ -75,7 +129,7 @@ def chosen_segments(
     Raises
     ------
     FormatError
-        For a number of no segment, and for segments that cannot be: in a layer that is not there, or of value 0.
+        For a number of no segment, a layer that the file does not have, and the label 0.
     """
     known = ", ".join(map(str, segments)) or "none"
     for number in numbers or ():
@@ -92,7 +146,7 @@ def chosen_segments(
 
 
 def label_map(
-    path: Path, layers: npt.NDArray[Any], segments: Sequence[Segment], *, has_others: bool
+    path: Path, layers: npt.NDArray[Any], segments: Sequence[Segment], dtype: np.dtype[Any]
 ) -> npt.NDArray[Any]:
     """Return the numbers of segments as labels [k, j, i].
 
@@ -104,49 +158,24 @@ def label_map(
         The values of each layer.
     segments : sequence of Segment
         Those that are read.
-    has_others : bool
-        Keep values of the only layer that no segment has.
+    dtype : numpy.dtype
+        The type of the labels.
 
     Raises
     ------
     FormatError
         For segments that overlap.
     """
-    most = max((segment.number for segment in segments), default=0)
-    dtype = np.dtype(np.uint8 if most <= np.iinfo(np.uint8).max else np.uint16)
-    dtype = layers.dtype if has_others else dtype
     require_memory(path, layers[..., 0].size * dtype.itemsize)
-    labels = layers[..., 0].copy() if has_others else np.zeros(layers.shape[:3], dtype)
-    if has_others:
-        return labels
-    overlaps: Counter[tuple[int, int]] = Counter()
-    for slab, target in zip(slabs(layers), slabs(labels), strict=True):
-        _place(slab, target, segments, overlaps)
-    if overlaps:
-        raise _overlapping(path, segments, overlaps)
+    labels, overlaps = np.zeros(layers.shape[:3], dtype), Overlaps()
+    for slice_, target in zip(layers, labels, strict=True):
+        for segment in segments:
+            put(target, slice_[..., segment.layer] == segment.value, segment.number, overlaps)
+    refuse_overlaps(path, {segment.number: segment.name for segment in segments}, overlaps)
     return labels
 
 
-def _place(
-    layers: npt.NDArray[Any],
-    labels: npt.NDArray[Any],
-    segments: Sequence[Segment],
-    overlaps: Counter[tuple[int, int]],
-) -> None:
-    for segment in segments:
-        inside = layers[..., segment.layer] == segment.value
-        for other, count in zip(*np.unique(labels[inside], return_counts=True), strict=True):
-            if other:
-                overlaps[int(other), segment.number] += int(count)
-        labels[inside] = segment.number
-
-
-def _overlapping(
-    path: Path, segments: Sequence[Segment], overlaps: Counter[tuple[int, int]]
-) -> FormatError:
-    named = {segment.number: segment for segment in segments}
-    (one, other), count = overlaps.most_common(1)[0]
-    more = f" and {len(overlaps) - 1} more pairs" if len(overlaps) > 1 else ""
-    found = f"segments that overlap: {named[one]} and {named[other]} in {count} voxels{more}"
-    mend = "choose segments that do not, by segments=(1,) of read_volume or --label of lumencut trace"
-    return FormatError(str(path), found, "at most one segment in each voxel", mend)
+def label_type(segments: Sequence[Segment]) -> np.dtype[Any]:
+    """Return the type that holds the numbers of segments."""
+    most = max((segment.number for segment in segments), default=0)
+    return np.dtype(np.uint8 if most <= np.iinfo(np.uint8).max else np.uint16)
