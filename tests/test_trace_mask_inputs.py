@@ -136,7 +136,7 @@ def test_the_volume_must_have_the_grid_of_the_mask(tube):
     ):
         assert trace_mask(tube, volume) == expected
     for volume, message in (
-        (Volume(tube.array[1:]), "60 × 30 × 29 as the volume has"),
+        (Volume(tube.array[1:]), "beyond the volume; expected voxels among the 60 × 30 × 29"),
         (Volume(tube.array, origin=(0.2, 0, 0)), "corners lie up to 0.2 mm"),
         (Volume(tube.array, spacing=(1, 1, 1.01)), "corners lie up to 0.295 mm"),
     ):

@@ -130,6 +130,7 @@ __all__ = [
     "parts",
     "path",
     "picture",
+    "place_mask",
     "placement",
     "positions",
     "profile_csv",
@@ -634,6 +635,9 @@ def trace_from(
     smallest_radius: float,
     told: Callable[[int, int], object] | None = None,
 ) -> _FoundParts: ...
+def place_mask(
+    mask: tuple[list[int], list[list[float]]], volume: tuple[list[int], list[list[float]]], always: bool
+) -> tuple[list[int], list[bool], list[int], str] | None: ...
 def trace_mask(
     mask: Any,
     volume: Any | None,

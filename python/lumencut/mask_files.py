@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from lumencut.volume import Volume
 from lumencut.volume_files import log_oddities, open_volume
-from lumencut.volume_files.label_names import chosen_labels, read_label_names
+from lumencut.volume_files.label_names import chosen_labels
 from lumencut.volume_files.opened import Progress, VolumeFile
 
 
@@ -19,7 +19,7 @@ class MaskFile:
     Attributes
     ----------
     file : VolumeFile
-        The file; of a segmentation of DICOM no more than the chosen segments are read.
+        The file; of a segmentation no more than the chosen segments are read.
     labels : dict of int to str, or None
         The labels that are lumen, with their names; None for every value but 0.
     """
@@ -61,7 +61,7 @@ def open_mask(path: str | os.PathLike[str], words: Iterable[str] = ()) -> MaskFi
         For a file that is missing or cannot be read.
     """
     file = open_volume(path)
-    known = file.label_names or read_label_names(path)
+    known = file.label_names
     labels = chosen_labels(words, known)
     if labels and file.is_segmentation:
         file = open_volume(path, segments=labels)

@@ -1,17 +1,18 @@
-"""A segmentation of DICOM on the grid of its scan, of which it may hold a part of the slices alone."""
+"""A mask on the grid of its scan, of which it may hold a part of the voxels alone."""
 
 from __future__ import annotations
 
-from typing import Protocol
+from dataclasses import dataclass
+from typing import Any, Protocol
 
 import numpy as np
 import numpy.typing as npt
 
+from lumencut import _lumencut
 from lumencut.errors import VolumeError
 from lumencut.volume import Volume
+from lumencut.volume_files.room import require_memory
 
-_OFF_GRID = 0.1
-"""Voxels may lie beside those of the scan by this part of a voxel."""
 _ANOTHER = "take the segmentation that was made on this scan, or write it on the grid of this scan"
 
 
@@ -31,8 +32,30 @@ class Grid(Protocol):
         """The UID of the space of DICOM; empty where none is stated."""
 
 
+@dataclass(frozen=True)
+class MaskPlace:
+    """The voxels of a mask among those of its scan.
+
+    Attributes
+    ----------
+    axes : tuple of 3 int
+        For each axis i, j, k of the mask that of the scan.
+    forward : tuple of 3 bool
+        For each axis of the scan whether that of the mask runs the same way.
+    low : tuple of 3 int
+        The least index of the mask along each axis of the scan.
+    note : str
+        What is told of a mask that holds a part of the scan.
+    """
+
+    axes: tuple[int, int, int]
+    forward: tuple[bool, bool, bool]
+    low: tuple[int, int, int]
+    note: str
+
+
 def on_grid_of(mask: Volume, volume: Grid) -> Volume:
-    """Return a mask on the grid of its scan; one that is no segmentation of DICOM is returned as it is.
+    """Return a mask on the grid of its scan.
 
     Parameters
     ----------
@@ -41,42 +64,51 @@ def on_grid_of(mask: Volume, volume: Grid) -> Volume:
     volume : Volume, or what has its grid
         The scan; its voxels beside the mask become 0.
 
+    Returns
+    -------
+    Volume
+        The mask itself where it has the grid of the scan and is no segmentation.
+
     Raises
     ------
     VolumeError
         As :func:`place_within` does.
+    FormatError
+        Where the memory is too small.
     """
-    if not mask._is_segmentation:
-        return mask
-    axes, signs, low = place_within(mask, volume)
+    place = place_within(mask, volume, always=mask._is_segmentation)
+    return mask if place is None else placed(mask, volume, place)
+
+
+def placed(mask: Volume, volume: Grid, place: MaskPlace) -> Volume:
+    """Return a mask at its place on the grid of its scan, 0 elsewhere."""
+    require_memory("mask", int(np.prod(volume.size)) * mask.dtype.itemsize)
     # Arrays have their axes in the order k, j, i.
-    turned = mask.array.transpose([2 - axes.index(axis) for axis in (2, 1, 0)])
-    turned = turned[tuple(slice(None, None, signs[axis]) for axis in (2, 1, 0))]
+    turned = mask.array.transpose([2 - place.axes.index(axis) for axis in (2, 1, 0)])
+    turned = turned[tuple(slice(None, None, 1 if place.forward[axis] else -1) for axis in (2, 1, 0))]
     whole = np.zeros(volume.size[::-1], turned.dtype)
-    starts = zip(reversed(low), turned.shape, strict=True)
+    starts = zip(reversed(place.low), turned.shape, strict=True)
     whole[tuple(slice(start, start + length) for start, length in starts)] = turned
-    placed = Volume(whole, world_from_index=volume.world_from_index)
-    placed._frame_of_reference, placed._is_segmentation = mask.frame_of_reference, True
-    placed._label_names = mask._label_names
-    return placed
+    made = Volume(whole, world_from_index=volume.world_from_index)
+    made._frame_of_reference, made._is_segmentation = mask.frame_of_reference, mask._is_segmentation
+    made._label_names = mask._label_names
+    return made
 
 
-def place_within(mask: Grid, volume: Grid) -> tuple[list[int], list[int], list[int]]:
+def place_within(mask: Grid, volume: Grid, *, always: bool) -> MaskPlace | None:
     """Find the voxels of a mask among those of its scan.
 
     Parameters
     ----------
     mask, volume : Volume or VolumeFile
         The mask and the scan.
+    always : bool
+        Find them also where the mask has the grid of the scan.
 
     Returns
     -------
-    axes : list of 3 int
-        For each axis i, j, k of the mask that of the scan.
-    signs : list of 3 int
-        For each axis of the scan 1, or -1 where that of the mask runs against it.
-    low : list of 3 int
-        The least index of the mask along each axis of the scan.
+    MaskPlace or None
+        None where the mask has the grid of the scan, whose axes may be stored in another order or direction.
 
     Raises
     ------
@@ -88,29 +120,13 @@ def place_within(mask: Grid, volume: Grid) -> tuple[list[int], list[int], list[i
     if stated and expected and stated != expected:
         found = f"a segmentation in the frame of reference {stated}"
         raise VolumeError("mask", found, f"that of the volume, {expected}", _ANOTHER)
-    step = np.linalg.inv(volume.world_from_index) @ mask.world_from_index
-    whole = np.rint(step)
-    drift = np.abs(step - whole)
-    drift[:3, :3] *= np.maximum(np.asarray(mask.size) - 1, 1)
-    turns = whole[:3, :3].astype(np.int64)
-    if drift[:3].max() > _OFF_GRID or not np.array_equal(np.abs(turns) @ np.abs(turns).T, np.eye(3)):
-        found = f"a segmentation whose voxels of {_millimetres(mask)} mm are none of the volume"
-        raise VolumeError("mask", found, f"voxels of the volume, {_millimetres(volume)} mm", _ANOTHER)
-    axes = [int(np.abs(turns[:, axis]).argmax()) for axis in range(3)]
-    signs = [int(turns[axis].sum()) for axis in range(3)]
-    lengths = [mask.size[axes.index(axis)] for axis in range(3)]
-    first = whole[:3, 3].astype(np.int64).tolist()
-    low = [f if sign > 0 else f - n + 1 for f, sign, n in zip(first, signs, lengths, strict=True)]
-    ends = [start + length for start, length in zip(low, lengths, strict=True)]
-    if min(low) < 0 or any(end > most for end, most in zip(ends, volume.size, strict=True)):
-        found = f"a segmentation of {_times(mask)} voxels that reaches beyond the volume"
-        raise VolumeError("mask", found, f"voxels among the {_times(volume)} of the volume", _ANOTHER)
-    return axes, signs, low
+    found_place = _lumencut.place_mask(_parts(mask), _parts(volume), always)
+    return None if found_place is None else MaskPlace(*map(_tupled, found_place))
 
 
-def _times(grid: Grid) -> str:
-    return " × ".join(map(str, grid.size))
+def _parts(grid: Grid) -> Any:
+    return list(grid.size), grid.world_from_index[:3].tolist()
 
 
-def _millimetres(grid: Grid) -> str:
-    return " × ".join(f"{length:.4g}" for length in np.linalg.norm(grid.world_from_index[:3, :3], axis=0))
+def _tupled(part: Any) -> Any:
+    return tuple(part) if isinstance(part, list) else part

@@ -10,7 +10,7 @@ import numpy as np
 from lumencut import _lumencut
 from lumencut._checks import integers, number
 from lumencut.errors import SettingsError
-from lumencut.mask_grid import on_grid_of
+from lumencut.mask_grid import place_within, placed
 from lumencut.vessel import Vessel
 from lumencut.vessel_gap import Gap
 from lumencut.vessel_tree import VesselTree
@@ -53,14 +53,13 @@ def trace_mask(
     mask : Volume, or an image that :func:`lumencut.render` takes as a volume
         Whole numbers: 0 is background.
     volume : Volume or such an image, optional
-        The angiography of the mask, with lumen brighter than the tissue around it. Its grid must be that of
-        the mask: corners may differ by a tenth of a voxel, and axes may be stored in another order or
-        direction. A segmentation of DICOM may hold a part of the slices of its scan.
+        The angiography of the mask, with lumen brighter than the tissue around it. The voxels of the mask
+        must be voxels of it, to a tenth of a voxel: all or a part, in any order and direction of the axes.
     labels : mapping of int to str, or iterable of int, optional
         Which values are lumen. With a mapping vessels get its names, such as ``{52: "aorta"}``. Without it
         every value but 0 is lumen, and vessels are named ``"label 52"`` where there are several values, or as
-        a segmentation of DICOM names its segments. A vessel with several labels is parted where one ends and
-        the other begins.
+        the file of the mask names its segments or labels. A vessel with several labels is parted where one
+        ends and the other begins.
     shortest_branch : float, default 2
         How long a branch must be to stay, from the centerline of its parent to its cap, in radii of the
         parent. A branch that reaches four of its own radii beyond the parent's wall stays too.
@@ -80,8 +79,8 @@ def trace_mask(
     ------
     VolumeError
         For a mask that has no lumen or no background, holds floats that are no whole numbers, is a single
-        slice, is nowhere longer than wide, or lies on another grid than the volume or in another frame of
-        reference.
+        slice, is nowhere longer than wide, has voxels that are none of the volume, or lies in another frame
+        of reference.
     SettingsError
         For labels, a shortest branch or a bridge of another kind.
     KeyboardInterrupt
@@ -90,8 +89,11 @@ def trace_mask(
     grid = as_volume(mask)
     names = _names(labels)
     shown = None if volume is None else as_volume(volume)
-    if shown is not None:
-        grid = on_grid_of(grid, shown)
+    notes: list[str] = []
+    if shown is not None and (place := place_within(grid, shown, always=grid._is_segmentation)):
+        # Segmentations are cropped by custom; of other masks it is told.
+        notes = [] if grid._is_segmentation else [place.note]
+        grid = placed(grid, shown, place)
     shortest, widest = _at_least_zero("shortest_branch", shortest_branch), _at_least_zero("bridge", bridge)
     listed = None if names is None else list(names)
     found = _lumencut.trace_mask(grid, shown, listed, (shortest, _STEP, widest), progress)
@@ -109,7 +111,7 @@ def trace_mask(
         for points, radius, confidence, label, bridged in found["vessels"]
     )
     tree._gaps = tuple(Gap(*parts) for parts in found["gaps"])
-    tree._notes = tuple(found["notes"])
+    tree._notes = (*notes, *found["notes"])
     return tree
 
 

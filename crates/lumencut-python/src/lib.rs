@@ -153,6 +153,7 @@ fn _lumencut(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(stored_profile::stored_stenosis, module)?)?;
     module.add_function(wrap_pyfunction!(scan_details::scan_words, module)?)?;
     module.add_function(wrap_pyfunction!(mask_tracing::correspondence, module)?)?;
+    module.add_function(wrap_pyfunction!(mask_tracing::place_mask, module)?)?;
     module.add_function(wrap_pyfunction!(mask_tracing::trace_mask, module)?)?;
     module.add_function(wrap_pyfunction!(found_vessels::find_vessels, module)?)?;
     module.add_function(wrap_pyfunction!(found_vessels::trace_from, module)?)?;

@@ -1,8 +1,9 @@
 //! Centerlines of masks, and the connections between two centerlines, for `lumencut.mask_tracing` and
 //! `lumencut.centerline_comparison`.
 
-use glam::DVec3;
-use lumencut::mask_notes::{check_same_grid, notes};
+use glam::{DAffine3, DMat3, DVec3};
+use lumencut::mask_grid::{Grid, place_of, place_within, placed_note};
+use lumencut::mask_notes::notes;
 use lumencut::progress::Progress;
 use lumencut::trace::lines::correspondence::correspondence as connections;
 use lumencut::trace::mask::grey_values::GreyValues;
@@ -45,6 +46,26 @@ pub fn correspondence<'py>(
     Ok(PyArray2::from_owned_array(py, pairs))
 }
 
+/// The number of voxels along (i, j, k), and the affine from index to world, row by row.
+type GridParts = ([usize; 3], [[f64; 4]; 3]);
+
+/// For each axis of the mask that of the volume; for each axis of the volume whether that of the mask runs the same way,
+/// and the least index of the mask; what is told of it.
+type PlaceParts = ([usize; 3], [bool; 3], [usize; 3], String);
+
+/// The place of a mask among the voxels of its volume, none where it has their grid and need not be placed.
+#[pyfunction]
+pub fn place_mask(mask: GridParts, volume: GridParts, always: bool) -> PyResult<Option<PlaceParts>> {
+    let [own, every] = [mask, volume].map(|(size, rows)| {
+        let column = |axis: usize| DVec3::from_array(rows.map(|row| row[axis]));
+        let matrix3 = DMat3::from_cols(column(0), column(1), column(2));
+        Grid { size, world_from_index: DAffine3 { matrix3, translation: column(3) } }
+    });
+    let place = if always { place_within(&own, &every).map(Some) } else { place_of(&own, &every) };
+    let note = placed_note(own.size, every.size);
+    Ok(place.map_err(to_python)?.map(|place| (place.axes, place.forward, place.low, note)))
+}
+
 /// The vessels of a mask, refined by the grey values of a volume where there is one, with what else was found, by name.
 #[pyfunction]
 #[pyo3(signature = (mask, volume, labels, lengths, told=None))]
@@ -62,9 +83,6 @@ pub fn trace_mask<'py>(
     let borrowed = volume.as_ref().map(VolumeArgument::borrow).transpose()?;
     let volume = volume.iter().zip(&borrowed).map(|(volume, borrowed)| volume.volume(borrowed)).next();
     let volume = volume.transpose()?;
-    if let Some(volume) = &volume {
-        check_same_grid(&mask, volume).map_err(to_python)?;
-    }
     let voxels = volume.as_ref().map(Voxels::new);
     let progress = Progress::default();
     let watched = told.as_ref().map(|told| Watched { progress: &progress, told });

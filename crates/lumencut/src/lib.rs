@@ -22,6 +22,7 @@ pub mod line_doubts;
 pub mod lumen_map;
 pub mod lumen_points;
 pub mod lumen_wall;
+pub mod mask_grid;
 pub mod mask_notes;
 pub mod meant_vessel;
 pub mod measure_words;

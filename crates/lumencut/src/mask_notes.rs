@@ -1,43 +1,9 @@
-//! Whether a mask lies where its volume does, and what is to be told of its lines.
+//! What is to be told of the lines of a mask.
 
-use lumencut_core::error::{Error, ErrorKind, Result};
 use lumencut_core::volume::Volume;
 use lumencut_vessels::trace::mask::TracedMask;
 
 use crate::text::rounded;
-
-/// The corners of mask and volume may lie so far apart, in the smallest side of a voxel.
-const SAME_GRID: f64 = 0.1;
-
-/// Refuses a mask on another grid than the volume, whose axes may be stored in another order or direction.
-///
-/// # Errors
-/// [`ErrorKind::Volume`].
-pub fn check_same_grid(mask: &Volume, volume: &Volume) -> Result<()> {
-    let sorted = |volume: &Volume| {
-        let mut size = volume.size();
-        size.sort_unstable();
-        size
-    };
-    if sorted(mask) != sorted(volume) {
-        let [found, expected] = [mask, volume].map(|one| one.size().map(|n| n.to_string()).join(" × "));
-        let expected = format!("{expected} as the volume has");
-        let error = Error::new(ErrorKind::Volume, "mask", format!("{found} voxels"), expected);
-        return Err(error.mend("resample the mask"));
-    }
-    let corners = volume.corners();
-    let nearest =
-        mask.corners().map(|own| corners.iter().map(|other| own.distance(*other)).fold(f64::MAX, f64::min));
-    let apart = nearest.into_iter().fold(0.0, f64::max);
-    if apart > SAME_GRID * volume.smallest_side() {
-        let found =
-            format!("a grid whose corners lie up to {} mm from those of the volume", rounded(apart, 3));
-        let expected = format!("the same grid, to {SAME_GRID} of a voxel");
-        let error = Error::new(ErrorKind::Volume, "mask", found, expected);
-        return Err(error.mend("resample the mask onto the grid of the volume"));
-    }
-    Ok(())
-}
 
 /// What is to be told of the lines of a mask, one sentence each; whether they were refined by a volume.
 pub fn notes(traced: &TracedMask, mask: &Volume, has_volume: bool) -> Vec<String> {

@@ -73,9 +73,7 @@ def traced_from_mask(chosen: dict[str, Any], volume: Volume | None) -> VesselTre
         if chosen["label"]:
             raise click.UsageError("--label and --threshold: a mask has either labels or a threshold")
         if opened.file.is_segmentation:
-            raise click.UsageError(
-                f"--threshold does nothing with {path}, a DICOM segmentation; leave it out"
-            )
+            raise click.UsageError(f"--threshold does nothing with {path}, a segmentation; leave it out")
     with bar(f"reading {path.name}", "slice") as told:
         mask = opened.read(told)
     detail(f"{path}: {mask!r}")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-import numpy.typing as npt
 
 from lumencut.centerline_file import CenterlineFile
 from lumencut.cohort.manifest import Study
@@ -24,7 +23,8 @@ def trouble_of(study: Study, how: Reading) -> str:
         volume = open_volume(study.volume, **reading_of(study, how))
         match study.source:
             case "mask":
-                return _other_grid(volume, mask_of(study).file)
+                mask = mask_of(study).file
+                place_within(mask, volume, always=mask.is_segmentation)
             case "centerlines":
                 CenterlineFile(study.given)
             case "points" | "seeds":
@@ -35,25 +35,6 @@ def trouble_of(study: Study, how: Reading) -> str:
         # A file that its reader does not expect at all fails the study, not the check of all others.
         return f"unexpected {type(error).__name__}: {error}"
     return ""
-
-
-def _other_grid(volume: VolumeFile, mask: VolumeFile) -> str:
-    """Say where the corners of a mask are not those of its volume, to a tenth of a voxel."""
-    if mask.is_segmentation:
-        place_within(mask, volume)
-        return ""
-    apart = max(float(np.linalg.norm(_corners(volume) - corner, axis=1).min()) for corner in _corners(mask))
-    steps = np.linalg.norm(volume.world_from_index[:3, :3], axis=0)
-    if apart <= 0.1 * float(steps.max()):
-        return ""
-    return f"{mask.path}: found corners up to {apart:.4g} mm beside those of the volume; expected its grid"
-
-
-def _corners(file: VolumeFile) -> npt.NDArray[np.float64]:
-    """The middles of the corner voxels, shape (8, 3), mm, LPS."""
-    last = np.array(file.size) - 1
-    index = np.stack(np.meshgrid(*((0, end) for end in last), indexing="ij"), axis=-1).reshape(-1, 3)
-    return np.asarray(index @ file.world_from_index[:3, :3].T + file.world_from_index[:3, 3])
 
 
 def _outside(volume: VolumeFile, study: Study) -> str:

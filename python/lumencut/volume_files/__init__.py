@@ -33,6 +33,7 @@ from lumencut.volume_files.nifti import head_bytes, nifti_kind, open_nifti
 from lumencut.volume_files.nrrd import open_nrrd
 from lumencut.volume_files.opened import Progress, VolumeFile, heeding, refusing
 from lumencut.volume_files.rescale import slabs
+from lumencut.volume_files.slicer_segments import no_segmentation
 
 __all__ = ["SeriesReport", "VolumeReport", "as_volume", "inspect_volume", "list_series", "read_volume"]
 
@@ -118,8 +119,8 @@ def read_volume(
         that makes at most four times as many slices as there are; else the smallest distance, or what makes
         four times as many. `Volume.filled_slices` tells which slices are interpolated.
     segments : iterable of int, optional
-        The numbers of the segments of a DICOM segmentation that are read; by default all, which must not
-        overlap then.
+        The numbers of the segments of a segmentation (DICOM SEG, or .seg.nrrd of 3D Slicer) that are read; by
+        default all, which must not overlap then.
     progress : callable, optional
         Called with (slices read, slices in all); for DICOM with (files looked into, files in all) before.
 
@@ -127,7 +128,7 @@ def read_volume(
     -------
     Volume
         The voxels on their grid in world space (mm, LPS), integers wherever scaling leaves them exact, else
-        float32 (float64 where they are stored so). A DICOM segmentation becomes a label map: each voxel has
+        float32 (float64 where they are stored so). A segmentation becomes a label map: each voxel has
         the number of its segment, or 0; fractional ones count from one half on. What was assumed is logged as
         a warning.
 
@@ -318,7 +319,7 @@ def _open(given: str | os.PathLike[str], wanted: Wanted, progress: Progress) -> 
         if not head:
             raise FormatError(str(path), "an empty file", _KNOWN, "copy or export it again")
         if head.startswith(b"NRRD"):
-            file = open_nrrd(path)
+            file = open_nrrd(path, wanted.segments)
         elif is_dicom(head):
             file = open_dicom(path, wanted, told)
         elif _is_metaimage(path, head):
@@ -327,6 +328,8 @@ def _open(given: str | os.PathLike[str], wanted: Wanted, progress: Progress) -> 
             file = open_nifti(path)
         else:
             raise _unknown(path)
+        if wanted.segments is not None and not file.is_segmentation:
+            raise no_segmentation(path)
     file.notes.extend(note for note in notes if note not in file.notes)
     return file.checked()
 

@@ -3,17 +3,13 @@
 from __future__ import annotations
 
 import os
-import re
 from collections.abc import Iterable, Mapping
-from pathlib import Path
 
 from lumencut._files import checked_path
 from lumencut.errors import FileError, SettingsError
 from lumencut.file_kinds import kind_of
-
-_HEADER_LIMIT = 1 << 20
-_SEGMENT = re.compile(rb"^Segment(\d+)_(Name|LabelValue):=(.*?)\r?$", re.MULTILINE)
-_LABEL = re.compile(r"<Label\b[^>]*?\bKey=\"(-?\d+)\"[^>]*>(?:<!\[CDATA\[)?([^<\]]*)")
+from lumencut.volume_files.nifti import open_nifti
+from lumencut.volume_files.nrrd import open_nrrd
 
 
 def read_label_names(path: str | os.PathLike[str]) -> dict[int, str]:
@@ -42,9 +38,9 @@ def read_label_names(path: str | os.PathLike[str]) -> dict[int, str]:
         kind = kind_of(place)
     except OSError as error:
         raise FileError(str(place), error.strerror or str(error), "a file that can be read") from error
-    known = {"an NRRD volume": _of_slicer, "a NIfTI volume": _of_nifti}
-    names = None if kind is None else known.get(kind.name)
-    return {} if names is None else names(place)
+    known = {"an NRRD volume": open_nrrd, "a NIfTI volume": open_nifti}
+    opened = None if kind is None else known.get(kind.name)
+    return {} if opened is None else opened(place).label_names
 
 
 def chosen_labels(words: Iterable[str], known: Mapping[int, str]) -> dict[int, str]:
@@ -80,23 +76,3 @@ def chosen_labels(words: Iterable[str], known: Mapping[int, str]) -> dict[int, s
             names = f", or a name of the file: {', '.join(values)}" if values else ""
             raise SettingsError("label", repr(word), f"a value such as 52 or 52=aorta{names}")
     return labels
-
-
-def _of_slicer(path: Path) -> dict[int, str]:
-    with path.open("rb") as file:
-        header = file.read(_HEADER_LIMIT).partition(b"\n\n")[0]
-    found: dict[bytes, dict[bytes, str]] = {}
-    for number, field, value in _SEGMENT.findall(header):
-        found.setdefault(number, {})[field] = value.decode("utf-8", "replace").strip()
-    whole = (one for one in found.values() if one.get(b"LabelValue", "").isdigit() and one.get(b"Name"))
-    return {int(one[b"LabelValue"]): one[b"Name"] for one in whole}
-
-
-def _of_nifti(path: Path) -> dict[int, str]:
-    import nibabel
-
-    header = nibabel.load(path).header
-    contents = [extension.get_content() for extension in getattr(header, "extensions", [])]
-    texts = [text.decode("utf-8", "replace") if isinstance(text, bytes) else str(text) for text in contents]
-    labels = (label for text in texts for label in _LABEL.findall(text[:_HEADER_LIMIT]))
-    return {int(key): name.strip() for key, name in labels if name.strip()}

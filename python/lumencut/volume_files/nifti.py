@@ -12,6 +12,7 @@ import numpy.typing as npt
 
 from lumencut._files import checked_path
 from lumencut.errors import FormatError
+from lumencut.volume_files.nifti_labels import LONGEST, has_extensions, label_names_in
 from lumencut.volume_files.opened import Filled, Progress, VolumeFile, shown, unfollowed
 from lumencut.volume_files.payload import Codec, first_bytes, read_voxels
 from lumencut.volume_files.rescale import is_integral, rescaled
@@ -74,11 +75,13 @@ def open_nifti(path: Path) -> VolumeFile:
         )
         return rescaled(stored, slope, intercept, partial(require_memory, data_path))
 
+    names = _label_names(header_path, header, offset if data_path == header_path else LONGEST)
+    details = {"labels": "; ".join(f"{value} {name}" for value, name in names.items())} if names else {}
     space = _stated_space(header)
     return VolumeFile(
         path, kind, size, dtype, space, affine, load, notes, remarks=remarks,
         states_spacing=states_spacing(header), states_orientation=states_orientation(header),
-        settled_type=settled,
+        settled_type=settled, label_names=names, details=details,
     )  # fmt: skip
 
 
@@ -141,6 +144,15 @@ def _header(path: Path) -> tuple[Any, str, bool]:
     header: Any = (Nifti1PairHeader if first else Nifti2PairHeader)(head[:length], check=False)
     _require_type(path, header)
     return header, kind, magic[1:2] == b"i"
+
+
+def _label_names(path: Path, header: Any, end: int) -> dict[int, str]:
+    """The names of labels in the extensions of a header, which end before the voxels or with the file."""
+    length = int(header["sizeof_hdr"])
+    if not has_extensions(head_bytes(path, length + 4), length):
+        return {}
+    order = "big" if header.endianness == ">" else "little"
+    return label_names_in(head_bytes(path, LONGEST), length, end, order)
 
 
 def _mend(header: Any, notes: list[str]) -> None:

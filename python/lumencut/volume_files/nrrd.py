@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Collection, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -10,8 +11,13 @@ import numpy.typing as npt
 
 from lumencut._files import checked_path
 from lumencut.errors import FormatError
-from lumencut.volume_files.opened import Filled, Progress, VolumeFile, decoded, inside, shown
+from lumencut.volume_files.opened import Filled, VolumeFile, decoded, inside, shown
 from lumencut.volume_files.payload import Codec, read_numbers, read_voxels
+from lumencut.volume_files.slicer_segments import (
+    has_segments,
+    segmentation_file,
+    segments_of,
+)
 from lumencut.volume_files.straightened_notes import note_sides
 
 _TO_LPS = {
@@ -57,41 +63,61 @@ _VALUE_LIMIT = 4096
 _TYPES = {name: code for code, names in _NAMES.items() for name in names.split(", ")}
 
 
-def open_nrrd(path: Path) -> VolumeFile:
-    """Read the header of an NRRD file, attached or detached."""
-    header, end, content = _header(path)
+def open_nrrd(path: Path, chosen: Collection[int] | None = None) -> VolumeFile:
+    """Read the header of an NRRD file, attached or detached.
+
+    `chosen` are the numbers of the segments that are read of a segmentation of 3D Slicer.
+    """
+    header, lines, end = _header(path)
     notes: list[str] = []
     remarks: list[str] = []
-    note_sides(content, notes, remarks)
-    axes = _spatial_axes(path, header)
+    note_sides(_content(lines), notes, remarks)
+    axes, layers = _axes_and_layers(path, header, is_segmentation=has_segments(lines))
     sizes = [int(size) for size in header["sizes"]]
     size = (sizes[axes[0]], sizes[axes[1]], sizes[axes[2]])
     dtype = _dtype(path, header)
     space = str(header.get("space", ""))
     affine = _affine(path, header, axes, notes)
-    encoding = _encoding(path, header)
-    lines, skip = _skips(path, header, encoding)
-    data_path, start = _data_place(path, header, end)
-
-    def load(progress: Progress, filled: Filled) -> npt.NDArray[Any]:
-        begin = _after_lines(data_path, start, lines)
-        if encoding in _TEXT:
-            return read_numbers(data_path, size[::-1], dtype, start=begin + skip)
-        if skip == -1:
-            return read_voxels(data_path, size[::-1], dtype, start=-1, filled=filled)
-        codec = _CODECS[encoding]
-        return read_voxels(data_path, size[::-1], dtype, start=begin, codec=codec, skip=skip, filled=filled)
-
-    return VolumeFile(
-        path, "NRRD", size, dtype, shown(space) or "none stated", affine, load, notes, remarks=remarks,
+    long = [axis for axis in range(len(sizes)) if axis in axes or sizes[axis] > 1]
+    stored = [sizes[axis] for axis in long]
+    read = _reader(path, header, end, (tuple(reversed(stored)), dtype))
+    file = VolumeFile(
+        path, "NRRD", size, dtype, shown(space) or "none stated", affine,
+        lambda progress, filled: read(filled), notes, remarks=remarks,
         states_spacing=_states_spacing(header, axes),
         states_orientation="space directions" in header and _patient_space(header) in _TO_LPS,
         settled_type=dtype.newbyteorder("="),
     )  # fmt: skip
+    if not has_segments(lines):
+        return file
+    # NumPy counts the axes of the file from its last one.
+    along = next((len(long) - 1 - n for n, axis in enumerate(long) if axis not in axes), None)
+    return segmentation_file(file, segments_of(lines, layers), (layers, along), chosen)
 
 
-def _header(path: Path) -> tuple[dict[str, Any], int, str]:
-    """The fields that place and describe the voxels, the byte behind the header, and the field "content".
+def _reader(
+    path: Path, header: dict[str, Any], end: int, stored: tuple[tuple[int, ...], np.dtype[Any]]
+) -> Callable[[Filled], npt.NDArray[Any]]:
+    """What reads the voxels of a shape, slowest axis first, and a type."""
+    shape, dtype = stored
+    encoding = _encoding(path, header)
+    lines, skip = _skips(path, header, encoding)
+    data_path, start = _data_place(path, header, end)
+
+    def read(filled: Filled) -> npt.NDArray[Any]:
+        begin = _after_lines(data_path, start, lines)
+        if encoding in _TEXT:
+            return read_numbers(data_path, shape, dtype, start=begin + skip)
+        if skip == -1:
+            return read_voxels(data_path, shape, dtype, start=-1, filled=filled)
+        codec = _CODECS[encoding]
+        return read_voxels(data_path, shape, dtype, start=begin, codec=codec, skip=skip, filled=filled)
+
+    return read
+
+
+def _header(path: Path) -> tuple[dict[str, Any], list[bytes], int]:
+    """The fields that place and describe the voxels, all lines, and the byte behind the header.
 
     pynrrd parses them. It never sees the other fields nor the key/value pairs, where whoever wrote the file
     may have put anything: it refuses files for what is in them, and quotes it.
@@ -103,13 +129,11 @@ def _header(path: Path) -> tuple[dict[str, Any], int, str]:
     if not head.startswith(b"NRRD"):
         raise FormatError(str(path), "a compressed NRRD file", "a plain one", "decompress it first")
     stated: dict[str, str] = {}
-    content = ""
     lines, end = _lines(path, head)
     for line in lines[1:]:
         name, colon, value = decoded(line).partition(":")
         name = " ".join(name.lower().split())
         name = _WITH_BLANK.get(name, name)
-        content = value.strip() if name == "content" else content
         if line.startswith(b"#") or not colon or value.startswith("=") or name not in _FIELDS:
             continue
         if name in stated:
@@ -125,7 +149,13 @@ def _header(path: Path) -> tuple[dict[str, Any], int, str]:
             raise FormatError(str(path), "a newer or no NRRD version", "NRRD0001 to NRRD0005") from None
         found = "a field of the header that cannot be read"
         raise FormatError(str(path), found, "numbers as NRRD writes them") from None
-    return dict(parsed), end, content
+    return dict(parsed), lines, end
+
+
+def _content(lines: Sequence[bytes]) -> str:
+    """The field "content" of a header, which says what the file is."""
+    fields = (decoded(line).partition(":") for line in lines[1:])
+    return next((value.strip() for name, _, value in fields if name.strip().lower() == "content"), "")
 
 
 def _lines(path: Path, head: bytes) -> tuple[list[bytes], int]:
@@ -161,8 +191,8 @@ def _skips(path: Path, header: dict[str, Any], encoding: str) -> tuple[int, int]
     return lines, skip
 
 
-def _spatial_axes(path: Path, header: dict[str, Any]) -> list[int]:
-    """The three axes of the grid; further axes must have length 1."""
+def _axes_and_layers(path: Path, header: dict[str, Any], *, is_segmentation: bool) -> tuple[list[int], int]:
+    """The three axes of the grid, and the length of another one: 1 but for a segmentation in layers."""
     sizes = [int(size) for size in _required(path, header, "sizes")]
     if len(sizes) != int(_required(path, header, "dimension")) or len(sizes) < 3 or min(sizes) < 1:
         raise FormatError(str(path), f"sizes: {shown(sizes)}", "3 axes, none empty")
@@ -173,7 +203,8 @@ def _spatial_axes(path: Path, header: dict[str, Any]) -> list[int]:
     elif len(sizes) > 3:
         axes = [axis for axis in axes if sizes[axis] > 1 or len(sizes) - axis <= 3][:3]
     others = [axis for axis in range(len(sizes)) if axis not in axes[:3]]
-    if len(axes) != 3 or any(sizes[axis] != 1 for axis in others):
+    long = [sizes[axis] for axis in others if sizes[axis] != 1]
+    if len(axes) != 3 or len(long) > int(is_segmentation):
         kinds = shown(" ".join(str(kind) for kind in header.get("kinds", []))) or "not stated"
         found = f"several values per voxel or time points (sizes: {shown(sizes)}, kinds: {kinds})"
         raise FormatError(str(path), found, "3 axes with a direction", "write one component or time point")
@@ -183,7 +214,7 @@ def _spatial_axes(path: Path, header: dict[str, Any]) -> list[int]:
         raise FormatError(
             str(path), f"an axis of kind {shown(odd[0])}", "domain or space axes", "write one component"
         )
-    return axes
+    return axes, long[0] if long else 1
 
 
 def _has_direction(direction: Any) -> bool:

@@ -58,11 +58,11 @@ class VolumeFile:
     frame_of_reference: str = ""
     """The UID of the space that DICOM places the voxels in; empty where none is stated."""
     label_names: dict[int, str] = field(default_factory=dict)
-    """The names of the labels, where the file is a DICOM segmentation."""
+    """The names of the labels, where the file has them."""
     is_segmentation: bool = False
+    """Whether it is one, whose segments can be chosen: it may hold a part of the voxels of its scan."""
     holds: object = None
     """What must not go while the voxels are still to be read."""
-    """Whether it is one: it may hold a part of the slices of its scan."""
 
     def volume(self, progress: Progress, filled: Filled = unfollowed) -> Volume:
         """Read the voxels; what `progress` raises passes through.

@@ -1,5 +1,7 @@
 //! The volume that a viewer holds: its header comes first, and its voxels follow as bytes.
 
+use std::collections::BTreeMap;
+
 use glam::{DAffine3, DMat4, DVec4};
 use lumencut_core::scene::{SharedVolume, VolumeKey};
 use lumencut_core::volume::Volume;
@@ -21,6 +23,9 @@ pub struct VolumeHeader {
     /// How its scan was made.
     #[serde(default)]
     pub scan: ScanDetails,
+    /// The names of its labels, where it is a mask whose file has them.
+    #[serde(default)]
+    pub label_names: BTreeMap<i64, String>,
 }
 
 impl VolumeHeader {
@@ -103,6 +108,15 @@ impl HeldVolume {
     pub fn shared(&self) -> Result<SharedVolume<'_>> {
         Ok(SharedVolume::new(self.volume()?, self.key.clone()))
     }
+}
+
+/// A mask that is read to be traced.
+#[derive(Debug)]
+pub struct HeldMask {
+    /// Its voxels and its grid.
+    pub held: HeldVolume,
+    /// The names of its labels, where its file has them.
+    pub label_names: BTreeMap<i64, String>,
 }
 
 /// The error for a question that only a volume answers.

@@ -2,9 +2,11 @@
 
 use std::collections::HashSet;
 
-use crate::mask_notes::{check_same_grid, notes};
+use crate::mask_grid::{Grid, MaskPlace, place_of, placed_note};
+use crate::mask_notes::notes;
 use glam::DVec3;
 use lumencut_core::error::{Error, ErrorKind};
+use lumencut_core::scene::VolumeKey;
 use lumencut_core::volume::Volume;
 use lumencut_vessels::trace::lines::centerline::Centerline;
 use lumencut_vessels::trace::lumen::refine::STEP;
@@ -15,8 +17,7 @@ use lumencut_vessels::trace::skeleton::mask_vessels::MaskVessel;
 use lumencut_vessels::voxels::Voxels;
 
 use crate::study::failure::{Failure, Result};
-use crate::study::held_volume::VolumeHeader;
-use crate::study::held_volume::{HeldVolume, no_volume};
+use crate::study::held_volume::{HeldMask, HeldVolume, VolumeHeader, no_volume};
 use crate::study::lines::{Line, NamedLine};
 use crate::study::open_study::Study;
 use crate::study::tracing::Watch;
@@ -42,7 +43,8 @@ impl Study {
     pub fn begin_mask(&mut self, header: &str) -> Result<()> {
         self.mask = None;
         self.content.held.as_ref().ok_or_else(no_volume)?;
-        self.mask = Some(VolumeHeader::read(header)?.held()?);
+        let header = VolumeHeader::read(header)?;
+        self.mask = Some(HeldMask { held: header.held()?, label_names: header.label_names });
         Ok(())
     }
 
@@ -51,7 +53,7 @@ impl Study {
     /// # Errors
     /// `volume` where the mask ends before.
     pub fn mask_bytes(&mut self, offset: usize, count: usize) -> Result<&mut [u8]> {
-        HeldVolume::bytes(self.mask.as_mut(), offset, count)
+        HeldVolume::bytes(self.mask.as_mut().map(|mask| &mut mask.held), offset, count)
     }
 
     /// Forgets the mask; its memory is free again.
@@ -64,20 +66,49 @@ impl Study {
     /// # Errors
     /// `volume` for an invalid mask, or one that lies elsewhere than the volume, `interrupted`.
     pub(crate) fn trace_mask(&mut self, watch: Watch) -> Result<MaskLines> {
-        let mask = self.mask.take().ok_or_else(no_mask)?;
-        let volume = self.content.held.as_ref().ok_or_else(no_volume)?.volume()?;
-        check_same_grid(&mask.volume()?, &volume)?;
+        let HeldMask { held, label_names } = self.mask.take().ok_or_else(no_mask)?;
+        let scan = self.content.held.as_ref().ok_or_else(no_volume)?;
+        let volume = scan.volume()?;
+        let place = place_of(&Grid::from(&held.volume()?), &Grid::from(&volume))?;
+        let mut told: Vec<String> = place.iter().map(|_| placed_note(held.size, scan.size)).collect();
+        let mask = place.map_or(Ok(None), |place| placed(&held, &place, scan).map(Some))?.unwrap_or(held);
         check_labels(&mask.stored)?;
         let traced = traced(&mask.volume()?, &volume, watch)?;
-        let notes = notes(&traced, &mask.volume()?, true);
+        told.extend(notes(&traced, &mask.volume()?, true));
         drop(mask);
         let several = traced.vessels.iter().any(|vessel| vessel.label != traced.vessels[0].label);
         let added = traced.vessels.into_iter().map(|vessel| {
-            let name = if several { format!("label {}", vessel.label) } else { String::new() };
+            let numbered = || if several { format!("label {}", vessel.label) } else { String::new() };
+            let name = label_names.get(&vessel.label).cloned().unwrap_or_else(numbered);
             Ok(NamedLine { line: self.lines.add(line_of(vessel))?, name })
         });
-        Ok(MaskLines { lines: added.collect::<Result<_>>()?, notes })
+        Ok(MaskLines { lines: added.collect::<Result<_>>()?, notes: told })
     }
+}
+
+/// A mask on the grid of its volume, 0 beside its own voxels.
+fn placed(mask: &HeldVolume, place: &MaskPlace, volume: &HeldVolume) -> Result<HeldVolume> {
+    let [ni, nj, nk] = volume.size;
+    let strides = [1, ni, ni * nj];
+    let along = |axis: usize, index: usize| {
+        let own = place.axes[axis];
+        let ahead = if place.forward[own] { index } else { mask.size[axis] - 1 - index };
+        strides[own] * (place.low[own] + ahead)
+    };
+    let [mi, mj, mk] = mask.size;
+    let columns = (0..mk).flat_map(|k| (0..mj).map(move |j| (j, k)));
+    let at = columns.flat_map(|(j, k)| {
+        let start = along(1, j) + along(2, k);
+        (0..mi).map(move |i| start + along(0, i))
+    });
+    let stored = mask.stored.placed(ni * nj * nk, at)?;
+    Ok(HeldVolume {
+        stored,
+        size: volume.size,
+        world_from_index: volume.world_from_index,
+        key: VolumeKey::default(),
+        scan: mask.scan.clone(),
+    })
 }
 
 fn traced(mask: &Volume, volume: &Volume, Watch { stop, progress }: Watch) -> Result<TracedMask> {

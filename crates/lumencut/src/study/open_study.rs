@@ -17,7 +17,7 @@ use lumencut_vessels::trace::find::found::Trees;
 
 use crate::study::content::{Content, Report};
 use crate::study::failure::{Failure, Result};
-use crate::study::held_volume::{HeldVolume, no_volume};
+use crate::study::held_volume::{HeldMask, no_volume};
 use crate::study::histogram::Histogram;
 use crate::study::lines::Lines;
 use crate::study::planes::Plane;
@@ -57,7 +57,7 @@ pub struct Study {
     /// The largest id that a vessel of the document was given.
     pub(crate) last_id: u32,
     /// A mask that is read to be traced.
-    pub(crate) mask: Option<HeldVolume>,
+    pub(crate) mask: Option<HeldMask>,
 }
 
 impl Study {

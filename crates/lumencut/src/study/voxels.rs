@@ -56,6 +56,19 @@ impl Stored {
         with_stored!(self, voxels => bytemuck::cast_slice_mut(voxels))
     }
 
+    /// Room for `count` voxels of the same type, with those of this one where `place` puts them and 0 elsewhere.
+    ///
+    /// # Errors
+    /// As [`Stored::zeros`].
+    pub fn placed(&self, count: usize, place: impl Iterator<Item = usize>) -> Result<Self> {
+        Ok(match self {
+            Self::U8(voxels) => Self::U8(scattered(voxels, count, place)?),
+            Self::I16(voxels) => Self::I16(scattered(voxels, count, place)?),
+            Self::U16(voxels) => Self::U16(scattered(voxels, count, place)?),
+            Self::F32(voxels) => Self::F32(scattered(voxels, count, place)?),
+        })
+    }
+
     /// The voxels as the core borrows them.
     pub fn voxels(&self) -> Voxels<'_> {
         match self {
@@ -65,6 +78,18 @@ impl Stored {
             Self::F32(voxels) => Voxels::F32(voxels),
         }
     }
+}
+
+fn scattered<T: Copy + Default>(
+    voxels: &[T],
+    count: usize,
+    place: impl Iterator<Item = usize>,
+) -> Result<Vec<T>> {
+    let mut whole = room(count as f64)?;
+    for (voxel, at) in voxels.iter().zip(place) {
+        whole[at] = *voxel;
+    }
+    Ok(whole)
 }
 
 fn room<T: Clone + Default>(count: f64) -> Result<Vec<T>> {

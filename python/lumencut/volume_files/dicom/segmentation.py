@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Collection, Sequence
 from pathlib import Path
 from typing import Any
@@ -19,6 +18,7 @@ from lumencut.volume_files.dicom.pixels import PixelReader
 from lumencut.volume_files.dicom.segment_frames import SegmentFrame, SegmentGrid, segment_grid
 from lumencut.volume_files.dicom.stack import Slice
 from lumencut.volume_files.opened import Filled, Progress, VolumeFile, printable, refusing
+from lumencut.volume_files.overlaps import Overlaps, put, refuse_overlaps
 from lumencut.volume_files.room import require_memory
 
 _SEGMENTATIONS = ("1.2.840.10008.5.1.4.1.1.66.4", "1.2.840.10008.5.1.4.1.1.66.7")
@@ -141,7 +141,7 @@ class _Reader:
         self._image, self._grid, self._names, self._dtype = image, grid, names, dtype
         self._segments = None if segments is None else set(segments)
         self._half = most / 2
-        self._overlaps: Counter[tuple[int, int]] = Counter()
+        self._overlaps = Overlaps()
 
     def read(self, progress: Progress, filled: Filled, notes: list[str]) -> npt.NDArray[Any]:
         """Return the labels [k, j, i]; segments that overlap are refused."""
@@ -152,8 +152,7 @@ class _Reader:
         for done, (frame, pixels) in enumerate(zip(frames, self._pixels(frames, notes), strict=True), 1):
             self._place(frame, pixels, labels[frame.k])
             progress(done, len(frames))
-        if self._overlaps:
-            raise self._overlapping()
+        refuse_overlaps(self._image.source, self._names, self._overlaps)
         filled(labels, nk)
         return labels
 
@@ -166,20 +165,7 @@ class _Reader:
             labels[wanted] = pixels[wanted]
             return
         inside = pixels >= self._half
-        for other, count in zip(*np.unique(labels[inside], return_counts=True), strict=True):
-            if other:
-                self._overlaps[int(other), frame.segment] += int(count)
-        labels[inside] = frame.segment
-
-    def _overlapping(self) -> FormatError:
-        (one, other), count = self._overlaps.most_common(1)[0]
-        first, second = (f"{number} {self._names.get(number, '')}".strip() for number in (one, other))
-        more = f" and {len(self._overlaps) - 1} more pairs" if len(self._overlaps) > 1 else ""
-        found = f"segments that overlap: {first} and {second} in {count} voxels{more}"
-        if one == other:
-            found = f"segment {first} twice in one place"
-        mend = "choose segments that do not, by segments=(1,) of read_volume or --label of lumencut trace"
-        return FormatError(str(self._image.source), found, "at most one segment in each voxel", mend)
+        put(labels, inside, frame.segment, self._overlaps)
 
     def _pixels(self, frames: Sequence[SegmentFrame], notes: list[str]) -> Any:
         """The stored pixels [j, i] of each frame."""

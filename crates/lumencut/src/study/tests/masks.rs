@@ -76,6 +76,51 @@ fn labels_name_the_lines_also_where_they_are_floats() {
     assert_eq!(names, ["label 4", "label 9"]);
 }
 
+/// The voxels of a mask in a box of those of the volume, with its header; the box begins at `low`.
+fn cropped(study: &Study, low: [usize; 3], size: [usize; 3], names: &serde_json::Value) -> (String, Vec<u8>) {
+    let ([ni, nj, _], affine) = grid(study);
+    let every = values(study);
+    let mut bytes = Vec::new();
+    for k in 0..size[2] {
+        for j in 0..size[1] {
+            for i in 0..size[0] {
+                bytes.push(u8::from(every[(low[2] + k) * ni * nj + (low[1] + j) * ni + low[0] + i] > 205));
+            }
+        }
+    }
+    let moved = affine * DAffine3::from_translation(DVec3::from(low.map(|n| n as f64)));
+    let text = header((size, moved), "uint8");
+    let mut fields: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+    fields["label_names"] = names.clone();
+    (fields.to_string(), bytes)
+}
+
+#[test]
+fn a_mask_of_a_part_is_placed_by_its_own_grid_and_named_by_its_file() {
+    let mut study = opened("stenosis");
+    let (whole, _) = grid(&study);
+    let (every, bytes) = cropped(&study, [0; 3], whole, &json!({}));
+    let expected = traced(&mut study, &every, &bytes).expect("lines");
+    let inside = values(&study).iter().enumerate().filter(|(_, value)| **value > 205).map(|(n, _)| n).fold(
+        ([usize::MAX; 3], [0; 3]),
+        |(low, high), n| {
+            let at = [n % whole[0], n / whole[0] % whole[1], n / whole[0] / whole[1]];
+            (std::array::from_fn(|a| low[a].min(at[a])), std::array::from_fn(|a| high[a].max(at[a])))
+        },
+    );
+    let size = std::array::from_fn(|a| inside.1[a] - inside.0[a] + 1);
+    assert!(size.iter().zip(&whole).any(|(own, every)| own < every));
+    let (part, bytes) = cropped(&study, inside.0, size, &json!({"1": "aorta"}));
+    let made = traced(&mut study, &part, &bytes).expect("lines");
+    assert!(made.notes[0].contains("placed by its own grid"), "{:?}", made.notes);
+    assert_eq!(made.lines.len(), expected.lines.len());
+    for (own, other) in made.lines.iter().zip(&expected.lines) {
+        assert_eq!((own.name.as_str(), other.name.as_str()), ("aorta", ""));
+        let [own, other] = [own.line, other.line].map(|line| study.lines.get(line).expect("a line"));
+        assert_eq!((&own.points, &own.radius), (&other.points, &other.radius));
+    }
+}
+
 #[test]
 fn masks_that_are_none_are_refused() {
     let mut study = opened("stenosis");
@@ -86,10 +131,10 @@ fn masks_that_are_none_are_refused() {
     let empty = vec![0u8; count];
     let failure = traced(&mut study, &header((size, shifted), "uint8"), &empty).expect_err("elsewhere");
     assert!(failure.found.contains("corners lie up to 1 mm"), "{}", failure.found);
-    let smaller = [size[0] - 1, size[1], size[2]];
-    let failure = traced(&mut study, &header((smaller, affine), "uint8"), &empty[size[1] * size[2]..])
-        .expect_err("fewer");
-    assert_eq!(failure.mend, "resample the mask");
+    let larger = [size[0] + 1, size[1], size[2]];
+    let zeros = vec![0u8; larger.iter().product()];
+    let failure = traced(&mut study, &header((larger, affine), "uint8"), &zeros).expect_err("more");
+    assert!(failure.found.contains("reaches beyond the volume") && failure.mend.contains("resample"));
     assert_eq!(traced(&mut study, &own, &empty).expect_err("nothing").kind, "volume");
     let many: Vec<u8> = (0..count).flat_map(|n| ((n % 3000) as i16).to_le_bytes()).collect();
     let failure = traced(&mut study, &header((size, affine), "int16"), &many).expect_err("a scan");

@@ -1,0 +1,44 @@
+"""The refusal of segments that overlap, for a label map has one number in each voxel."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping
+
+import numpy as np
+import numpy.typing as npt
+
+from lumencut.errors import FormatError
+
+Overlaps = Counter[tuple[int, int]]
+"""For two segments, by their numbers, how many voxels they share."""
+
+
+def put(
+    labels: npt.NDArray[np.integer], inside: npt.NDArray[np.bool_], number: int, overlaps: Overlaps
+) -> None:
+    """Write the number of a segment into its voxels, and count those that another one has already."""
+    for other, count in zip(*np.unique(labels[inside], return_counts=True), strict=True):
+        if other:
+            overlaps[int(other), number] += int(count)
+    labels[inside] = number
+
+
+def refuse_overlaps(subject: object, names: Mapping[int, str], overlaps: Overlaps) -> None:
+    """Refuse segments that share voxels.
+
+    Raises
+    ------
+    FormatError
+        Names the two that share most, and how others are chosen.
+    """
+    if not overlaps:
+        return
+    (one, other), count = overlaps.most_common(1)[0]
+    first, second = (f"{number} {names.get(number, '')}".strip() for number in (one, other))
+    more = f" and {len(overlaps) - 1} more pairs" if len(overlaps) > 1 else ""
+    found = f"segments that overlap: {first} and {second} in {count} voxels{more}"
+    if one == other:
+        found = f"segment {first} twice in one place"
+    mend = "choose segments that do not, by segments=(1,) of read_volume or --label of lumencut trace"
+    raise FormatError(str(subject), found, "at most one segment in each voxel", mend)
