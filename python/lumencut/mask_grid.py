@@ -7,6 +7,7 @@ from typing import Protocol
 import numpy as np
 import numpy.typing as npt
 
+from lumencut.dicom_objects.patients import Patient
 from lumencut.errors import VolumeError
 from lumencut.volume import Volume
 
@@ -59,6 +60,11 @@ def on_grid_of(mask: Volume, volume: Grid) -> Volume:
     placed._frame_of_reference, placed._is_segmentation = mask.frame_of_reference, True
     placed._label_names = mask._label_names
     return placed
+
+
+def other_patient(mask: Patient, scan: Patient) -> str | None:
+    """Say in a sentence that a mask is of another patient than its scan; None where both do not say so."""
+    return f"the mask is of {mask}, the scan of {scan}" if mask.differs_from(scan) else None
 
 
 def place_within(mask: Grid, volume: Grid) -> tuple[list[int], list[int], list[int]]:

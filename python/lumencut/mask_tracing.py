@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
@@ -9,8 +10,8 @@ import numpy as np
 
 from lumencut import _lumencut
 from lumencut._checks import integers, number
-from lumencut.errors import SettingsError
-from lumencut.mask_grid import on_grid_of
+from lumencut.errors import SettingsError, StudyWarning
+from lumencut.mask_grid import on_grid_of, other_patient
 from lumencut.vessel import Vessel
 from lumencut.vessel_gap import Gap
 from lumencut.vessel_tree import VesselTree
@@ -91,6 +92,8 @@ def trace_mask(
     names = _names(labels)
     shown = None if volume is None else as_volume(volume)
     if shown is not None:
+        if words := other_patient(grid._patient, shown._patient):
+            warnings.warn(StudyWarning(words), stacklevel=2)
         grid = on_grid_of(grid, shown)
     shortest, widest = _at_least_zero("shortest_branch", shortest_branch), _at_least_zero("bridge", bridge)
     listed = None if names is None else list(names)

@@ -15,6 +15,7 @@ from lumencut._checks import flag
 from lumencut._found_once import FoundOnce
 from lumencut._values import KeepsReadOnly
 from lumencut.dicom_objects.extents import Box
+from lumencut.dicom_objects.patients import Patient
 from lumencut.dicom_objects.study import Origin, Study
 from lumencut.errors import VolumeError
 from lumencut.scan_details import ScanDetails
@@ -64,6 +65,8 @@ class Volume(KeepsReadOnly):
     _is_segmentation = False
     _label_names: Mapping[int, str] = MappingProxyType({})
     _study: Study | None = None
+    #: Whose it is, as DICOM says it.
+    _patient = Patient()
 
     def __init__(
         self,
