@@ -33,14 +33,24 @@ def serve(page: Path, shows_scan: bool) -> None:
     tree = VesselTree([Vessel(LINE[0].points, 3.0, NAME)])
     scene = ArrivingScene(open_volume(series()), lambda _: tree) if shows_scan else None
     with tempfile.TemporaryDirectory() as folder, ViewerServer(Page.of(page), scene) as server:
-        lines, tube, contours = (Path(folder) / name for name in ("lines.vtp", "tube.dcm", "contours.dcm"))
+        names = ("lines.vtp", "tube.dcm", "contours.dcm", "other.dcm")
+        lines, tube, contours, other = (Path(folder) / name for name in names)
+        _write_other_patient(other)
         write_centerlines(tree, lines)
         save(segmentation({5: _tube()}, {5: NAME}), tube)
         save(instance(1, 1, pydicom.uid.RTStructureSetStorage, "RTSTRUCT"), contours)
         files = [str(path) for path in sorted(series().iterdir())]
         beside = {"lines": str(lines), "segmentation": str(tube), "contours": str(contours)}
+        beside["other"] = str(other)
         print(json.dumps({"address": server.place.address, "files": files, **beside}), flush=True)
         sys.stdin.read()
+
+
+def _write_other_patient(path: Path) -> None:
+    """Write a slice of the scan as one of another patient."""
+    data = pydicom.dcmread(next(iter(sorted(series().iterdir()))))
+    data.PatientID, data.PatientName = "B-2", "Roe^Mary"
+    data.save_as(path)
 
 
 def _tube() -> Volume:

@@ -2,13 +2,14 @@
 
 import base64
 import json
+import warnings
 
 import numpy as np
 import pydicom
 import pytest
 
 from dicom_phantom import ROOT, instance, save
-from lumencut import FormatError, Volume, VolumeError, read_volume, trace_mask
+from lumencut import FormatError, StudyWarning, Volume, VolumeError, read_volume, trace_mask
 from lumencut.mask_grid import on_grid_of
 from lumencut.pacs_zip.segmentation import segmentation_mask
 from segmentation_files import segmentation
@@ -105,3 +106,22 @@ def test_what_no_page_sends_is_refused(tmp_path, scan, change):
     path = save(segmentation(masks(), NAMES), tmp_path / "seg.dcm")
     with pytest.raises(FormatError):
         made(request(path, read_volume(scan), **change))
+
+
+@pytest.mark.parametrize(("patient", "is_said"), [("B-2", True), (" phantom ", False), ("", False)])
+def test_a_mask_of_another_patient_is_said(tmp_path, scan, patient, is_said):
+    data = segmentation(masks(), NAMES)
+    data.PatientID = patient
+    path, volume = save(data, tmp_path / "seg.dcm"), read_volume(scan)
+    header = base64.b64encode(next(iter(sorted(scan.iterdir()))).read_bytes()).decode()
+    words = "the mask is of PatientID 'B-2', the scan of PatientID 'phantom'"
+    for told in (
+        made(request(path, volume, header=header)),
+        made(request(path, volume, is_served=True), volume),
+    ):
+        assert (words in told["notes"]) is is_said
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        trace_mask(read_volume(path), volume)
+    assert [str(one.message) for one in caught] == [words] * is_said
+    assert [one.category for one in caught] == [StudyWarning] * is_said

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import json
 import sys
 
 import numpy as np
@@ -10,14 +11,26 @@ import pydicom
 import pytest
 
 from dicom_judges import faults
-from dicom_scenes import scan
+from dicom_scenes import scan, series
 from lumencut import FormatError, MissingPackageError
 from lumencut.dicom_objects.chosen_study import chosen_study
 from lumencut.dicom_objects.measured import measured as reported
 from lumencut.dicom_objects.structured_report import write_report
 from lumencut.measured_vessel import Marked
 from lumencut.pacs_zip.archive import pacs_zip
-from pacs_requests import dropped, encoded, finding_part, frame, measured, members, request, sent, slices
+from lumencut.pacs_zip.placing import chosen_file
+from pacs_requests import (
+    dropped,
+    encoded,
+    finding_part,
+    frame,
+    header,
+    measured,
+    members,
+    request,
+    sent,
+    slices,
+)
 from test_dicom_reports import child, code, groups
 
 ALL = {"view.dcm", "vessel.dcm", "finding-1.dcm", "report.dcm", "report-pdf.dcm"}
@@ -137,6 +150,62 @@ def test_a_file_of_the_study_can_be_chosen(tmp_path):
     for path in made(asked, tmp_path, served=False).values():
         assert faults(path) == []
         assert pydicom.dcmread(path).PatientName == "Doe^Jane"
+
+
+def with_header(folder, change):
+    """What stands before the pixels of a slice of the scan that a change was made to."""
+    data = pydicom.dcmread(next(iter(sorted(series().iterdir()))))
+    change(data)
+    data.save_as(folder / "changed.dcm")
+    return encoded((folder / "changed.dcm").read_bytes())
+
+
+def of_patient(name):
+    """A change of the header: another ID."""
+    return lambda data: setattr(data, "PatientID", name)
+
+
+def test_a_file_of_another_patient_is_refused(tmp_path):
+    other = with_header(tmp_path, of_patient("B-2"))
+    served = request("like")
+    served["study"]["header"] = other
+    for asked, volume in ((served, scan()), (dropped("like", header=other, scan=encoded(header())), None)):
+        with pytest.raises(FormatError, match=r"'B-2'.*'J-17'") as caught:
+            pacs_zip(sent(asked), volume)
+        assert caught.value.mend == MEND
+        told = json.loads(chosen_file(sent(asked), volume))
+        assert "'B-2'" in told["refusal"]
+        assert "'J-17'" in told["refusal"]
+        assert "Doe" not in told["refusal"]
+        assert ["ID", "B-2"] in told["facts"]
+
+
+def test_what_a_chosen_file_says_is_told_with_what_speaks_against_it(tmp_path):
+    def follow_up(data):
+        data.StudyInstanceUID, data.StudyDate, data.BodyPartExamined = "1.2.9", "20260505", "HEAD"
+
+    own = dropped("like", header=encoded(header()), scan=encoded(header()))
+    expected = [["Patient", "Doe^Jane"], ["ID", "J-17"], ["Date", "20260101"], ["Modality", "CT"]]
+    facts = [*expected, ["Body part", "ABDOMEN"]]
+    assert json.loads(chosen_file(sent(own), None)) == {"facts": facts, "doubts": [], "refusal": None}
+    later = with_header(tmp_path, follow_up)
+    told = json.loads(chosen_file(sent(dropped("like", header=later, scan=encoded(header()))), None))
+    assert told["refusal"] is None
+    assert "1.2.9 of 20260505 of the same patient" in told["doubts"][0]
+    assert "HEAD" in told["doubts"][1]
+    again = made(dropped("like", header=later, scan=encoded(header())), tmp_path, served=False)
+    assert pydicom.dcmread(again["view.dcm"]).StudyInstanceUID == "1.2.9"
+    coordinates = str(pydicom.dcmread(again["report.dcm"]))
+    assert slices()[0].FrameOfReferenceUID in coordinates
+
+
+@pytest.mark.parametrize(("shift", "count"), [(0, 0), (500, 1)])
+def test_a_scan_that_is_no_dicom_is_compared_by_its_corners(shift, count):
+    corners = np.add(scan().corners, (0, 0, shift)).tolist()
+    asked = dropped("like", instances=[], corners=corners)
+    doubts = json.loads(chosen_file(sent(asked), None))["doubts"]
+    assert [one for one in doubts if "mm away from the scan" in one] == doubts
+    assert len(doubts) == count
 
 
 def test_without_a_finding_there_are_pictures_alone(tmp_path):

@@ -22,7 +22,8 @@ INDEX = "<!doctype html><html><head lang='en'><title>stand-in</title></head><bod
 SERVED = INDEX.replace(
     "<head lang='en'>",
     "<head lang='en'>"
-    '<meta name="lumencut-objects" content="make/objects"><meta name="lumencut-mask" content="make/mask">',
+    '<meta name="lumencut-objects" content="make/objects"><meta name="lumencut-study" content="make/study">'
+    '<meta name="lumencut-mask" content="make/mask">',
 )
 SCRIPT = b"export const one = 1\n"
 

@@ -109,7 +109,7 @@ class DeviceWarning(UserWarning):
 
 
 class StudyWarning(UserWarning):
-    """A chosen study that another scan than the given one may belong to: of another day, part or place."""
+    """A chosen study, or a mask, that may not belong to the scan: of another patient, day, part or place."""
 
 
 class LineWarning(UserWarning):

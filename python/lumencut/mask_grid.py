@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from lumencut import _lumencut
+from lumencut.dicom_objects.patients import Patient
 from lumencut.errors import VolumeError
 from lumencut.volume import Volume
 from lumencut.volume_files.room import require_memory
@@ -93,6 +94,11 @@ def placed(mask: Volume, volume: Grid, place: MaskPlace) -> Volume:
     made._frame_of_reference, made._is_segmentation = mask.frame_of_reference, mask._is_segmentation
     made._label_names = mask._label_names
     return made
+
+
+def other_patient(mask: Patient, scan: Patient) -> str | None:
+    """Say in a sentence that a mask is of another patient than its scan; None where both do not say so."""
+    return f"the mask is of {mask}, the scan of {scan}" if mask.differs_from(scan) else None
 
 
 def place_within(mask: Grid, volume: Grid, *, always: bool) -> MaskPlace | None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
@@ -9,8 +10,8 @@ import numpy as np
 
 from lumencut import _lumencut
 from lumencut._checks import integers, number
-from lumencut.errors import SettingsError
-from lumencut.mask_grid import place_within, placed
+from lumencut.errors import SettingsError, StudyWarning
+from lumencut.mask_grid import other_patient, place_within, placed
 from lumencut.vessel import Vessel
 from lumencut.vessel_gap import Gap
 from lumencut.vessel_tree import VesselTree
@@ -89,6 +90,8 @@ def trace_mask(
     grid = as_volume(mask)
     names = _names(labels)
     shown = None if volume is None else as_volume(volume)
+    if shown is not None and (words := other_patient(grid._patient, shown._patient)):
+        warnings.warn(StudyWarning(words), stacklevel=2)
     notes: list[str] = []
     if shown is not None and (place := place_within(grid, shown, always=grid._is_segmentation)):
         # Segmentations are cropped by custom; of other masks it is told.

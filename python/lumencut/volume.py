@@ -16,6 +16,7 @@ from lumencut._found_once import FoundOnce
 from lumencut._pickles import by_name
 from lumencut._values import KeepsReadOnly
 from lumencut.dicom_objects.extents import Box
+from lumencut.dicom_objects.patients import Patient
 from lumencut.dicom_objects.study import Origin, Study
 from lumencut.errors import VolumeError
 from lumencut.scan_details import ScanDetails
@@ -66,6 +67,8 @@ class Volume(KeepsReadOnly):
     _is_segmentation = False
     _label_names: Mapping[int, str] = MappingProxyType({})
     _study: Study | None = None
+    #: Whose it is, as DICOM says it.
+    _patient = Patient()
 
     def __init__(
         self,

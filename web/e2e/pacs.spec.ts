@@ -17,6 +17,7 @@ interface Served {
   readonly lines: string;
   readonly segmentation: string;
   readonly contours: string;
+  readonly other: string;
 }
 
 interface Told {
@@ -134,15 +135,47 @@ test('a scan that is no DICOM takes the study of a file that is chosen, and refu
   await viewer.page.getByLabel('DICOM file of the study').setInputFiles(place.lines);
   await expect(viewer.problem).toContainText('no DICOM');
   await ask();
+  await viewer.page.getByLabel('DICOM file of the study').setInputFiles(place.files[3] ?? '');
+  const question = viewer.page.getByRole('alertdialog', { name: 'Study of the chosen file' });
+  await expect(question.locator('dd')).toHaveText(['Doe^Jane', 'J-17', '20260101', 'CT', 'ABDOMEN']);
   const [download] = await Promise.all([
     viewer.page.waitForEvent('download'),
-    viewer.page.getByLabel('DICOM file of the study').setInputFiles(place.files[3] ?? ''),
+    button(viewer, 'Save in this study').click(),
   ]);
   const found = read(await download.path());
   expect(Object.keys(found).sort()).toEqual(['vessel.dcm', 'view.dcm']);
   expect(found['view.dcm']?.patient).toBe('Doe^Jane');
   viewer.expectNoFault();
   await viewer.close();
+});
+
+test('a file of another patient is shown and refused, and another one can be chosen', async ({ browser }) => {
+  for (const words of [['scan'], []]) {
+    const place = await served(...words);
+    const viewer = await opened(browser, place);
+    if (words.length === 0) {
+      await expect(button(viewer, 'Choose files')).toBeEnabled();
+      await viewer.page
+        .locator('main input[type=file]')
+        .first()
+        .setInputFiles([...place.files, place.lines]);
+    }
+    await viewer.rest();
+    await menu(viewer).click();
+    await button(viewer, 'For PACS (DICOM, zip)').click();
+    await viewer.page.getByLabel('DICOM file of the study').setInputFiles(place.other);
+    const question = viewer.page.getByRole('alertdialog', { name: 'Study of the chosen file' });
+    await expect(question).toContainText('This file is refused');
+    await expect(question).toContainText("'J-17'");
+    await expect(question.locator('dd').first()).toHaveText('Roe^Mary');
+    await expect(button(viewer, 'Save in this study')).toHaveCount(0);
+    await button(viewer, 'Choose again').click();
+    await viewer.page.getByLabel('DICOM file of the study').setInputFiles(place.files[2] ?? '');
+    await expect(button(viewer, 'Save in this study')).toBeVisible();
+    await expect(question.locator('li')).toHaveCount(0);
+    viewer.expectNoFault();
+    await viewer.close();
+  }
 });
 
 test('a page of a server of files says what it needs', async ({ browser }) => {

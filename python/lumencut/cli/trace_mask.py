@@ -106,7 +106,9 @@ def _opened(path: Path, words: tuple[str, ...]) -> MaskFile:
 def _above(mask: Volume, threshold: float) -> Volume:
     from lumencut.volume import Volume
 
-    return Volume(mask.array >= threshold, world_from_index=mask.world_from_index)
+    above = Volume(mask.array >= threshold, world_from_index=mask.world_from_index)
+    above._patient = mask._patient
+    return above
 
 
 def _report(tree: VesselTree) -> None:

@@ -61,13 +61,36 @@ def chosen_study(origin: Origin, study: Any, *, anonymous: bool, other_patient: 
     if study is None:
         return _checked(origin.study, "study of the scan")
     found, subject = _given(study)
-    checked = _checked(found, subject)
+    fitting = fitting_study(origin, found, subject, other_patient=other_patient)
+    if found is not None and not other_patient:
+        for words in doubts(origin, found):
+            warnings.warn(StudyWarning(f"{subject}: {words}"), stacklevel=_levels_within())
+    return fitting
+
+
+def fitting_study(origin: Origin, study: Study | None, subject: str, *, other_patient: bool = False) -> Study:
+    """Return the study that results of a scan are put into, where it was chosen for them.
+
+    Parameters
+    ----------
+    origin : Origin
+        The scan.
+    study : Study or None
+        What was chosen; None for images that were not read from DICOM.
+    subject : str
+        What it is called in errors.
+    other_patient : bool, default False
+        Accept another patient than that of the scan.
+
+    Raises
+    ------
+    FormatError
+        As for :func:`chosen_study`.
+    """
+    checked = _checked(study, subject)
     if origin.study is not None and not other_patient:
         check_same_patient(origin.study, checked, subject)
-    if not other_patient:
-        for words in doubts(origin, checked):
-            warnings.warn(StudyWarning(f"{subject}: {words}"), stacklevel=_levels_within())
-    return joined_study(origin, checked)
+    return _joined(origin, checked)
 
 
 def _given(study: Any) -> tuple[Study | None, str]:
@@ -95,7 +118,7 @@ def _checked(study: Study | None, subject: str) -> Study:
     return study
 
 
-def joined_study(origin: Origin, study: Study) -> Study:
+def _joined(origin: Origin, study: Study) -> Study:
     """Return patient and study of a chosen study, beside what a scan from DICOM says of its own images.
 
     Coordinates are in the frame of the scan, and its images alone are sources. A scan of another study is

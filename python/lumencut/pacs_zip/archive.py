@@ -9,27 +9,22 @@ import io
 import zipfile
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import replace
 from typing import BinaryIO
 
-from lumencut.dicom_objects.chosen_study import chosen_study
 from lumencut.dicom_objects.encapsulated_pdf import write_pdf
 from lumencut.dicom_objects.picture import write_picture
 from lumencut.dicom_objects.structured_report import check_highdicom, write_report
 from lumencut.dicom_objects.study import Origin, Study
-from lumencut.dicom_objects.uids import uid_of
 from lumencut.errors import FormatError, MeasuringError
-from lumencut.pacs_zip.given import Given, checked, read_json, refused
+from lumencut.pacs_zip.given import Given, read_json, refused
 from lumencut.pacs_zip.pictures import big_view, key_image, pane_picture, settings_in
+from lumencut.pacs_zip.placing import choice_of, origin_of, study_for
 from lumencut.pacs_zip.told_vessels import ToldVessel, told_vessel
 from lumencut.profile_plot import check_matplotlib
 from lumencut.report_pdf import report_pdf
 from lumencut.settings import Settings
 from lumencut.volume import Volume
-from lumencut.volume_files.dicom.study import study_in
 
-#: Where the objects are put: the scan's own study, one without a patient, that of another file.
-_CHOICES = ("scan", "anonymous", "like")
 _TITLE = "Lumencut: measured vessels"
 _MEND = 'choose "Anonymous", or a DICOM file of the study'
 
@@ -65,9 +60,9 @@ def pacs_zip(content: bytes, served: Volume | None) -> bytes:
         raise refused("a request of another version", "version 1")
     if request.items("findings"):
         _check_findings(request)
-    origin = _origin(request, served)
+    origin = origin_of(request, served)
     with _mended():
-        study = chosen_study(_placed(request, origin), None, anonymous=_choice(request) == "anonymous")
+        study = study_for(request, origin)
     members = [*_pictures(request, study, origin), *_numbers(request, study)]
     if not members:
         raise refused("nothing that is shown", "a picture or a finding")
@@ -84,32 +79,6 @@ def _check_findings(request: Given) -> None:
             "leave the findings out of the report",
         )
         raise FormatError("numbers beside the scan", found, "a scan in millimetres", mend)
-
-
-def _choice(request: Given) -> str:
-    choice = request.object("study").text("choice")
-    return checked(choice, "a study", " or ".join(_CHOICES), _CHOICES.__contains__)
-
-
-def _origin(request: Given, served: Volume | None) -> Origin:
-    """The scan: that of the server, or one that the page read."""
-    given = request.object("study")
-    if given.flag("is_served"):
-        if served is None:
-            raise refused("the scan of the server", "a scan that is read to its end")
-        return served._origin
-    fingerprint = uid_of("scan of the page", request.text("fingerprint"))
-    if given.text_or_none("header") is None or _choice(request) == "like":
-        return Origin(None, fingerprint)
-    study = study_in(given.content("header"), given.texts("instances"))
-    return Origin(replace(study, study_count=int(given.number("study_count"))), fingerprint)
-
-
-def _placed(request: Given, origin: Origin) -> Origin:
-    """The scan, in the study of the file that was chosen where one was."""
-    if _choice(request) != "like":
-        return origin
-    return replace(origin, study=study_in(request.object("study").content("header")))
 
 
 @contextmanager
@@ -164,7 +133,7 @@ def _vessels(request: Given) -> list[ToldVessel]:
     numbers = read_json(request.text("numbers").encode()).objects("vessels")
     if len(numbers) != len(findings):
         raise refused(f"{len(numbers)} vessels for {len(findings)} findings", "as many of both")
-    has_names = _choice(request) != "anonymous"
+    has_names = choice_of(request) != "anonymous"
     pairs = zip(numbers, findings, strict=True)
     try:
         return [told_vessel(*pair, has_name=has_names) for pair in pairs]

@@ -87,6 +87,10 @@ class Given:
         """Return a list."""
         return list(self._checked(name, "a list", lambda value: isinstance(value, list)))
 
+    def items_or_none(self, name: str) -> list[Any] | None:
+        """Return a list, or None for null."""
+        return None if self._fields.get(name) is None else self.items(name)
+
     def texts(self, name: str) -> list[str]:
         """Return a list of texts."""
         return [checked(one, f"{self._name}: {name}", "texts", is_text) for one in self.items(name)]

@@ -11,8 +11,9 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from lumencut.dicom_objects.patients import Patient
 from lumencut.errors import FormatError
-from lumencut.mask_grid import on_grid_of
+from lumencut.mask_grid import on_grid_of, other_patient
 from lumencut.pacs_zip.given import Given, checked, is_number, read_json, refused
 from lumencut.volume import Volume
 from lumencut.volume_files.dicom.datasets import open_datasets
@@ -37,11 +38,12 @@ encoding: gzip
 
 @dataclass(frozen=True)
 class _Scan:
-    """The grid of the scan that the page shows."""
+    """The grid of the scan that the page shows, and whose it is."""
 
     size: tuple[int, int, int]
     world_from_index: npt.NDArray[np.float64]
     frame_of_reference: str
+    patient: Patient
 
 
 def segmentation_mask(content: bytes, served: Volume | None) -> bytes:
@@ -74,11 +76,14 @@ def segmentation_mask(content: bytes, served: Volume | None) -> bytes:
         file = _opened(request.content("file"))
         if not file.is_segmentation:
             raise FormatError(name, "an image of DICOM", _EXPECTED, "open the scan that it belongs to")
-        mask = on_grid_of(file.volume(lambda done, total: None), _scan(request, served))
+        scan = _scan(request, served)
+        mask = on_grid_of(file.volume(lambda done, total: None), scan)
     except FormatError as error:
         raise FormatError(name, error.found, error.expected, error.mend) from error
     labels = {str(label): words for label, words in file.label_names.items()}
-    told = {"mask": base64.b64encode(_nrrd(mask)).decode(), "names": labels, "notes": file.notes}
+    doubt = other_patient(file.patient, scan.patient)
+    notes = [*file.notes, *([doubt] if doubt else [])]
+    told = {"mask": base64.b64encode(_nrrd(mask)).decode(), "names": labels, "notes": notes}
     return json.dumps(told).encode()
 
 
@@ -92,13 +97,13 @@ def _opened(content: bytes) -> VolumeFile:
 
 
 def _scan(request: Given, served: Volume | None) -> _Scan:
-    """The grid of the scan, and the frame of reference of its DICOM, empty where there is none."""
+    """The grid of the scan, with what its DICOM says of frame of reference and patient."""
     size = checked(request.items("size"), "a size", "three whole numbers above 0", _is_size)
     rows = checked(request.items("world_from_index")[:3], "a grid", "rows of four numbers", _are_rows)
     affine = np.vstack([np.array(rows, np.float64), [0, 0, 0, 1]])
     if not abs(np.linalg.det(affine)) > 0:
         raise refused("a grid without a volume", "three directions")
-    return _Scan((size[0], size[1], size[2]), affine, _frame(request, served))
+    return _Scan((size[0], size[1], size[2]), affine, *_identity(request, served))
 
 
 def _are_rows(rows: list[object]) -> bool:
@@ -114,14 +119,16 @@ def _is_size(size: list[object]) -> bool:
     return is_whole and int(np.prod(np.array(size, np.float64))) < _MOST_VOXELS
 
 
-def _frame(request: Given, served: Volume | None) -> str:
+def _identity(request: Given, served: Volume | None) -> tuple[str, Patient]:
+    """The frame of reference and the patient of the scan, empty where there are none."""
     if request.flag("is_served"):
         if served is None:
             raise refused("the scan of the server", "a scan that is read to its end")
-        return served.frame_of_reference
+        return served.frame_of_reference, served._patient
     if request.text_or_none("header") is None:
-        return ""
-    return study_in(request.content("header")).text("FrameOfReferenceUID")
+        return "", Patient()
+    study = study_in(request.content("header"))
+    return study.text("FrameOfReferenceUID"), Patient.in_header(study.header)
 
 
 def _nrrd(mask: Volume) -> bytes:

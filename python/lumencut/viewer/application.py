@@ -24,7 +24,7 @@ from lumencut.viewer import volume_stream
 from lumencut.viewer.arriving import ArrivingScene
 from lumencut.viewer.guard import Place, has_body
 from lumencut.viewer.page import Page, type_of
-from lumencut.viewer.posts import MASK, OBJECTS, Posts
+from lumencut.viewer.posts import MASK, OBJECTS, STUDY, Posts
 from lumencut.viewer.refusing import refusal, unreadable
 
 _log = logging.getLogger("lumencut")
@@ -44,7 +44,7 @@ class Application:
     def __init__(self, page: Page, scene: ArrivingScene | None, place: Place) -> None:
         self._page, self._scene, self._place = page, scene, place
         self._posts = Posts(scene, place)
-        metadata = {"lumencut-objects": OBJECTS, "lumencut-mask": MASK}
+        metadata = {"lumencut-objects": OBJECTS, "lumencut-study": STUDY, "lumencut-mask": MASK}
         if scene is not None:
             metadata["lumencut-volume"] = "data/volume"
             if scene.has_centerlines:

@@ -16,8 +16,9 @@ from lumencut.viewer.guard import Place
 from lumencut.viewer.refusing import refusal, unreadable
 from lumencut.volume import Volume
 
-#: Where "Save for PACS" asks for its objects, and where a segmentation of DICOM becomes a mask.
-OBJECTS, MASK = "make/objects", "make/mask"
+#: Where "Save for PACS" asks for its objects, and for what a chosen file says of its study, and where a
+#: segmentation of DICOM becomes a mask.
+OBJECTS, STUDY, MASK = "make/objects", "make/study", "make/mask"
 
 #: What a request may hold: pictures of large screens, twice, and reports of many vessels (bytes).
 _MOST = 128 << 20
@@ -38,7 +39,7 @@ class Posts:
     """
 
     #: The names that take content.
-    names = (OBJECTS, MASK)
+    names = (OBJECTS, STUDY, MASK)
     #: How many bytes a request may hold, and how long they may take to come (s).
     most, patience = _MOST, _PATIENCE
 
@@ -95,9 +96,11 @@ class Posts:
 def _made_of(name: str, content: bytes, volume: Volume | None) -> bytes:
     """What a request asks for by its name."""
     from lumencut.pacs_zip.archive import pacs_zip
+    from lumencut.pacs_zip.placing import chosen_file
     from lumencut.pacs_zip.segmentation import segmentation_mask
 
-    return pacs_zip(content, volume) if name == OBJECTS else segmentation_mask(content, volume)
+    make = {OBJECTS: pacs_zip, STUDY: chosen_file, MASK: segmentation_mask}[name]
+    return make(content, volume)
 
 
 async def _apart(work: Callable[[], bytes]) -> bytes:

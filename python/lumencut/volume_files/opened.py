@@ -17,6 +17,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from lumencut.dicom_objects.patients import Patient
 from lumencut.dicom_objects.study import Study
 from lumencut.errors import FileError, FormatError, LumencutError, VolumeError
 from lumencut.scan_details import ScanDetails
@@ -57,6 +58,8 @@ class VolumeFile:
     """The type that the voxels will have, where the headers alone settle it."""
     frame_of_reference: str = ""
     """The UID of the space that DICOM places the voxels in; empty where none is stated."""
+    patient: Patient = field(default_factory=Patient)
+    """Whose it is, as DICOM says it."""
     label_names: dict[int, str] = field(default_factory=dict)
     """The names of the labels, where the file has them."""
     is_segmentation: bool = False
@@ -75,6 +78,7 @@ class VolumeFile:
         volume._frame_of_reference, volume._is_segmentation = self.frame_of_reference, self.is_segmentation
         volume._label_names = self.label_names
         volume._filled_slices, volume._scan, volume._study = self.filled, self.scan, self.study
+        volume._patient = self.patient
         return volume
 
     def checked(self) -> VolumeFile:

@@ -1,8 +1,8 @@
 /** The program that serves the page, as far as it makes something of what the page sends; a server of files makes nothing. */
 import { Failure } from './failure';
 
-/** What it makes: objects of DICOM, and the mask of a segmentation. */
-export type Made = 'objects' | 'mask';
+/** What it makes: objects of DICOM, what a chosen DICOM file says of its study, and the mask of a segmentation. */
+export type Made = 'objects' | 'study' | 'mask';
 
 /** Where it makes this; refuses for `subject` where nothing does. */
 export function placeOf(made: Made, subject: string): string {

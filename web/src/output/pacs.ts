@@ -32,8 +32,29 @@ const MOST_COLUMNS = 2000;
 /** Into which study objects are put: that of the scan, one without a patient, or that of a file. */
 export type PacsStudy = 'scan' | 'anonymous' | GivenFile;
 
+/** A DICOM file that was chosen for its study, with what its reader is to see before objects are put there. */
+export interface ChosenFile {
+  readonly file: GivenFile;
+  /** Name, ID, date, modality and body part, each with its label. */
+  readonly facts: ReadonlyArray<readonly [string, string]>;
+  /** What speaks against it, in sentences. */
+  readonly doubts: readonly string[];
+  /** Why it is refused; null where it is not. */
+  readonly refusal: string | null;
+}
+
 /** Whether the page asks into which study objects are put. */
 export const isPacsAsked = signal(false);
+
+/** The chosen file that the page asks about. */
+export const chosenFile = signal<ChosenFile | null>(null);
+
+/** Asks about a chosen file before anything is put into its study. */
+export async function askAboutFile(file: GivenFile): Promise<void> {
+  const content = { study: await studyPart(file), fingerprint: fingerprint() };
+  const response = await made('study', SUBJECT, content);
+  chosenFile.value = { ...(await response.json()), file };
+}
 
 /** Asks into which study; refuses where no program serves the page that could make objects. */
 export async function askForPacs(): Promise<void> {
@@ -61,11 +82,7 @@ async function requestOf(study: PacsStudy): Promise<object> {
   return {
     version: VERSION,
     study: await studyPart(study),
-    fingerprint: JSON.stringify([
-      store.report.value?.volume?.size,
-      store.report.value?.volume?.world_from_index,
-      store.histogram.value,
-    ]),
+    fingerprint: fingerprint(),
     stated: store.states.value,
     view: await viewPart(),
     pane: await panePart(),
@@ -75,14 +92,24 @@ async function requestOf(study: PacsStudy): Promise<object> {
   };
 }
 
+/** What tells scans apart and names nobody. */
+function fingerprint(): string {
+  const volume = store.report.value?.volume;
+  return JSON.stringify([volume?.size, volume?.world_from_index, store.histogram.value]);
+}
+
 async function studyPart(study: PacsStudy): Promise<object> {
   const known = store.scanStudy.value;
   const read = known?.isServed === false ? known : null;
-  const header = typeof study === 'string' ? read?.header : await engine.dicomHead(study);
+  const own = read && (await inBase64(new Blob([read.header])));
+  const isOwn = typeof study === 'string';
+  const isPlaced = store.states.value.spacing && store.states.value.orientation;
   return {
-    choice: typeof study === 'string' ? study : 'like',
+    choice: isOwn ? study : 'like',
     is_served: known?.isServed ?? false,
-    header: header ? await inBase64(new Blob([header])) : null,
+    header: isOwn ? own : await inBase64(new Blob([await engine.dicomHead(study)])),
+    scan: own,
+    corners: (isPlaced && store.report.value?.volume?.corners) || null,
     instances: read?.instances ?? [],
     study_count: read?.studyCount ?? 1,
   };

@@ -1,11 +1,21 @@
 /** Asks into which study the objects of "Save for PACS" are put. */
 import { useRef } from 'preact/hooks';
 import { attempt } from '../output/attempt';
-import { isPacsAsked, type PacsStudy, savePacs } from '../output/pacs';
+import {
+  askAboutFile,
+  type ChosenFile,
+  chosenFile,
+  isPacsAsked,
+  type PacsStudy,
+  savePacs,
+} from '../output/pacs';
 import { scanStudy } from '../state/store';
 
 export function PacsQuestion() {
   const input = useRef<HTMLInputElement>(null);
+  if (chosenFile.value) {
+    return <FileOfStudy chosen={chosenFile.value} />;
+  }
   if (!isPacsAsked.value) {
     return null;
   }
@@ -58,10 +68,75 @@ export function PacsQuestion() {
         onChange={({ currentTarget: { files } }) => {
           const [file] = files ?? [];
           if (file) {
-            save({ path: file.name, file });
+            close();
+            attempt(() => askAboutFile({ path: file.name, file }));
           }
         }}
       />
+      <button type="button" onClick={close}>
+        Go back
+      </button>
+    </div>
+  );
+}
+
+/** Shows whose study a chosen file is of, and what speaks against it, before objects are put there. */
+function FileOfStudy({ chosen: { file, facts, doubts, refusal } }: { chosen: ChosenFile }) {
+  const close = () => {
+    chosenFile.value = null;
+  };
+  const words = refusal
+    ? `This file is refused: ${refusal}.`
+    : 'Put the objects into the study of this file?';
+  return (
+    <div
+      class="file-question"
+      role="alertdialog"
+      aria-label="Study of the chosen file"
+      onKeyDown={(event) => {
+        event.stopPropagation();
+        if (event.key === 'Escape') {
+          close();
+        }
+      }}
+    >
+      <p>{words}</p>
+      <dl>
+        {facts.map(([label, value]) => (
+          <div key={label}>
+            <dt>{label}</dt>
+            <dd>{value || 'not stated'}</dd>
+          </div>
+        ))}
+      </dl>
+      {doubts.length > 0 && (
+        <ul>
+          {doubts.map((doubt) => (
+            <li key={doubt}>{doubt}</li>
+          ))}
+        </ul>
+      )}
+      {refusal === null && (
+        <button
+          type="button"
+          onClick={() => {
+            close();
+            attempt(() => savePacs(file));
+          }}
+        >
+          Save in this study
+        </button>
+      )}
+      <button
+        type="button"
+        ref={(button) => button?.focus()}
+        onClick={() => {
+          close();
+          isPacsAsked.value = true;
+        }}
+      >
+        Choose again
+      </button>
       <button type="button" onClick={close}>
         Go back
       </button>

@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy.typing as npt
 
+from lumencut.dicom_objects.patients import Patient
 from lumencut.errors import FormatError
 from lumencut.series_report import SeriesReport
 from lumencut.volume_files.dicom.files import File, read_files
@@ -54,11 +55,12 @@ def opened(path: Path, wanted: Wanted, read: Callable[[list[str]], Sequence[File
         require_memory(path, memory_needed(stack))
         return load(stack, notes, progress, filled)
 
+    study = study_of([one.image for one in stack.slices])
     return VolumeFile(
         path, "DICOM", stack.size, series.stored, space, stack.world_from_index, voxels, notes,
         remarks=remarks, filled=stack.missing, details=series.details, scan=series.scan,
         frame_of_reference=str(stack.slices[0].image.header.get("FrameOfReferenceUID") or ""),
-        study=study_of([one.image for one in stack.slices]), settled_type=settled_type(stack),
+        study=study, patient=Patient.in_header(study.header), settled_type=settled_type(stack),
     )  # fmt: skip
 
 

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from lumencut.dicom_objects.patients import Patient
 from lumencut.errors import FormatError
 from lumencut.volume_files.dicom.decoding import NATIVE, PLUGINS
 from lumencut.volume_files.dicom.files import File
@@ -108,7 +109,7 @@ def open_segmentation(path: Path, image: Image, segments: Collection[int] | None
         path, "DICOM segmentation", grid.size, dtype, "LPS (as every DICOM)", grid.world_from_index,
         lambda progress, filled: reader.read(progress, filled, notes), notes,
         details=details, settled_type=dtype, frame_of_reference=frame_of_reference, label_names=names,
-        is_segmentation=True,
+        is_segmentation=True, patient=Patient.in_header(dataset),
     )  # fmt: skip
 
 

@@ -1,0 +1,115 @@
+"""The scan that the page shows, and the study of its objects: its own, none, or that of a chosen file."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+
+from lumencut.dicom_objects.chosen_study import chosen_study, fitting_study
+from lumencut.dicom_objects.extents import Box
+from lumencut.dicom_objects.study import Origin, Study
+from lumencut.dicom_objects.study_doubts import doubts
+from lumencut.dicom_objects.uids import uid_of
+from lumencut.errors import FormatError
+from lumencut.pacs_zip.given import Given, checked, read_json, refused
+from lumencut.volume import Volume
+from lumencut.volume_files.dicom.study import study_in
+
+#: Where the objects are put: the scan's own study, one without a patient, that of another file.
+_CHOICES = ("scan", "anonymous", "like")
+_FILE = "the DICOM file"
+#: What the page shows of a file, and the attributes that hold it.
+_FACTS = {
+    "Patient": "PatientName",
+    "ID": "PatientID",
+    "Date": "StudyDate",
+    "Modality": "Modality",
+    "Body part": "BodyPartExamined",
+}
+
+
+def choice_of(request: Given) -> str:
+    """Return which study the page asks for: "scan", "anonymous" or "like"."""
+    choice = request.object("study").text("choice")
+    return checked(choice, "a study", " or ".join(_CHOICES), _CHOICES.__contains__)
+
+
+def origin_of(request: Given, served: Volume | None) -> Origin:
+    """Return the scan: that of the server, or one that the page read.
+
+    Parameters
+    ----------
+    request : Given
+        What the page sends; beside a chosen file, ``study.scan`` is the header of the scan.
+    served : Volume or None
+        The volume that the server shows; None where there is none.
+
+    Raises
+    ------
+    FormatError
+        For a header that is no DICOM, and for the scan of a server that shows none.
+    """
+    given = request.object("study")
+    if given.flag("is_served"):
+        if served is None:
+            raise refused("the scan of the server", "a scan that is read to its end")
+        return served._origin
+    fingerprint = uid_of("scan of the page", request.text("fingerprint"))
+    box = None if given.items_or_none("corners") is None else Box.around(given.points("corners"))
+    name = "scan" if choice_of(request) == "like" else "header"
+    if given.text_or_none(name) is None:
+        return Origin(None, fingerprint, box=box)
+    study = study_in(given.content(name), given.texts("instances"))
+    counted = replace(study, study_count=int(given.number("study_count")))
+    return Origin(counted, fingerprint, box=box)
+
+
+def study_for(request: Given, origin: Origin) -> Study:
+    """Return the study that the objects of a scan are put into.
+
+    Raises
+    ------
+    FormatError
+        Where there is none, or one of another patient.
+    """
+    choice = choice_of(request)
+    if choice == "like":
+        return fitting_study(origin, _file(request), _FILE)
+    return chosen_study(origin, None, anonymous=choice == "anonymous")
+
+
+def chosen_file(content: bytes, served: Volume | None) -> bytes:
+    """Return what a reader should see of a chosen DICOM file before objects are put into its study.
+
+    Parameters
+    ----------
+    content : bytes
+        JSON: ``study`` and ``fingerprint`` as for the objects themselves.
+    served : Volume or None
+        The volume that the server shows; None where there is none.
+
+    Returns
+    -------
+    bytes
+        JSON: the name of the patient, ID, date, modality and body part (``facts``, pairs of texts), what
+        speaks against the file (``doubts``), and why it is refused (``refusal``, null where it is not).
+
+    Raises
+    ------
+    FormatError
+        For a file that is no DICOM.
+    """
+    request = read_json(content)
+    origin, study = origin_of(request, served), _file(request)
+    refusal = None
+    try:
+        fitting_study(origin, study, _FILE)
+    except FormatError as error:
+        refusal = f"found {error.found}; expected {error.expected}"
+    facts = [(words, study.text(keyword)) for words, keyword in _FACTS.items()]
+    told = {"facts": facts, "doubts": [] if refusal else doubts(origin, study), "refusal": refusal}
+    return json.dumps(told).encode()
+
+
+def _file(request: Given) -> Study:
+    return study_in(request.object("study").content("header"))
