@@ -8,6 +8,7 @@ import subprocess
 import sys
 import threading
 from contextlib import contextmanager
+from pathlib import Path
 from types import SimpleNamespace
 from urllib.request import urlopen
 
@@ -47,7 +48,7 @@ def files(tmp_path):
 
 
 @pytest.fixture
-def run(built, monkeypatch):
+def run(built, monkeypatch, tmp_path):
     """Runs the command; the server ends as soon as it serves. The result knows what the browser was told."""
     opened = []
     monkeypatch.setattr(page_room, "FOLDER", built)
@@ -56,6 +57,8 @@ def run(built, monkeypatch):
     for name in ("SSH_CONNECTION", "WAYLAND_DISPLAY", "BROWSER"):
         monkeypatch.delenv(name, raising=False)
     monkeypatch.setenv("DISPLAY", ":0")
+    monkeypatch.setenv("HOME", str(tmp_path))
+    monkeypatch.delenv("XDG_RUNTIME_DIR", raising=False)
 
     def command(*words):
         result = CliRunner().invoke(main, ["view", *words])
@@ -95,10 +98,19 @@ def test_the_address_stands_alone_on_a_line(run):
     assert "open the address above" in result.stderr
 
 
-def test_the_browser_is_opened_at_it(run, files):
+def test_the_browser_is_opened_at_a_file_that_leads_to_it(run, files, monkeypatch):
+    led, opened = [], threading.Event()
+
+    def open_file(address):
+        led.append(Path(address.removeprefix("file://")).read_text("utf-8"))
+        opened.set()
+
+    monkeypatch.setattr(browser.webbrowser, "open", open_file)
+    monkeypatch.setattr(ViewerServer, "wait", lambda server: opened.wait(60))
     result = run(*files)
     assert result.exit_code == 0
-    assert result.opened == [result.stdout.strip()]
+    assert [re.findall(ADDRESS, text) for text in led] == [re.findall(ADDRESS, result.stdout) * 2]
+    assert "the address opens in your browser" in result.stderr
 
 
 def test_over_ssh_the_tunnel_is_named(run, monkeypatch):
@@ -180,8 +192,8 @@ def test_the_end_of_a_way_to_a_browser_is_not_waited_for(monkeypatch):
     )
     monkeypatch.setenv("DISPLAY", ":0")
     monkeypatch.delenv("SSH_CONNECTION", raising=False)
-    browser.open_or_explain(Place(80, "token"), is_wanted=True)
-    assert ended == []
+    with browser.open_or_explain(Place(80, "token"), is_wanted=True):
+        assert ended == []
     late.set()
 
 

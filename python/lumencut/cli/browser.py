@@ -7,16 +7,24 @@ import os
 import sys
 import threading
 import webbrowser
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
 from typing import TYPE_CHECKING
 
+from lumencut.cli.browser_file import leading_to
 from lumencut.cli.report import tell
 
 if TYPE_CHECKING:
     from lumencut.viewer.guard import Place
 
 
-def open_or_explain(place: Place, *, is_wanted: bool) -> None:
-    """Open the page in a browser, or say what the user has to do; the address is already told."""
+@contextmanager
+def open_or_explain(place: Place, *, is_wanted: bool) -> Iterator[None]:
+    """Open the page in a browser, or say what the user has to do; the address is printed already.
+
+    What leads the browser there is a file, which is removed at the end.
+    """
     if os.environ.get("SSH_CONNECTION"):
         tell(f"on your own machine, open a tunnel with: {_tunnel(place.port)}")
         tell("then open the address above in its browser; Ctrl-C here ends the viewer")
@@ -27,9 +35,23 @@ def open_or_explain(place: Place, *, is_wanted: bool) -> None:
             "no screen was found: open the address above in a browser of this machine; Ctrl-C ends the viewer"
         )
     else:
-        tell("the address opens in your browser; Ctrl-C ends the viewer")
-        # Some ways to a browser come back only once it is closed.
-        threading.Thread(target=webbrowser.open, args=(place.address,), daemon=True).start()
+        with leading_to(place.address) as file:
+            _open(file)
+            yield
+        return
+    yield
+
+
+def _open(file: Path | None) -> None:
+    """Open a file in the browser of the user."""
+    if file is None:
+        tell(
+            "no folder is closed to other users: open the address above in a browser; Ctrl-C ends the viewer"
+        )
+        return
+    tell("the address opens in your browser; Ctrl-C ends the viewer")
+    # Some ways to a browser come back only once it is closed.
+    threading.Thread(target=webbrowser.open, args=(file.as_uri(),), daemon=True).start()
 
 
 def _tunnel(port: int) -> str:

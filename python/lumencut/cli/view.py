@@ -84,8 +84,8 @@ def view(
         scene = _scene(volume, centerlines, chosen)
     with ViewerServer(built, scene, port) as server:
         say(server.place.address)
-        open_or_explain(server.place, is_wanted=not no_browser)
-        server.wait()
+        with open_or_explain(server.place, is_wanted=not no_browser):
+            server.wait()
 
 
 def _scene(volume: Path, centerlines: tuple[Path, ...], chosen: dict[str, Any]) -> ArrivingScene:

@@ -1,4 +1,7 @@
-"""A connection with bounds: how many there are, and how long one may take to say what it wants."""
+"""A connection with bounds: how many there are, and how long one may take to say what it wants.
+
+Whoever has shown the token is the owner; all others are strangers, who cannot keep the owner out.
+"""
 
 from __future__ import annotations
 
@@ -8,28 +11,50 @@ from typing import Any, ClassVar
 import h11
 from uvicorn.protocols.http.h11_impl import H11Protocol
 
-from lumencut.viewer.guard import HEADERS
+from lumencut.viewer.guard import HEADERS, Place
 
 
 class Connection(H11Protocol):
     """HTTP/1.1 as uvicorn has it, which by itself waits for a request for ever."""
 
-    #: A browser opens six; others can hold no more of the machine than these take.
+    #: Connections of the owner; a browser opens six.
     most: ClassVar[int] = 32
+    #: Connections of strangers: beyond these the oldest one ends. More than come in at once (`BACKLOG`), so
+    #: that the owner's request is read before its connection is the oldest one.
+    most_strangers: ClassVar[int] = 96
     #: How long the headers of a request may take (s).
     patience: ClassVar[float] = 10.0
 
-    def __init__(self, *arguments: Any, **named: Any) -> None:
-        super().__init__(*arguments, **named)
+    def __init__(self, place: Place, **named: Any) -> None:
+        super().__init__(**named)
+        self._place = place
+        self._is_owner = False
+        self._since = self.loop.time()
         self._limit: asyncio.TimerHandle | None = None
 
     def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
-        """Begin, or refuse one connection too many."""
+        """Begin, and end the oldest stranger where there are too many."""
         super().connection_made(transport)
-        if len(self.connections) > self.most:
-            transport.abort()
-        else:
-            self._limit_waiting()
+        self._limit_waiting()
+        strangers = self._open_ones(is_owner=False)
+        if len(strangers) > self.most_strangers:
+            min(strangers, key=lambda one: one._since).transport.abort()
+
+    def data_received(self, data: bytes) -> None:
+        """Read on, and end one connection too many of the owner."""
+        super().data_received(data)
+        if not self._is_owner and self.scope is not None:
+            self._is_owner = self._place.inside(self.scope["raw_path"]) is not None
+            if self._is_owner and len(self._open_ones(is_owner=True)) > self.most:
+                self.transport.abort()
+
+    def _open_ones(self, *, is_owner: bool) -> list[Connection]:
+        """The connections of the owner, or of strangers."""
+        return [
+            one
+            for one in self.connections
+            if isinstance(one, Connection) and one._is_owner == is_owner and not one.transport.is_closing()
+        ]
 
     def connection_lost(self, exc: Exception | None) -> None:
         """End."""

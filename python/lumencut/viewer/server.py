@@ -7,6 +7,7 @@ import os
 import secrets
 import socket
 import threading
+from functools import partial
 from types import TracebackType
 
 import uvicorn
@@ -19,8 +20,8 @@ from lumencut.viewer.guard import HEADERS, Place
 from lumencut.viewer.page import Page
 
 _LOOPBACK = "127.0.0.1"
-#: The waiting connections that the system keeps for the server.
-_BACKLOG = 32
+#: The waiting connections that the system keeps for the server, which takes so many at once.
+BACKLOG = 64
 _TOKEN_BYTES = 32
 #: Browsers send what other servers of this machine had them keep, which may be a lot (bytes).
 _MOST_HEADERS = 32 << 10
@@ -52,9 +53,9 @@ class ViewerServer:
         self._scene = scene
         config = uvicorn.Config(
             Application(page, scene, self.place),
-            http=Connection,
+            http=partial(Connection, self.place),  # type: ignore[arg-type]
             ws="none",
-            backlog=_BACKLOG,
+            backlog=BACKLOG,
             lifespan="off",
             loop="asyncio",
             log_config=None,
@@ -103,7 +104,7 @@ def _listening(port: int) -> socket.socket:
             # A port can be had again at once; two servers on one port are still refused.
             own.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         own.bind((_LOOPBACK, port))
-        own.listen(_BACKLOG)
+        own.listen(BACKLOG)
     except OSError as error:
         own.close()
         taken = error.errno == errno.EADDRINUSE
