@@ -11,7 +11,6 @@ from typing import Any
 import numpy as np
 
 import lumencut
-from lumencut import phantom
 from scene_files import write_lines, write_volume
 
 
@@ -53,13 +52,21 @@ WRONG: list[Any] = [
     Path("nowhere/at.all"),
 ]
 
-#: Callables that ask the outer world, never end, or change the process; and those that take what they are given as it is.
-_LEFT_OUT = {"batch", "show", "set_threads", "devices", "get_threads", "doctor"}
+#: Callables that ask the outer world, change the process, take long, or take what they are given as it is.
+_LEFT_OUT = {"batch", "show", "set_threads", "devices", "get_threads", "evaluate"}
 #: Methods of these do nothing but hold what they are given: errors, notes, results.
-_HELD = {"BatchSummary", "Device", "DeviceWarning", "Flag", "Gap", "Mend", "Ostium", "SeriesReport", "SpaceWarning"}
+_HELD = {"BatchSummary", "Device", "DeviceWarning", "Flag", "Gap", "Mend", "Ostium", "SeriesReport"}
 _HELD |= {"CenterlineComparison", "CrossSection", "Evaluation", "FeatureAggregation", "Frame", "LumenMap"}
 _HELD |= {"PlanarReformation", "Profile", "Reformation", "ScanDetails", "SpiralReformation", "Stenosis"}
 _HELD |= {"StraightenedVolume", "TangentialReformation", "Uncurled", "UntangledTree"}
+
+
+#: Arguments with a default without which a call does not work.
+_ASKED = {
+    ("Camera.rotated", "angle"),
+    ("PlanarReformation.rotated", "angle"),
+    ("Profile.stenosis", "reference"),
+}
 
 
 @dataclasses.dataclass(frozen=True)
@@ -67,8 +74,14 @@ class Case:
     """A callable and arguments, by name, with which it works."""
 
     name: str
-    call: Callable[..., Any]
+    callable: Callable[..., Any]
     given: dict[str, Any]
+
+    def call(self, **changed: Any) -> None:
+        """Call it with some arguments changed; of what comes one by one the first is taken."""
+        made = self.callable(**{**self.given, **changed})
+        if isinstance(made, Iterator):
+            next(made, None)
 
 
 def cases(folder: Path) -> Iterator[Case]:
@@ -108,14 +121,15 @@ class _Good:
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
-        made = phantom.stenosis()
-        self.made, self.volume, self.tree, self.vessel = made, made.volume, made.tree, made.tree[0]
+        self.scan = write_volume(folder / "scan.nii.gz")
+        self.lines = write_lines(folder / "lines.vtk")
+        self.volume = lumencut.read_volume(self.scan)
+        self.tree = lumencut.read_centerlines(self.lines, coordinates="lps")
+        self.vessel = self.tree[0]
         self.camera = lumencut.Camera.fitted(self.tree, (0, 1, 0), (0, 0, 1), size=(24, 20))
         self.mask = lumencut.Volume(
             (self.volume.array > 200).astype(np.uint8), world_from_index=self.volume.world_from_index
         )
-        self.scan = write_volume(folder / "scan.nii.gz")
-        self.lines = write_lines(folder / "lines.vtk")
         self._instances: dict[str, Any] = {}
 
     def instances(self) -> dict[str, Any]:
@@ -155,8 +169,10 @@ class _Good:
         """Return what the required arguments of a callable are, and all others with their defaults."""
         parameters = inspect.signature(call).parameters.values()
         named = [p for p in parameters if p.kind not in (p.VAR_POSITIONAL, p.VAR_KEYWORD)]
-        known = {p.name: self._value(name, p.name) for p in named if p.default is p.empty}
-        return {**{p.name: p.default for p in named if p.default is not p.empty}, **known}
+        known = {p.name: p.default for p in named}
+        asked = {p.name for p in named if p.default is p.empty}
+        asked |= {parameter for call, parameter in _ASKED if call == name}
+        return {**known, **{parameter: self._value(name, parameter) for parameter in asked}}
 
     def _value(self, call: str, name: str) -> Any:
         special = {
@@ -164,14 +180,37 @@ class _Good:
             ("list_series", "path"): self.folder,
             ("read_centerlines", "path"): self.lines,
             ("Settings.from_file", "path"): self._settings_file(),
-            ("trace", "points"): self.vessel.points[::10],
+            ("trace", "points"): self.vessel.points[::6],
             ("Volume.sample", "points"): self.vessel.points,
             ("trace_mask", "mask"): self.mask,
             ("Settings.look", "name"): "focus",
             ("Vessel", "points"): self.vessel.points,
             ("Volume", "array"): self.volume.array,
-            ("fitted_turn", "axis"): "up",
+            ("Camera", "center"): (0, 0, 0),
+            ("Camera.named", "name"): "anterior",
+            ("Camera.rotated", "angle"): 0.5,
+            ("PlanarReformation.rotated", "angle"): 0.5,
+            ("Profile.angle_between", "first"): (5.0, 10.0),
+            ("Profile.angle_between", "second"): (15.0, 20.0),
+            ("Profile.save", "path"): self.folder / "out.csv",
+            ("StraightenedVolume.save", "path"): self.folder / "out.nrrd",
+            ("write_centerlines", "path"): self.folder / "out.vtp",
+            ("save_animation", "path"): self.folder / "out.webp",
+            ("Profile.stenosis", "reference"): [2.0],
+            ("save_animation", "frames"): [self.instances()["Frame"]],
+            ("Stenosis.group", "vessel"): "carotid",
+            ("Window.named", "name"): "cta",
+            ("Vessel.named", "name"): "LAD",
+            ("Renderer.windowed", "settings"): lumencut.Settings(),
+            ("TransferFunction", "points"): [(0.0, (0, 0, 0), 0.0), (9.0, (1, 1, 1), 1.0)],
+            ("Camera.panned", "right"): 1.0,
+            ("Camera.panned", "up"): 1.0,
+            ("Profile.stenosis", "at"): 15.0,
+            ("VesselTree.cut", "vessel"): 0,
+            ("VesselTree.path", "ids"): [0],
         }
+        if call.startswith("Profile.") and name in ("start", "end"):
+            return {"start": 5.0, "end": 20.0}[name]
         if (call, name) in special:
             return special[call, name]
         return {
@@ -182,6 +221,14 @@ class _Good:
             "pixel": (12, 10),
             "volume": self.volume,
             "mask": self.mask,
+            "direction": (0, 1, 0),
+            "up": (0, 0, 1),
+            "point": self.vessel.points[12],
+            "points": self.vessel.points[:, : 2 if call.endswith("world_from_pixel") else 3],
+            "indices": self.vessel.points[:5],
+            "traced": self.tree,
+            "reference": self.tree,
+            "settings": lumencut.Settings(),
             "tree": self.tree,
             "vessel": self.vessel,
             "vessels": [self.vessel],

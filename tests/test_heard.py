@@ -32,7 +32,10 @@ CALLS = {
     "phantom": (lambda: None, lambda _: phantom.aorta(scale=0.5)),
     "position": (lambda: curved("stretched"), lambda core: core.position()),
     "folded": (lambda: curved("straightened"), lambda core: core.folded()),
-    "spiral": (lambda: lumencut.spiral(TUBE.volume, VESSEL, pixel_spacing=0.05)._core, lambda c: c.position()),
+    "spiral": (
+        lambda: lumencut.spiral(TUBE.volume, VESSEL, pixel_spacing=0.05)._core,
+        lambda c: c.position(),
+    ),
     "map": (lambda: lumencut.lumen_map(TUBE.volume, VESSEL, pixel_spacing=0.01)._core, lambda c: c.shades()),
     "untangled": (
         lambda: lumencut.untangled(TUBE.volume, TUBE.tree, pixel_spacing=0.015)._core,

@@ -12,7 +12,7 @@ import numpy.typing as npt
 from lumencut._files import checked_path
 from lumencut.errors import FormatError
 from lumencut.volume_files.opened import Filled, Progress, VolumeFile, shown, unfollowed
-from lumencut.volume_files.payload import Codec, first_bytes, read_voxels
+from lumencut.volume_files.payload import Codec, check_length, first_bytes, read_voxels
 from lumencut.volume_files.rescale import is_integral, rescaled
 
 LPS_FROM_RAS = np.diag([-1.0, -1.0, 1.0, 1.0])
@@ -66,11 +66,15 @@ def open_nifti(path: Path) -> VolumeFile:
         stored = read_voxels(data_path, size[::-1], dtype, codec=codec, skip=offset, filled=heard)
         return rescaled(stored, slope, intercept)
 
+    def length() -> bool:
+        codec: Codec = "zlib" if _is_gzip(data_path) else "raw"
+        return check_length(data_path, size[::-1], dtype, codec=codec, skip=offset)
+
     space = _stated_space(header)
     return VolumeFile(
         path, kind, size, dtype, space, affine, load, notes, remarks=remarks,
         states_spacing=states_spacing(header), states_orientation=states_orientation(header),
-        settled_type=settled,
+        settled_type=settled, check_length=length,
     )  # fmt: skip
 
 

@@ -11,7 +11,7 @@ import numpy.typing as npt
 from lumencut._files import checked_path
 from lumencut.errors import FormatError
 from lumencut.volume_files.opened import Filled, Progress, VolumeFile, decoded, inside, shown
-from lumencut.volume_files.payload import Codec, read_numbers, read_voxels
+from lumencut.volume_files.payload import Codec, check_length, read_numbers, read_voxels
 
 _TO_LPS = {
     "left-posterior-superior": (1.0, 1.0, 1.0),
@@ -79,11 +79,19 @@ def open_nrrd(path: Path) -> VolumeFile:
         codec = _CODECS[encoding]
         return read_voxels(data_path, size[::-1], dtype, start=begin, codec=codec, skip=skip, filled=filled)
 
+    def length() -> bool:
+        begin = _after_lines(data_path, start, lines)
+        if encoding in _TEXT:
+            return False
+        if skip == -1:
+            return check_length(data_path, size[::-1], dtype, start=-1)
+        return check_length(data_path, size[::-1], dtype, start=begin, codec=_CODECS[encoding], skip=skip)
+
     return VolumeFile(
         path, "NRRD", size, dtype, shown(space) or "none stated", affine, load, notes,
         states_spacing=_states_spacing(header, axes),
         states_orientation="space directions" in header and _patient_space(header) in _TO_LPS,
-        settled_type=dtype.newbyteorder("="),
+        settled_type=dtype.newbyteorder("="), check_length=length,
     )  # fmt: skip
 
 
