@@ -8,8 +8,9 @@ import sys
 import numpy as np
 import pytest
 
-from cohort_scenes import write_cohort
-from lumencut.cohort.checking import trouble_of
+import lumencut
+from cohort_scenes import RECIPE, run, table, write_cohort, write_greedy
+from lumencut.cohort.checking import trouble_of, verdict_of
 from lumencut.cohort.manifest import Study, read_manifest
 from lumencut.cohort.recipe import CohortRecipe, Reading, read_cohort_recipe
 from lumencut.cohort.sources import scan_of
@@ -189,7 +190,7 @@ def test_the_command_checks_and_does_nothing(tmp_path):
     words = [sys.executable, "-m", "lumencut", "batch", str(manifest), "--check"]
     ended = subprocess.run(words, capture_output=True, text=True)
     assert ended.returncode == 3
-    assert ended.stdout.splitlines()[-1] == "12 studies, 1 will fail"
+    assert ended.stdout.splitlines()[-1].startswith("12 studies, 1 will fail, of ")
     assert "missing: " in ended.stdout
     assert not (tmp_path / "out").exists()
     manifest.write_text("id,volume\na,1.nii\na,2.nii\n", "utf-8")
@@ -262,3 +263,78 @@ def test_mistakes_in_a_recipe_are_named(tmp_path, text, words):
     with pytest.raises(FormatError) as error:
         recipe_of(tmp_path, text)
     assert words in str(error.value)
+
+
+def test_the_check_and_the_batch_agree_on_sizes_and_lines(tmp_path):
+    import nibabel as nib
+
+    plain = write_volume(tmp_path / "whole.nii").read_bytes()
+    image = nib.load(tmp_path / "whole.nii")
+    (tmp_path / "cut.nii").write_bytes(plain[:-100])
+    write_volume(tmp_path / "packed.nii.gz")
+    (tmp_path / "halved.nii.gz").write_bytes((tmp_path / "packed.nii.gz").read_bytes()[:-30])
+    nib.save(nib.Nifti1Image((image.get_fdata() > 100).astype(np.uint8), image.affine), tmp_path / "mask.nii")
+    (tmp_path / "short.nii").write_bytes((tmp_path / "mask.nii").read_bytes()[:-1])
+    volume = lumencut.read_volume(tmp_path / "whole.nii")
+    voxels = np.ascontiguousarray(volume.array, "<i2").tobytes()
+    for name, count in (("whole", len(voxels)), ("cut", len(voxels) - 2)):
+        (tmp_path / f"{name}.raw").write_bytes(voxels[:count])
+        size = " ".join(map(str, volume.size))
+        head = f"NDims = 3\nDimSize = {size}\nElementSpacing = 1 1 1\nElementType = MET_SHORT\n"
+        (tmp_path / f"{name}.mhd").write_text(f"{head}ElementDataFile = {name}.raw\n", "utf-8")
+        head = f"NRRD0004\ntype: short\ndimension: 3\nspace: LPS\nsizes: {size}\n"
+        head += "encoding: raw\nendian: little\nspace directions: (1,0,0) (0,1,0) (0,0,1)\nspace origin: (0,0,0)\n"
+        (tmp_path / f"{name}.nhdr").write_text(f"{head}data file: {name}.raw\n", "utf-8")
+    write_lines(tmp_path / "in.vtk")
+    write_lines(tmp_path / "out.vtk", bent_line() + 5000)
+    rows = {
+        "whole": ("whole.nii", "in.vtk", ""),
+        "cut": ("cut.nii", "in.vtk", ""),
+        "mhd": ("whole.mhd", "in.vtk", ""),
+        "mhdcut": ("cut.mhd", "in.vtk", ""),
+        "nhdr": ("whole.nhdr", "in.vtk", ""),
+        "nhdrcut": ("cut.nhdr", "in.vtk", ""),
+        "beside": ("whole.nii", "out.vtk", ""),
+        "short": ("whole.nii", "", "short.nii"),
+        "packed": ("packed.nii.gz", "in.vtk", ""),
+        "halved": ("halved.nii.gz", "in.vtk", ""),
+    }
+    text = "id,volume,centerlines,mask\n" + "".join(f"{name},{','.join(row)}\n" for name, row in rows.items())
+    manifest = manifest_of(tmp_path, text)
+    verdicts = {one.id: verdict_of(one, Reading()) for one in read_manifest(manifest).studies}
+    failing = {"cut", "mhdcut", "nhdrcut", "beside", "short"}
+    assert {name for name, verdict in verdicts.items() if verdict.trouble} == failing
+    unsure = {name: verdict.unsure[0] for name, verdict in verdicts.items() if verdict.unsure}
+    packed = {name: words for name, words in unsure.items() if "whether all voxels are there" in words}
+    assert set(packed) == {"packed", "halved"}
+    assert "packed.nii.gz" in packed["packed"]
+    (tmp_path / "recipe.toml").write_text(RECIPE, "utf-8")
+    (tmp_path / "site").mkdir()
+    run(manifest, tmp_path / "out")
+    states = {row["id"]: row["state"] for row in table(tmp_path / "out/studies.csv")}
+    assert {name for name, state in states.items() if state == "failed"} == {*failing, "halved"}
+
+
+def test_slices_that_are_cut_off_are_found_by_their_sizes(tmp_path):
+    folder = tmp_path / "ct"
+    write_stack(folder, coded((40, 30, 8)), AXIAL, lambda k, data: None)
+    study = Study("a", folder)
+    assert verdict_of(study, Reading()).trouble == ""
+    cut = folder / "IM0003.dcm"
+    cut.write_bytes(cut.read_bytes()[:-200])
+    trouble = verdict_of(study, Reading()).trouble
+    assert "IM0003.dcm" in trouble
+    with pytest.raises(FormatError) as raised:
+        scan_of(study, Reading())
+    assert str(raised.value) == trouble
+
+
+def test_voxels_that_do_not_fit_into_the_memory_are_found_before(tmp_path):
+    write_greedy(tmp_path / "greedy.nii")
+    study = Study("a", tmp_path / "greedy.nii")
+    trouble = verdict_of(study, Reading(), 4 << 30).trouble
+    assert "found 4194 MB of voxels; expected at most 4027 MB, what --memory leaves" in trouble
+    verdict = verdict_of(study, Reading(), 8 << 30)
+    assert verdict.trouble == ""
+    assert "whether the memory is enough is known once they are measured" in verdict.unsure[0]
+    assert verdict_of(study, Reading(), 64 << 30).unsure == ()

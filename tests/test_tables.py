@@ -59,7 +59,10 @@ def test_the_tables_of_a_cohort_give_names_and_further_columns_back(tmp_path):
     write_volume(tmp_path / "a.nii.gz")
     vessel = lumencut.Vessel(bent_line(), 3.0, name="=1+1")
     lumencut.write_centerlines(lumencut.VesselTree([vessel]), tmp_path / "lines.vtp")
-    rows = [["id", "volume", "centerlines", "note", "shift"], ["a", "a.nii.gz", "lines.vtp", "@SUM(1)", "-4.5"]]
+    rows = [
+        ["id", "volume", "centerlines", "note", "shift"],
+        ["a", "a.nii.gz", "lines.vtp", "@SUM(1)", "-4.5"],
+    ]
     rows.append(["b", "=b.nii.gz", "lines.vtp", "+x", "'=1"])
     (tmp_path / "studies.csv").write_text(written(rows), "utf-8")
     (tmp_path / "recipe.toml").write_text(RECIPE, "utf-8")

@@ -37,6 +37,12 @@ def flag(error: type[LumencutError], subject: str, value: Any) -> bool:
     return bool(value)
 
 
+def callback(error: type[LumencutError], subject: str, value: Any) -> None:
+    """Refuse what is neither None nor a function."""
+    if value is not None and not callable(value):
+        raise error(subject, _short(value), "a function, or None")
+
+
 def integers(
     error: type[LumencutError], subject: str, value: Any, low: int, high: int, count: int
 ) -> tuple[int, ...]:

@@ -1,4 +1,4 @@
-"""Rows as CSV and back: a text that a spreadsheet would run as a formula is marked, and read back unchanged."""
+"""Rows as CSV and back: texts that spreadsheets would run as formulas are marked, and read back unchanged."""
 
 from __future__ import annotations
 

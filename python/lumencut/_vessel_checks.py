@@ -30,7 +30,11 @@ def shares(confidence: Any, count: int) -> npt.NDArray[np.float64]:
 
 def marks(bridged: Any, count: int) -> npt.NDArray[np.bool_]:
     """Return marks, True or False."""
-    marks = np.array(bridged)
+    try:
+        marks = np.array(bridged)
+    except ValueError as error:
+        expected = f"True or False for each of {count} points"
+        raise VesselTreeError("bridged points of the vessel", f"{bridged!r:.80}", expected) from error
     if marks.dtype != np.bool_ or marks.shape != (count,):
         found = f"{marks.dtype} of shape {marks.shape}"
         raise VesselTreeError(

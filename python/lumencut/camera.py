@@ -15,7 +15,7 @@ from lumencut import _lumencut
 from lumencut._checks import integers, number, numbers
 from lumencut._pickles import by_name
 from lumencut._values import Value, content_of
-from lumencut.errors import CameraError
+from lumencut.errors import CameraError, VesselTreeError
 from lumencut.vessel import Vessel
 from lumencut.vessel_tree import VesselTree
 from lumencut.volume import Volume
@@ -230,7 +230,11 @@ class Camera(Value):
         VesselTreeError
             For an id or a name that no vessel has (the error lists near ones), or a vessel without length.
         """
-        chosen = vessel if isinstance(vessel, Vessel) else tree[vessel]
+        if not (start is None or isinstance(start, Camera)):
+            raise CameraError("start of the camera", type(start).__name__, "a Camera or None")
+        if not isinstance(tree, VesselTree):
+            raise VesselTreeError("vessel tree", type(tree).__name__, "a VesselTree")
+        chosen = vessel if isinstance(vessel, Vessel) else tree[tree._id(vessel)]
         ahead = np.array(VIEWS["anterior"][0]) if start is None else start.direction
         view = cls(np.zeros(3), ahead, np.array(upright(ahead)), size)
         return view._moved(_lumencut.refocused(view, (chosen.points, chosen.radius)))

@@ -13,6 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from lumencut import _lumencut
+from lumencut._checks import flag
 from lumencut._files import WRITABLE, checked_path, replace_whole
 from lumencut._pickles import by_name
 from lumencut._values import KeepsReadOnly
@@ -147,7 +148,7 @@ class Frame(KeepsReadOnly):
     def has(self, name: str) -> bool:
         """Tell whether the view has the image of this name, such as ``"depth"`` or ``"context"``."""
         stored = "depth" if name == "position" else name
-        return name in _IMAGES and getattr(self, f"_{stored}") is not None
+        return isinstance(name, str) and name in _IMAGES and getattr(self, f"_{stored}") is not None
 
     def _present(self, name: str, array: Any) -> Any:
         if array is not None:
@@ -247,6 +248,8 @@ class Frame(KeepsReadOnly):
             For names of vessels on a picture without labels, and for what only ``.dcm`` can hold.
         """
         path = checked_path(path, WRITABLE)
+        for name, value in {"annotate": annotate, "vessel_names": vessel_names}.items():
+            flag(SettingsError, name, value)
         if vessel_names and not annotate:
             raise SettingsError("vessel_names", "True without annotate", "annotate=True beside it")
         if path.suffix.lower() == ".dcm":

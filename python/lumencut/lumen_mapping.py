@@ -109,7 +109,11 @@ def lumen_map(
         For an image that is no volume.
     """
     check_vessel(vessel)
-    turned = one_angle(angle or 0.0, degrees) if angle is not None or degrees is not None else None
+    turned = (
+        one_angle(0.0 if angle is None else angle, degrees)
+        if angle is not None or degrees is not None
+        else None
+    )
     return lumen_map_of(
         Renderer(volume, VesselTree([vessel]), device),
         vessel,

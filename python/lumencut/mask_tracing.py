@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 
 from lumencut import _lumencut
-from lumencut._checks import integers, number
-from lumencut.errors import SettingsError, StudyWarning
+from lumencut._checks import callback, integers, number
+from lumencut.errors import SettingsError, StudyWarning, TracingError
 from lumencut.mask_grid import other_patient, place_within, placed
 from lumencut.vessel import Vessel
 from lumencut.vessel_gap import Gap
@@ -87,6 +87,7 @@ def trace_mask(
     KeyboardInterrupt
         After Ctrl-C.
     """
+    callback(TracingError, "progress", progress)
     grid = as_volume(mask)
     names = _names(labels)
     shown = None if volume is None else as_volume(volume)
@@ -121,7 +122,12 @@ def trace_mask(
 def _names(labels: Any) -> dict[int, str | None] | None:
     if labels is None:
         return None
-    given = dict(labels) if isinstance(labels, Mapping) else dict.fromkeys(_listed(labels))
+    try:
+        given = dict(labels) if isinstance(labels, Mapping) else dict.fromkeys(_listed(labels))
+    except TypeError as error:
+        raise SettingsError(
+            "labels", f"{labels!r:.80}", "values of the mask, or values with names"
+        ) from error
     for label, name in given.items():
         if not (isinstance(name, str) or name is None):
             raise SettingsError("labels", f"the name {name!r} of {label!r}", "a text")

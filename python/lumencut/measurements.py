@@ -6,10 +6,10 @@ from collections.abc import Callable
 from typing import Any, SupportsIndex
 
 from lumencut import _lumencut
-from lumencut._checks import number
+from lumencut._checks import callback, number
 from lumencut._pickles import by_name
 from lumencut._wall_level import Wall, wall_level
-from lumencut.errors import SettingsError, VesselTreeError
+from lumencut.errors import MeasuringError, SettingsError, VesselTreeError
 from lumencut.profile import Profile
 from lumencut.vessel import Vessel
 from lumencut.vessel_tree import VesselTree
@@ -116,6 +116,7 @@ class Measurements:
         arrays = [(one.points, one.radius) for one in self._tree]
         measured = (asked.points, asked.radius)
         how = (self._step, self._fwhm, self._wall)
+        callback(MeasuringError, "progress", progress)
         core = self._kept.profile(self._volume, arrays, measured, *how, progress)
         return Profile(core, asked, self._volume._origin)
 

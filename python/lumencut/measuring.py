@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from lumencut import _lumencut
-from lumencut._checks import number
+from lumencut._checks import callback, number, numbers
 from lumencut._pickles import by_name
 from lumencut._wall_level import Wall, wall_level
 from lumencut.errors import MeasuringError, SettingsError, VesselTreeError
@@ -97,6 +97,7 @@ def measure(
     given = None if fwhm is None else number(SettingsError, "fwhm", fwhm)
     others = None if tree is None else [(one.points, one.radius) for one in tree]
     level = wall_level(wall)
+    callback(MeasuringError, "progress", progress)
     told = None if others is None else _told_by_tree(grid, tree, others, along, given, level)
     measured = (vessel.points, vessel.radius)
     core = _lumencut.measure(grid, measured, along, given, others, level, told, progress)
@@ -148,7 +149,8 @@ class CrossSection:
 
         Points beside the plane are projected to it.
         """
-        away = np.asarray(points, dtype=np.float64).reshape(-1, 3) - self.position[0, 0]
+        checked = numbers(MeasuringError, "points of the cross-section", points, (-1, 3))
+        away = checked - self.position[0, 0]
         last = (self.position[0, -1] - self.position[0, 0], self.position[-1, 0] - self.position[0, 0])
         steps = [axis / max(len(self.value) - 1, 1) for axis in last]
         return np.stack([away @ axis / max(axis @ axis, 1e-12) for axis in steps], axis=1)

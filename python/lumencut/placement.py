@@ -136,9 +136,9 @@ def fits_nowhere(points: npt.NDArray[np.float64], volume: Volume) -> bool:
 
 def check_choice(coordinates: object, unit: object) -> None:
     """Refuse what is no space or unit."""
-    if coordinates not in (None, *_lumencut.SIGNS):
+    if not (coordinates is None or (isinstance(coordinates, str) and coordinates in _lumencut.SIGNS)):
         raise SettingsError("coordinates", repr(coordinates), '"lps", "ras" or None')
-    if unit not in (None, *MILLIMETRES):
+    if not (unit is None or (isinstance(unit, str) and unit in MILLIMETRES)):
         raise SettingsError("unit", repr(unit), ", ".join(f'"{name}"' for name in MILLIMETRES) + " or None")
 
 

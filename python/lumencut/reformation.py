@@ -12,9 +12,9 @@ import numpy.typing as npt
 
 from lumencut import _lumencut
 from lumencut._checked_settings import checked
-from lumencut._checks import numbers
+from lumencut._checks import flag, numbers
 from lumencut._files import WRITABLE, checked_path, replace_whole
-from lumencut.errors import CameraError
+from lumencut.errors import CameraError, SettingsError
 from lumencut.frame import check_dicom_alone, picture_as_png, save_picture
 from lumencut.renderer import Renderer
 from lumencut.settings import Settings
@@ -250,6 +250,7 @@ class Reformation:
             For what only ``.dcm`` can hold.
         """
         path = checked_path(path, WRITABLE)
+        flag(SettingsError, "annotate", annotate)
         if path.suffix.lower() == ".dcm":
             from lumencut.dicom_objects.picture import write_picture
 

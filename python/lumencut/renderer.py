@@ -9,7 +9,7 @@ from typing import Any, Literal
 
 from lumencut import _lumencut
 from lumencut._checked_settings import checked
-from lumencut._checks import choice
+from lumencut._checks import callback, choice
 from lumencut._vessel_names import id_or_name
 from lumencut.camera import Camera
 from lumencut.device import look_for_no_display
@@ -194,6 +194,7 @@ class Renderer:
         asked = None if images is None else _names(images)
         settings, source = self._with_source(settings, asked)
         names = asked if asked is not None else self._at_once(settings)
+        callback(SettingsError, "progress", progress)
         buffers = self._core.render(self._volume, camera, checked(settings), names, progress)
         return self._frame(camera, settings, buffers, asked, source)
 
@@ -303,6 +304,8 @@ class Renderer:
         VolumeError
             Without a volume.
         """
+        if not isinstance(settings, Settings):
+            raise SettingsError("settings", type(settings).__name__, "Settings")
         return self._windows.used(settings, has_tree=self._tree is not None)
 
     @property

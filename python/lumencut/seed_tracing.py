@@ -8,7 +8,7 @@ from typing import Any
 import numpy.typing as npt
 
 from lumencut import _lumencut
-from lumencut._checks import numbers
+from lumencut._checks import callback, numbers
 from lumencut._found_tree import checked_radius, found_tree
 from lumencut.errors import TracingError
 from lumencut.vessel_tree import VesselTree
@@ -63,4 +63,5 @@ def trace_from(
     """
     place = numbers(TracingError, "seed", seed, (3,))
     smallest = checked_radius(smallest_radius)
+    callback(TracingError, "progress", progress)
     return found_tree(*_lumencut.trace_from(as_volume(volume), tuple(place.tolist()), smallest, progress))

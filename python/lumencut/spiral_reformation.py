@@ -71,7 +71,7 @@ class SpiralReformation(Reformation):
         """
         if self.sampling != "arc":
             raise SettingsError("sampling of the spiral CPR", repr(self.sampling), "'arc', for areas")
-        return columns * self.pixel_spacing * self.pitch
+        return number(SettingsError, "columns", columns) * self.pixel_spacing * self.pitch
 
     def annotated(self, *, vessel_names: bool = True) -> npt.NDArray[np.uint8]:
         """Return the picture with labels as every reformation has them, and with a ruler in mm²."""

@@ -5,7 +5,9 @@ from __future__ import annotations
 from typing import Any, Literal, TypeAlias
 
 from lumencut import _lumencut
+from lumencut._checks import choice
 from lumencut._pickles import by_name
+from lumencut.errors import SettingsError
 
 Method: TypeAlias = Literal["nascet", "ecst", "area"]
 
@@ -102,6 +104,7 @@ class Stenosis:
         MeasuringError
             For a stenosis that was not graded by ``"nascet"``.
         """
+        choice(SettingsError, "vessel of the group", vessel, _lumencut.STENOSIS_TERRITORIES)
         return self._graded.group(vessel)
 
     def __str__(self) -> str:

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
+from contextlib import suppress
+from types import NoneType
 from typing import Any, SupportsIndex
 
 import numpy as np
 import numpy.typing as npt
 
 from lumencut import _lumencut
-from lumencut._checks import flag, number, numbers
+from lumencut._checks import callback, flag, number, numbers
 from lumencut._wording import counted
 from lumencut.errors import TracingError
 from lumencut.vessel import Vessel
@@ -189,7 +191,10 @@ class Tracer:
             As :func:`trace`; the points stay as they are, and can be changed.
         """
         lists = [np.array(vessel) for vessel in self._vessels if len(vessel) > 1]
+        if isinstance(names, (str, bytes)) or not isinstance(names, (Iterable, NoneType)):
+            raise TracingError("names", f"{names!r:.80}", "a text or None for each vessel")
         called = [None] * len(lists) if names is None else list(names)
+        callback(TracingError, "progress", progress)
         if len(called) != len(lists):
             raise TracingError(
                 "names", counted(len(called), "name"), f"one for each of {counted(len(lists), 'vessel')}"
@@ -235,8 +240,10 @@ def _lists(points: Any) -> list[_Points]:
 
 def _rows(subject: str, points: Any) -> _Points:
     """Points as an array (n, 3), with n = 0 for an empty list."""
-    if np.size(points) == 0:
-        return np.empty((0, 3))
+    with suppress(ValueError):
+        # Of lists of several lengths no array can be made.
+        if np.size(points) == 0:
+            return np.empty((0, 3))
     return numbers(TracingError, subject, points, (-1, 3))
 
 

@@ -85,8 +85,10 @@ def fitted_turn(camera: Camera, scene: Any, degrees: float = 360.0, axis: Axis =
     CameraError
         For a scene of another kind, or an axis that is no direction.
     """
-    from lumencut.camera import checked_axis, scene_points
+    from lumencut.camera import Camera, checked_axis, scene_points
 
+    if not isinstance(camera, Camera):
+        raise CameraError("camera", type(camera).__name__, "a Camera")
     angle = number(CameraError, "degrees of the turntable", degrees)
     about = checked_axis(axis, ("superior", "up", "right", "direction"))
     return camera._moved(_lumencut.fitted_turn(camera, scene_points(scene), angle, about))

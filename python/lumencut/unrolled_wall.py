@@ -142,7 +142,11 @@ class LumenMap(Reformation):
         """
         shown = self.mode if mode is None else mode
         choice(SettingsError, "mode of the lumen map", shown, MODES)
-        turned = self.angle if angle is None and degrees is None else one_angle(angle or 0.0, degrees)
+        turned = (
+            self.angle
+            if angle is None and degrees is None
+            else one_angle(0.0 if angle is None else angle, degrees)
+        )
         return LumenMap(self._mapped, self._given, shown, {**self._wanted, "angle": turned})
 
     @property

@@ -6,7 +6,9 @@ from collections.abc import Callable
 from typing import Any
 
 from lumencut import _lumencut
+from lumencut._checks import callback
 from lumencut._found_tree import checked_radius, found_tree
+from lumencut.errors import TracingError
 from lumencut.vessel_tree import VesselTree
 from lumencut.volume import Volume
 from lumencut.volume_files.memory import as_volume
@@ -57,4 +59,5 @@ def find_vessels(
         After Ctrl-C.
     """
     smallest = checked_radius(smallest_radius)
+    callback(TracingError, "progress", progress)
     return found_tree(*_lumencut.find_vessels(as_volume(volume), smallest, progress))

@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from lumencut import _lumencut
-from lumencut._checks import integers, number
+from lumencut._checks import callback, integers, number
 from lumencut._measured_radii import measured_radii
 from lumencut._pickles import by_name
 from lumencut._values import Value
@@ -146,6 +146,7 @@ class VesselTree(Value):
         KeyboardInterrupt
             After Ctrl-C.
         """
+        callback(VesselTreeError, "progress", progress)
         found, notes = measured_radii(volume, self._arrays(), step, fwhm, wall, progress)
         measured = VesselTree(
             Vessel(vessel.points, radius, vessel.name, confidence=vessel.confidence, bridged=vessel.bridged)

@@ -256,10 +256,10 @@ impl CpuRenderer {
 /// The picture of values in the window and opacity of `settings`, over their background; transparent where the value is NaN.
 ///
 /// # Errors
-/// [`ErrorKind::Settings`] for a setting outside its range.
-pub fn picture(value: &[f32], size: [usize; 2], settings: &Settings) -> Result<Vec<[u8; 4]>> {
+/// [`ErrorKind::Settings`] for a setting outside its range, [`ErrorKind::Interrupted`] once the caller asks to stop.
+pub fn picture(value: &[f32], size: [usize; 2], (settings, stop): (&Settings, Stop)) -> Result<Vec<[u8; 4]>> {
     settings.check()?;
-    let work = Work { size, isa: Isa::widest(), stop: &|| false, progress: None };
+    let work = Work { size, isa: Isa::widest(), stop, progress: None };
     let mut image = vec![[0; 4]; value.len()];
     let layers = Layers { value, strength: None, focus: None, context: None };
     composite(&work, &CompositeParameters::new(settings), &layers, &mut image)?;

@@ -9,6 +9,7 @@ use lumencut::math::centerline_path::CenterlinePath;
 use lumencut::named::Named;
 use lumencut::pipeline;
 use lumencut::reformations::cpr::{self, CprMode, Roll, Straightened, View};
+use lumencut::stop::go_on;
 use lumencut::straightened_sides::StraightenedSides;
 use lumencut::vessel_tree::Vessel;
 use numpy::{PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray2, PyUntypedArrayMethods};
@@ -17,9 +18,9 @@ use rayon::prelude::*;
 
 use crate::errors::to_python;
 use crate::layout::{Layout, numbers_of};
-use crate::pool;
 use crate::settings::Checked;
 use crate::tree::points_of;
+use crate::watching::computed;
 
 /// Upwards, an angle, and towards the viewer.
 type ViewArgument = ([f64; 3], f64, Option<[f64; 3]>);
@@ -111,8 +112,9 @@ impl Cpr {
     ) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let space = self.space()?;
         let points = points_of(points)?;
-        let mapped =
-            py.detach(|| pool::install(|| points.par_iter().map(|p| map(space, *p)).collect::<Vec<_>>()))?;
+        let mapped: Vec<_> = computed(py, |stop| {
+            points.par_iter().map(|point| go_on(stop).map(|()| map(space, *point))).collect()
+        })?;
         numbers_of(py, &mapped).reshape([points.len(), 3])
     }
 }
@@ -128,8 +130,8 @@ pub fn picture<'py>(
     let Checked(settings) = settings.get();
     let [height, width] = [0, 1].map(|axis| value.shape()[axis]);
     let value = value.as_slice()?;
-    let image = py.detach(|| pool::install(|| pipeline::picture(value, [width, height], settings)))?;
-    PyArray1::from_vec(py, image.map_err(to_python)?.into_flattened()).reshape([height, width, 4])
+    let image = computed(py, |stop| pipeline::picture(value, [width, height], (settings, stop)))?;
+    PyArray1::from_vec(py, image.into_flattened()).reshape([height, width, 4])
 }
 
 /// The level and width in which a feature of CFA is shown, by its name and level, where the volume is shown in those given.

@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 use lumencut::camera::Camera;
+use lumencut::stop::go_on;
 use lumencut::vessel_tree::Vessel;
 use lumencut::views::{self, Axis, VIEWS};
 use lumencut::{flight as flights, positions as pixels, turn, uncurling, vessel_views};
@@ -12,6 +13,7 @@ use pyo3::types::PyDict;
 use crate::errors::to_python;
 use crate::tree::{self, VesselArrays, points_of};
 use crate::volume::VolumeArgument;
+use crate::watching::computed;
 
 /// The attributes of a `lumencut.Camera`, whose axes are unit vectors already.
 #[derive(FromPyObject)]
@@ -192,7 +194,16 @@ pub fn positions<'py>(
     let camera = camera.camera()?;
     let [width, height] = camera.size();
     let depth = depth.as_slice()?;
-    let points = py.detach(|| pixels::positions(&camera, depth).flat_map(|p| p.to_array()).collect());
+    let points = computed(py, |stop| {
+        let mut numbers = Vec::with_capacity(3 * depth.len());
+        for (n, point) in pixels::positions(&camera, depth).enumerate() {
+            if n % width == 0 {
+                go_on(stop)?;
+            }
+            numbers.extend(point.to_array());
+        }
+        Ok(numbers)
+    })?;
     PyArray1::from_vec(py, points).reshape([height, width, 3])
 }
 

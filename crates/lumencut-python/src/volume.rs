@@ -3,14 +3,17 @@
 use glam::{DAffine3, DMat3, DVec3};
 use lumencut::extent::Extent;
 use lumencut::scan_details::ScanDetails;
+use lumencut::stop::go_on;
 use lumencut::volume::{Volume, Voxels};
 use lumencut::windows;
 use numpy::{PyArray1, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
+use rayon::prelude::*;
 
 use crate::errors::{exception, to_python};
 use crate::scan_details::ScanArgument;
 use crate::tree::points_of;
+use crate::watching::computed;
 
 /// `lumencut.Volume` as the binding needs it: voxels in memory order, grid size and strides along (i, j, k)
 /// in elements, and the affine from index to world, row by row.
@@ -102,6 +105,9 @@ impl GridArgument {
     }
 }
 
+/// As many points are looked up between two looks at whether to stop.
+const PART: usize = 1 << 14;
+
 /// Which world points (n, 3) (mm, LPS) lie inside the outer corners of a volume; shape (n,).
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
@@ -124,6 +130,15 @@ pub fn sample<'py>(
 ) -> PyResult<Bound<'py, PyArray1<f32>>> {
     let borrowed = volume.borrow()?;
     let (volume, points) = (volume.volume(&borrowed)?, points_of(&points)?);
-    let values = py.detach(|| windows::sample(&volume, &points));
+    let values = computed(py, |stop| {
+        let mut values = vec![0.0; points.len()];
+        let parts = values.par_chunks_mut(PART).zip(points.par_chunks(PART));
+        parts.try_for_each(|(values, points)| {
+            go_on(stop)?;
+            values.copy_from_slice(&windows::sample(&volume, points));
+            Ok(())
+        })?;
+        Ok(values)
+    })?;
     Ok(PyArray1::from_vec(py, values))
 }

@@ -74,7 +74,7 @@ class _Part(_Type):
 @click.option("--mask", metavar="PATTERN", help="The same of masks of the lumen.")
 @click.option("--points", metavar="PATTERN", help="The same of files of points along vessels.")
 @click.option("--seeds", metavar="PATTERN", help="The same of files of seeds.")
-@click.option("--check", is_flag=True, help="Name every study that will fail, by its headers, and do none.")
+@click.option("--check", is_flag=True, help="Name studies that will fail, by headers and sizes; do none.")
 @click.option("--jobs", type=click.IntRange(1, 1024), default=1, show_default=True, metavar="N",
               help="How many studies are done at once.")  # fmt: skip
 @click.option("--shard", type=_Part(), help="Do one part of N; several may work beside each other.")
@@ -122,7 +122,7 @@ def batch(manifest: str, output: Path | None, **chosen: Any) -> None:
         raise click.UsageError(str(error)) from error
     if chosen.pop("check"):
         _refuse(chosen, "--check", (*_OF_ALL, "one"))
-        _check(found, recipe)
+        _check(found, recipe, chosen["memory"])
         return
     if output is None:
         raise click.UsageError("Missing option '-o' / '--output'.")
@@ -187,19 +187,22 @@ def tell_ended(layout: Layout, study: Study, code: int) -> None:
         say(f"{study.id}: done")
 
 
-def _check(found: Manifest, recipe: CohortRecipe) -> None:
-    """Name every study that will fail, and how many will not."""
-    from lumencut.cohort.checking import trouble_of
+def _check(found: Manifest, recipe: CohortRecipe, memory: float | None) -> None:
+    """Name every study that will fail, what only the run can tell of others, and how many there are."""
+    from lumencut.cohort.checking import verdict_of
 
     for note in found.notes:
         warn(note)
-    failing = 0
+    failing = unsure = 0
     for study in found.studies:
-        trouble = trouble_of(study, recipe.reading)
-        if trouble:
-            failing += 1
-            say(f"{study.id}: {trouble}")
-    say(f"{len(found.studies)} studies, {failing} will fail")
+        verdict = verdict_of(study, recipe.reading, None if memory is None else int(memory))
+        failing += bool(verdict.trouble)
+        unsure += bool(verdict.unsure)
+        for words in (verdict.trouble, *verdict.unsure):
+            if words:
+                say(f"{study.id}: {words}")
+    more = f", of {unsure} only the run can tell" if unsure else ""
+    say(f"{len(found.studies)} studies, {failing} will fail{more}")
     if failing:
         click.get_current_context().exit(SOME_FAILED)
 

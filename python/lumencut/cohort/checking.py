@@ -1,54 +1,144 @@
-"""Which studies of a manifest will fail, told from the headers of their files before anything runs."""
+"""Which studies of a manifest will fail, told from headers and sizes of their files before anything runs."""
 
 from __future__ import annotations
 
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+
 import numpy as np
 
+from lumencut import _lumencut
 from lumencut.centerline_file import CenterlineFile
 from lumencut.cohort.manifest import Study
 from lumencut.cohort.recipe import Reading
 from lumencut.cohort.sources import mask_of, places_of, reading_of
-from lumencut.errors import LumencutError
+from lumencut.errors import FormatError, LumencutError
 from lumencut.mask_grid import place_within
 from lumencut.volume_files import open_volume
 from lumencut.volume_files.opened import VolumeFile
+from lumencut.volume_files.room import available_memory, in_words
+
+#: Address space that the process of a study has before it reads a voxel, at least (bytes).
+_PROCESS = 256 << 20
+#: A study with so much beside this multiple of its voxels has enough: all that is computed of them is less.
+_AMPLE, _TIMES = 4 << 30, 12
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """What headers and sizes tell of a study.
+
+    Attributes
+    ----------
+    trouble : str
+        Why it will fail; empty where nothing tells so.
+    unsure : tuple of str
+        What nothing but the run can tell, a sentence each; empty where a study will fail anyway.
+    """
+
+    trouble: str = ""
+    unsure: tuple[str, ...] = ()
 
 
 def trouble_of(study: Study, how: Reading) -> str:
-    """Return why a study will fail, as far as headers tell; empty where they tell nothing against it.
+    """Return why a study will fail, as far as headers and sizes tell; empty where they tell nothing."""
+    return verdict_of(study, how).trouble
+
+
+def verdict_of(study: Study, how: Reading, memory: int | None = None) -> Verdict:
+    """Judge a study by headers and sizes.
 
     The voxels of volumes and masks are not read; files of centerlines and points are.
+
+    Parameters
+    ----------
+    study, how
+        The study, and how its scan is read.
+    memory : int, optional
+        The most memory that it may have (bytes of address space); that of the machine where not given.
     """
     try:
-        volume = open_volume(study.volume, **reading_of(study, how))
-        match study.source:
-            case "mask":
-                mask = mask_of(study).file
-                place_within(mask, volume, always=mask.is_segmentation)
-            case "centerlines":
-                CenterlineFile(study.given)
-            case "points" | "seeds":
-                return _outside(volume, study)
+        return Verdict(unsure=tuple(_judged(study, how, memory)))
     except LumencutError as error:
-        return str(error)
+        return Verdict(str(error))
     except Exception as error:
         # A file that its reader does not expect at all fails the study, not the check of all others.
-        return f"unexpected {type(error).__name__}: {error}"
-    return ""
+        return Verdict(f"unexpected {type(error).__name__}: {error}")
 
 
-def _outside(volume: VolumeFile, study: Study) -> str:
-    """Say which points lie outside of the volume, or that there are too few."""
+def _judged(study: Study, how: Reading, memory: int | None) -> Iterator[str]:
+    """Yield what only the run can tell.
+
+    Raises
+    ------
+    LumencutError
+        Where the study will fail.
+    """
+    volume = open_volume(study.volume, **reading_of(study, how))
+    files = [volume]
+    match study.source:
+        case "mask":
+            mask = mask_of(study).file
+            place_within(mask, volume, always=mask.is_segmentation)
+            files.append(mask)
+        case "centerlines":
+            _check_lines(study, volume)
+        case "points" | "seeds":
+            _check_places(study, volume)
+    for file in files:
+        if not file.check_length():
+            yield f"{file.path}: whether all voxels are there is known once they are read"
+    needed = sum(_bytes(file) for file in files)
+    _check_memory(study, needed, memory)
+    if _AMPLE + _TIMES * needed > (memory or available_memory()):
+        yield f"{in_words(needed)} of voxels: whether the memory is enough is known once they are measured"
+
+
+def _bytes(file: VolumeFile) -> int:
+    """The bytes of the voxels of a file in memory, at least."""
+    return math.prod(file.size) * (file.settled_type or file.dtype).itemsize
+
+
+def _check_memory(study: Study, needed: int, memory: int | None) -> None:
+    """Refuse voxels that do not fit into the memory."""
+    room = available_memory() if memory is None else max(memory - _PROCESS, 0)
+    if needed > room:
+        expected = f"at most {in_words(room)}, " + (
+            "that are available" if memory is None else "what --memory leaves for them"
+        )
+        raise FormatError(str(study.volume), f"{in_words(needed)} of voxels", expected, "give it more")
+
+
+@dataclass(frozen=True)
+class _Grid:
+    """A grid as the core takes it."""
+
+    size: tuple[int, int, int]
+    _affine_rows: tuple[tuple[float, ...], ...]
+
+
+def _check_lines(study: Study, volume: VolumeFile) -> None:
+    """Refuse a file of centerlines that cannot be read, or that misses the volume however it is meant."""
+    points = CenterlineFile(study.given).placed()[0].points
+    rows = tuple(map(tuple, volume.world_from_index[:3].tolist()))
+    if _lumencut.fits_nowhere(points, _Grid(volume.size, rows)):
+        found = "no point in the volume, in whatever space and unit"
+        raise FormatError(study.given, found, "centerlines of this scan")
+
+
+def _check_places(study: Study, volume: VolumeFile) -> None:
+    """Refuse points that lie outside of the volume, or are too few."""
     if not study.given_as_text:
         CenterlineFile(study.given)
-        return ""
+        return
     points = places_of(study)
     if study.source == "points" and len(points) < 2:
-        return f"points: found {len(points)}; expected two or more along the vessel"
+        raise FormatError("points", f"{len(points)}", "two or more along the vessel")
     inverse = np.linalg.inv(volume.world_from_index)
     index = points @ inverse[:3, :3].T + inverse[:3, 3]
     beyond = ((index < -0.5) | (index > np.array(volume.size) - 0.5)).any(axis=1)
-    if not beyond.any():
-        return ""
-    place = ", ".join(f"{x:g}" for x in points[beyond][0])
-    return f"{study.source}: found {place} (mm, LPS), outside of the volume; expected points within it"
+    if beyond.any():
+        place = ", ".join(f"{x:g}" for x in points[beyond][0])
+        found = f"{place} (mm, LPS), outside of the volume"
+        raise FormatError(study.source, found, "points within it")

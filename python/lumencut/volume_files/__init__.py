@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from lumencut._checks import callback, integers
 from lumencut._files import checked_path
 from lumencut.dicomweb.address import is_address
 from lumencut.errors import FileError, FormatError
@@ -143,6 +144,7 @@ def read_volume(
     PacsError
         For a PACS that cannot be reached, refuses, or does not give all of a series.
     """
+    callback(FormatError, "progress", progress)
     told = progress if progress is not None else _untold
     file = _open(path, _wanted(series, phase, fill_gaps, resample_slices, segments), told)
     volume = file.volume(told)
@@ -205,6 +207,7 @@ def inspect_volume(
     VolumeReport
         Format, grid, values and oddities.
     """
+    callback(FormatError, "progress", progress)
     told = progress if progress is not None else _untold
     file = _open(path, _wanted(series, phase, fill_gaps, resample_slices), told)
     return _report(file, file.volume(told) if values else None)
@@ -220,6 +223,7 @@ def inspected_volume(
     progress: Progress | None = None,
 ) -> tuple[VolumeReport, Volume]:
     """Give what `inspect_volume` tells of a file, and the volume; parameters and errors are the same."""
+    callback(FormatError, "progress", progress)
     told = progress if progress is not None else _untold
     file = _open(path, _wanted(series, phase, fill_gaps, resample_slices), told)
     volume = file.volume(told)
@@ -298,8 +302,17 @@ def _wanted(
     resample_slices: bool,
     segments: Iterable[int] | None = None,
 ) -> Wanted:
-    chosen = None if segments is None else tuple(int(number) for number in segments)
+    chosen = None if segments is None else _numbers_of(segments)
     return Wanted(_text(series), _text(phase), fill_gaps, resample_slices, chosen)
+
+
+def _numbers_of(segments: Any) -> tuple[int, ...]:
+    """The numbers of segments, checked."""
+    try:
+        listed = list(segments)
+    except TypeError as error:
+        raise FormatError("segments", f"{segments!r:.80}", "numbers of segments") from error
+    return integers(FormatError, "segments", listed, 1, 65535, len(listed))
 
 
 def _text(value: object) -> str | None:

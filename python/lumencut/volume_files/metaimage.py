@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from lumencut.errors import FormatError
 from lumencut.volume_files.opened import Filled, Progress, VolumeFile, decoded, inside, shown
-from lumencut.volume_files.payload import Codec, read_numbers, read_voxels
+from lumencut.volume_files.payload import Codec, check_length, read_numbers, read_voxels
 
 _HEADER_LIMIT = 1 << 16
 _MOST_DIMS = 10
@@ -62,12 +62,15 @@ def open_metaimage(path: Path) -> VolumeFile:
             return read_numbers(data_path, size[::-1], dtype, start=start)
         return read_voxels(data_path, size[::-1], dtype, start=start, codec=codec, filled=filled)
 
+    def length() -> bool:
+        return binary and check_length(data_path, size[::-1], dtype, start=start, codec=codec)
+
     return VolumeFile(
         path, "MetaImage", size, dtype, "LPS (as every MetaImage)", affine, load, notes,
         states_spacing=any(name in fields for name in _SPACING),
         # A matrix that a label contradicts states two orientations, and none that can be relied on.
         states_orientation=agrees and any(name in fields for name in (*_DIRECTION, "AnatomicalOrientation")),
-        settled_type=dtype.newbyteorder("="),
+        settled_type=dtype.newbyteorder("="), check_length=length,
     )  # fmt: skip
 
 

@@ -14,7 +14,7 @@ from lumencut._files import checked_path
 from lumencut.errors import FormatError
 from lumencut.volume_files.nifti_labels import LONGEST, has_extensions, label_names_in
 from lumencut.volume_files.opened import Filled, Progress, VolumeFile, shown, unfollowed
-from lumencut.volume_files.payload import Codec, first_bytes, read_voxels
+from lumencut.volume_files.payload import Codec, check_length, first_bytes, read_voxels
 from lumencut.volume_files.rescale import is_integral, rescaled
 from lumencut.volume_files.room import require_memory
 from lumencut.volume_files.straightened_notes import note_sides
@@ -75,13 +75,17 @@ def open_nifti(path: Path) -> VolumeFile:
         )
         return rescaled(stored, slope, intercept, partial(require_memory, data_path))
 
+    def length() -> bool:
+        codec: Codec = "zlib" if _is_gzip(data_path) else "raw"
+        return check_length(data_path, size[::-1], dtype, codec=codec, skip=offset)
+
     names = _label_names(header_path, header, offset if data_path == header_path else LONGEST)
     details = {"labels": "; ".join(f"{value} {name}" for value, name in names.items())} if names else {}
     space = _stated_space(header)
     return VolumeFile(
         path, kind, size, dtype, space, affine, load, notes, remarks=remarks,
         states_spacing=states_spacing(header), states_orientation=states_orientation(header),
-        settled_type=settled, label_names=names, details=details,
+        settled_type=settled, label_names=names, details=details, check_length=length,
     )  # fmt: skip
 
 

@@ -12,7 +12,7 @@ import numpy.typing as npt
 from lumencut._files import checked_path
 from lumencut.errors import FormatError
 from lumencut.volume_files.opened import Filled, VolumeFile, decoded, inside, shown
-from lumencut.volume_files.payload import Codec, read_numbers, read_voxels
+from lumencut.volume_files.payload import Codec, check_length, read_numbers, read_voxels
 from lumencut.volume_files.slicer_segments import (
     has_segments,
     segmentation_file,
@@ -80,13 +80,13 @@ def open_nrrd(path: Path, chosen: Collection[int] | None = None) -> VolumeFile:
     affine = _affine(path, header, axes, notes)
     long = [axis for axis in range(len(sizes)) if axis in axes or sizes[axis] > 1]
     stored = [sizes[axis] for axis in long]
-    read = _reader(path, header, end, (tuple(reversed(stored)), dtype))
+    read, length = _reader(path, header, end, (tuple(reversed(stored)), dtype))
     file = VolumeFile(
         path, "NRRD", size, dtype, shown(space) or "none stated", affine,
         lambda progress, filled: read(filled), notes, remarks=remarks,
         states_spacing=_states_spacing(header, axes),
         states_orientation="space directions" in header and _patient_space(header) in _TO_LPS,
-        settled_type=dtype.newbyteorder("="),
+        settled_type=dtype.newbyteorder("="), check_length=length,
     )  # fmt: skip
     if not has_segments(lines):
         return file
@@ -97,8 +97,8 @@ def open_nrrd(path: Path, chosen: Collection[int] | None = None) -> VolumeFile:
 
 def _reader(
     path: Path, header: dict[str, Any], end: int, stored: tuple[tuple[int, ...], np.dtype[Any]]
-) -> Callable[[Filled], npt.NDArray[Any]]:
-    """What reads the voxels of a shape, slowest axis first, and a type."""
+) -> tuple[Callable[[Filled], npt.NDArray[Any]], Callable[[], bool]]:
+    """What reads voxels of a shape, slowest axis first, and a type; and what checks the length of their file."""
     shape, dtype = stored
     encoding = _encoding(path, header)
     lines, skip = _skips(path, header, encoding)
@@ -113,7 +113,15 @@ def _reader(
         codec = _CODECS[encoding]
         return read_voxels(data_path, shape, dtype, start=begin, codec=codec, skip=skip, filled=filled)
 
-    return read
+    def length() -> bool:
+        begin = _after_lines(data_path, start, lines)
+        if encoding in _TEXT:
+            return False
+        if skip == -1:
+            return check_length(data_path, shape, dtype, start=-1)
+        return check_length(data_path, shape, dtype, start=begin, codec=_CODECS[encoding], skip=skip)
+
+    return read, length
 
 
 def _header(path: Path) -> tuple[dict[str, Any], list[bytes], int]:

@@ -34,6 +34,11 @@ def unfollowed(voxels: npt.NDArray[Any], count: int) -> None:
     """Take no notice of slices that are final."""
 
 
+def unproven() -> bool:
+    """Tell that nothing but reading the voxels shows whether a file has all of them."""
+    return False
+
+
 @dataclass(frozen=True, eq=False)
 class VolumeFile:
     """A volume whose headers are read and checked and whose voxels are still on disk."""
@@ -64,6 +69,8 @@ class VolumeFile:
     """The names of the labels, where the file has them."""
     is_segmentation: bool = False
     """Whether it is one, whose segments can be chosen: it may hold a part of the voxels of its scan."""
+    check_length: Callable[[], bool] = unproven
+    """Refuses files that are too short for their voxels; tells whether lengths prove that they are not."""
     holds: object = None
     """What must not go while the voxels are still to be read."""
 

@@ -105,6 +105,36 @@ def read_voxels(
     return voxels
 
 
+def check_length(
+    path: Path,
+    shape: tuple[int, ...],
+    dtype: np.dtype[Any],
+    *,
+    start: int = 0,
+    codec: Codec = "raw",
+    skip: int = 0,
+) -> bool:
+    """Tell whether the length of a file proves that it holds all voxels.
+
+    Parameters are those of `read_voxels`.
+
+    Raises
+    ------
+    FormatError
+        For plain voxels that the file has no room for.
+    """
+    needed = dtype.itemsize
+    for count in shape:
+        needed *= int(count)
+    length = checked_path(path, _PLAIN_FILE).stat().st_size
+    held = max(length - max(start, 0) - skip, 0)
+    if codec == "raw" and held < needed:
+        raise _too_short(path, held, needed)
+    if codec == "zlib" and needed > length * _DEFLATE_LIMIT:
+        raise _too_short(path, length * _DEFLATE_LIMIT, needed, "at most ")
+    return codec == "raw"
+
+
 def _in_slices(voxels: npt.NDArray[Any], told: Callable[[int], None]) -> Callable[[int], None]:
     """A function that is told of bytes that are read, and tells on of slices that are whole."""
     size, known = max(voxels[:1].nbytes, 1), 0

@@ -45,7 +45,7 @@ impl Study {
                 Reformed { message, size, laid, value }
             }
         };
-        let picture = self.picture_of(&reformed, window)?;
+        let picture = self.picture_of(&reformed, (window, stop))?;
         self.reformed = Some(reformed);
         Ok(picture)
     }
@@ -164,7 +164,7 @@ impl Study {
     }
 
     /// The picture of a reformation in a window, and what there is to say of it.
-    fn picture_of(&self, reformed: &Reformed, window: [f64; 2]) -> Result<ReformedPicture> {
+    fn picture_of(&self, reformed: &Reformed, (window, stop): ([f64; 2], Stop)) -> Result<ReformedPicture> {
         let layout = reformed.laid.layout();
         let size = layout.size();
         let mut words = reformed.laid.axes().words();
@@ -175,7 +175,7 @@ impl Study {
             words += &format!(" Colours: from 0 (dark blue) to {end} mm (yellow).");
             coloured(&reformed.value, [0.0, end], Colours::Viridis)
         } else {
-            pipeline::picture(&reformed.value, size, &shown_flat(window)?.1)?
+            pipeline::picture(&reformed.value, size, (&shown_flat(window)?.1, stop))?
         };
         let (bytes, pixel_spacing) = (pixels.into_flattened(), layout.pixel_spacing());
         let marks = self.marks_of(&reformed.laid);

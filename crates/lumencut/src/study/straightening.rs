@@ -102,7 +102,7 @@ impl Study {
         };
         let value = feature_aggregation(&laid.cpr, spacing, feature, look)?;
         let size = laid.cpr.size();
-        Ok(Picture { size, bytes: pipeline::picture(&value, size, &settings)?.into_flattened() })
+        Ok(Picture { size, bytes: pipeline::picture(&value, size, (&settings, stop))?.into_flattened() })
     }
 }
 

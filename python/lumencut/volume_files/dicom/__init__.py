@@ -18,6 +18,7 @@ from lumencut.series_report import SeriesReport
 from lumencut.volume_files.dicom.files import File, read_files
 from lumencut.volume_files.dicom.headers import is_dicom
 from lumencut.volume_files.dicom.judging import Wanted, described, judged
+from lumencut.volume_files.dicom.pixels import check_pixels
 from lumencut.volume_files.dicom.segmentation import open_segmentation, wanted_segmentation
 from lumencut.volume_files.dicom.sources import is_zip
 from lumencut.volume_files.dicom.study import comments_of, study_of
@@ -61,6 +62,7 @@ def opened(path: Path, wanted: Wanted, read: Callable[[list[str]], Sequence[File
         remarks=remarks, filled=stack.missing, details=series.details, scan=series.scan,
         frame_of_reference=str(stack.slices[0].image.header.get("FrameOfReferenceUID") or ""),
         study=study, patient=Patient.in_header(study.header), settled_type=settled_type(stack),
+        check_length=lambda: check_pixels({id(one.image): one.image for one in stack.slices}.values()),
     )  # fmt: skip
 
 

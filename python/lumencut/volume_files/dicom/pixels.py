@@ -6,7 +6,7 @@ are few and their decoder takes damage as an ordinary error.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from types import TracebackType
 from typing import Any, BinaryIO
 
@@ -85,12 +85,33 @@ class PixelReader:
         return self._last
 
 
+def check_pixels(images: Iterable[Image]) -> bool:
+    """Tell whether the sizes of files prove that each image has all of its pixels.
+
+    Raises
+    ------
+    FormatError
+        For an image without pixels, and one whose file has no room for them.
+    """
+    is_proven = True
+    for image in images:
+        if not image.pixel_keyword:
+            raise _no_pixels(image)
+        if image.transfer_syntax.is_encapsulated or image.pixels_at is None:
+            is_proven = False
+            continue
+        held = image.source.size - image.pixels_at
+        if held < _frame_bytes(image) * image.frame_count:
+            raise _too_short(image, held)
+    return is_proven
+
+
 class _OpenImage:
     """The open file of an image, at the first of its pixels."""
 
     def __init__(self, image: Image) -> None:
         if not image.pixel_keyword:
-            raise FormatError(str(image.source), "no pixels", "an image with pixels", "copy the file again")
+            raise _no_pixels(image)
         self.image = image
         self.stream = image.source.open()
         self._compressed: list[bytes] | None = None
@@ -172,6 +193,10 @@ def _options(image: Image) -> dict[str, Any]:
 def _frame_bytes(image: Image) -> int:
     header = image.header
     return int(header.Rows) * int(header.Columns) * int(header.BitsAllocated) // 8
+
+
+def _no_pixels(image: Image) -> FormatError:
+    return FormatError(str(image.source), "no pixels", "an image with pixels", "copy the file again")
 
 
 def _too_short(image: Image, held: int) -> FormatError:

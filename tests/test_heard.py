@@ -1,0 +1,74 @@
+"""Long calls of the extension module look for signals while they work: a handler runs in their midst."""
+
+from __future__ import annotations
+
+import signal
+import sys
+
+import numpy as np
+import pytest
+
+import lumencut
+from lumencut import phantom
+
+pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="no timers of the process there")
+
+TUBE = phantom.straight_tube()
+VESSEL = TUBE.tree[0]
+FRONT = lumencut.Camera.fitted(TUBE.tree, (0, 1, 0), (0, 0, 1), size=(4096, 4096))
+
+
+def curved(mode, **more):
+    """The layout of a large CPR in the extension module."""
+    return lumencut.cpr(TUBE.volume, VESSEL, mode, width=40, pixel_spacing=0.01, **more)._core
+
+
+def depth():
+    return np.zeros((4096, 4096), np.float32)
+
+
+#: What is prepared, and the call of the extension module that works on it.
+CALLS = {
+    "phantom": (lambda: None, lambda _: phantom.aorta(scale=0.5)),
+    "position": (lambda: curved("stretched"), lambda core: core.position()),
+    "folded": (lambda: curved("straightened"), lambda core: core.folded()),
+    "spiral": (
+        lambda: lumencut.spiral(TUBE.volume, VESSEL, pixel_spacing=0.05)._core,
+        lambda c: c.position(),
+    ),
+    "map": (lambda: lumencut.lumen_map(TUBE.volume, VESSEL, pixel_spacing=0.01)._core, lambda c: c.shades()),
+    "untangled": (
+        lambda: lumencut.untangled(TUBE.volume, TUBE.tree, pixel_spacing=0.015)._core,
+        lambda core: core.vessel(),
+    ),
+    "uncurl": (lambda: lumencut.uncurl(TUBE.volume, VESSEL, FRONT, 0.5)._core, lambda core: core.position()),
+    "picture": (
+        lambda: (depth(), lumencut.Settings(window=lumencut.Window(100, 500))._checked),
+        lambda given: lumencut._lumencut.picture(*given),
+    ),
+    "positions": (depth, lambda given: lumencut._lumencut.positions(FRONT, given)),
+    "sample": (
+        lambda: np.random.default_rng(1).uniform(-10, 10, (4_000_000, 3)),
+        lambda points: lumencut._lumencut.sample(TUBE.volume, points),
+    ),
+}
+
+
+@pytest.mark.parametrize("name", CALLS)
+def test_a_signal_is_heard_in_the_midst_of_a_call(name):
+    # Signals that come while nobody looks are handled once, after the call: one that looks handles several.
+    prepare, call = CALLS[name]
+    given, heard = prepare(), []
+    before = signal.signal(signal.SIGALRM, lambda number, frame: heard.append(number))
+    try:
+        for _ in range(20):
+            heard.clear()
+            signal.setitimer(signal.ITIMER_REAL, 0.001, 0.001)
+            call(given)
+            signal.setitimer(signal.ITIMER_REAL, 0)
+            if len(heard) > 4:
+                return
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.signal(signal.SIGALRM, before)
+    pytest.fail(f"{len(heard)} times")

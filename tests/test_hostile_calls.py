@@ -1,0 +1,43 @@
+"""Every public call refuses what is no argument of its kind, by an error of Lumencut, or gives a result."""
+
+from __future__ import annotations
+
+import warnings
+
+import pytest
+
+import lumencut
+from hostile_calls import WRONG, cases
+
+
+@pytest.fixture(scope="module")
+def every_case(tmp_path_factory):
+    return list(cases(tmp_path_factory.mktemp("hostile")))
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_wrong_values_give_errors_of_lumencut_or_results(every_case, tmp_path, monkeypatch):
+    # Names of files among the wrong values are written here.
+    monkeypatch.chdir(tmp_path)
+    foreign = []
+    for case in every_case:
+        for parameter in case.given:
+            for wrong in WRONG:
+                # What a function that is called back raises passes through.
+                if parameter == "progress" and callable(wrong):
+                    continue
+                try:
+                    with warnings.catch_warnings(action="ignore"):
+                        case.call(**{parameter: wrong})
+                except lumencut.LumencutError:
+                    continue
+                except Exception as error:
+                    foreign.append(f"{case.name}({parameter}={wrong!r:.40}): {type(error).__name__}: {error}")
+    assert foreign == []
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_the_cases_are_most_of_what_is_public(every_case):
+    names = {case.name for case in every_case}
+    assert {"render", "measure", "cpr", "read_volume", "Camera.fitted", "VesselTree.select"} <= names
+    assert len(names) > 80
