@@ -1,4 +1,4 @@
-"""Segmentations of 3D Slicer and masks of a part of the scan: placed by their grids, named, chosen, refused."""
+"""Segmentations of 3D Slicer, and masks of a part of the scan: places, names, choices and refusals."""
 
 import gzip
 

@@ -125,7 +125,7 @@ def study_in(header: bytes, instances: Sequence[str] = ()) -> Study:
 
 def _box_in(header: Any, size: int) -> Box | None:
     """What holds the frames of one header; None where it does not say where they lie."""
-    image = Image(Source(Path("header"), size), header, None, "", "")
+    image = Image(Source(Path("header"), size), header, 0, "", "")
     try:
         return box_of_slices([header_record(image)])
     except Exception:  # what pydicom raises for damaged values is nearly everything
