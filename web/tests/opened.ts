@@ -6,12 +6,14 @@ import { vi } from 'vitest';
 import { Failure } from '../src/core/failure';
 import type { States } from '../src/core/messages';
 import { dicom_attributes, initSync, judge_dicom } from '../src/core/pkg/dicom/lumencut_dicom.js';
+import { initSync as startEngine } from '../src/core/pkg/lumencut.js';
 import { ALL_OF_IT, type Wanted } from '../src/io/dicom/wanted';
 import type { Kind } from '../src/io/numbers';
 import { ARRAYS, byteCount } from '../src/io/numbers';
 import { among, BlobSource, type Source } from '../src/io/source';
 import { Steps } from '../src/io/steps';
 import { openFiles } from '../src/io/study';
+import { askAtOnce } from '../src/worker/answers';
 
 export interface Header {
   readonly size: [number, number, number];
@@ -42,6 +44,10 @@ export class Memory {
     return [];
   }
 
+  sideNotes(text: string): readonly string[] {
+    return askAtOnce('straightened_notes', { text });
+  }
+
   get values(): Float32Array {
     return Float32Array.from(new ARRAYS[(this.header?.dtype ?? 'uint8') as 'int16'](this.bytes.buffer));
   }
@@ -60,6 +66,7 @@ vi.stubGlobal('fetch', async (address: string) => {
   return new Response(readFileSync(address.replace(/^\/node_modules/, modules)));
 });
 
+startEngine({ module: readFileSync(new URL('../src/core/pkg/lumencut_bg.wasm', import.meta.url)) });
 initSync({ module: readFileSync(new URL('../src/core/pkg/dicom/lumencut_dicom_bg.wasm', import.meta.url)) });
 
 export function sourceOf(path: string, name: string): Source {

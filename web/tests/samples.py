@@ -27,6 +27,8 @@ sys.path.insert(0, str(ROOT / "tests"))
 
 from dicom_cases import CASES  # noqa: E402
 from dicom_repeated import REPEATED  # noqa: E402
+from dicom_scenes import scan  # noqa: E402
+from lumencut import Vessel, straightened_volume  # noqa: E402
 from lumencut.errors import LumencutError  # noqa: E402
 from lumencut.volume_files import inspected_volume, read_volume  # noqa: E402
 from volume_samples import DATA, coded, oblique  # noqa: E402
@@ -172,6 +174,21 @@ def twice_gzipped(folder: Path) -> Path:
     return path
 
 
+def marked(image: Callable[..., Any]) -> Writer:
+    """A NIfTI file that says what a straightened vessel says of its sides."""
+
+    def write(folder: Path) -> Path:
+        made = image(coded().T, np.diag([-1, -1, 1, 1]) @ oblique())
+        made.header["descrip"] = MARK.encode()
+        made.header.set_xyzt_units("mm")
+        nibabel.save(made, folder / "v.nii")
+        return folder / "v.nii"
+
+    return write
+
+
+#: Of a vessel that runs across the body and turns away from its sides.
+MARK = "Lumencut straightened vessel; sides SPL at its middle; up to 88.5 deg off"
 GZIPPED = nifti(name="v.nii.gz")
 VOLUMES: dict[str, Writer] = {
     "NIfTI": nifti(),
@@ -191,6 +208,8 @@ VOLUMES: dict[str, Writer] = {
     "NIfTI slope 0": nifti(slope=0.0, inter=5.0),
     "NIfTI complex": nifti(datatype=32),
     "NIfTI unknown type": nifti(datatype=99),
+    "NIfTI of a straightened vessel": marked(nibabel.Nifti1Image),
+    "NIfTI-2 of a straightened vessel": marked(nibabel.Nifti2Image),
     "NIfTI cut": cut(nifti(), 0.9),
     "NIfTI header cut": cut(nifti(), 0.3),
     "NIfTI gzipped and cut": cut(GZIPPED, 0.8),
@@ -202,6 +221,7 @@ VOLUMES: dict[str, Writer] = {
     "NRRD detached": nrrd_of("v.nhdr", encoding="raw"),
     "NRRD LAS floats": nrrd_of(dtype="f4", encoding="gzip", space="LAS"),
     "NRRD in cm": nrrd_of(encoding="raw", **{"space units": ["cm", "cm", "cm"]}),
+    "NRRD of a straightened vessel": nrrd_of(encoding="raw", content=MARK),
     "NRRD cut": cut(nrrd_of(encoding="raw"), 0.9),
     "NRRD gzip cut": cut(nrrd_of(encoding="gzip"), 0.9),
     "MetaImage": metaimage("v.mha"),
@@ -241,6 +261,22 @@ def made(folder: Path) -> Iterator[dict[str, Any]]:
         yield truth
 
 
+def straightened(folder: Path) -> dict[str, Any]:
+    """A DICOM series of sections across a vessel that bends from the head to the left."""
+    turn = np.linspace(0, np.pi, 61)
+    middle = np.mean(scan().corners, axis=0)
+    bow = Vessel(middle + 8 * np.stack([-np.cos(turn), 0 * turn, np.sin(turn)], axis=1))
+    straightened_volume(scan(), bow, 8.0, 1.0).save(folder / "straightened")
+    path = str(folder / "straightened")
+    return {
+        "name": "a straightened vessel",
+        "kind": "series",
+        "path": path,
+        "folder": path,
+        **read(Path(path)),
+    }
+
+
 def shared() -> Iterator[dict[str, Any]]:
     """The volumes of the shared data."""
     endings = (".nii.gz", ".nrrd", ".mha")
@@ -259,7 +295,7 @@ def main() -> None:
     """Write everything."""
     logging.getLogger("lumencut").setLevel(logging.ERROR)
     folder = Path(sys.argv[1])
-    every = [*made(folder), *shared()]
+    every = [*made(folder), straightened(folder), *shared()]
     (folder / "expected.json").write_text(json.dumps(every, indent=1))
 
 

@@ -20,6 +20,9 @@ const SIDES: [(char, &str); 6] =
 /// What stands before the letters, and after the angle, of [`StraightenedSides::mark`].
 const MARK: [&str; 2] = ["Lumencut straightened vessel; sides ", " deg off"];
 
+/// So many letters of a text are looked at behind the beginning of a mark.
+const LONGEST: usize = 64;
+
 /// What stands between them where the scan does not state its orientation, and where it does.
 const BETWEEN: [&str; 2] = [" if the scan is LPS; up to ", " at its middle; up to "];
 
@@ -46,9 +49,10 @@ impl StraightenedSides {
         Self { letters: stated.map(sides).concat(), turn, is_stated }
     }
 
-    /// What [`StraightenedSides::mark`] says, where a text begins with it.
+    /// What [`StraightenedSides::mark`] says, where it stands in a text, such as the header of a file.
     pub fn read(text: &str) -> Option<Self> {
-        let rest = text.trim_start().strip_prefix(MARK[0])?;
+        let (_, rest) = text.split_once(MARK[0])?;
+        let rest = rest.get(..LONGEST.min(rest.len())).unwrap_or(rest);
         let (is_stated, between) =
             [false, true].into_iter().zip(BETWEEN).find(|(_, words)| rest.contains(words))?;
         let (letters, rest) = rest.split_once(between)?;

@@ -98,7 +98,7 @@ def open_nrrd(path: Path, chosen: Collection[int] | None = None) -> VolumeFile:
 def _reader(
     path: Path, header: dict[str, Any], end: int, stored: tuple[tuple[int, ...], np.dtype[Any]]
 ) -> tuple[Callable[[Filled], npt.NDArray[Any]], Callable[[], bool]]:
-    """What reads voxels of a shape, slowest axis first, and a type; and what checks the length of the file."""
+    """What reads voxels of a shape, slowest axis first, and a type; what checks the length of the file."""
     shape, dtype = stored
     encoding = _encoding(path, header)
     lines, skip = _skips(path, header, encoding)

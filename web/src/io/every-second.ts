@@ -38,6 +38,10 @@ export class EverySecond implements Study {
     return this.study.openCenterlines(bytes, name);
   }
 
+  sideNotes(text: string): readonly string[] {
+    return this.study.sideNotes?.(text) ?? [];
+  }
+
   begin_volume(text: string): void {
     const header: Header = JSON.parse(text);
     if (!Object.hasOwn(ARRAYS, header.dtype)) {

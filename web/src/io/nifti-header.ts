@@ -26,6 +26,8 @@ export interface NiftiHeader {
   readonly quaternion: readonly number[];
   readonly offset: readonly number[];
   readonly rows: readonly (readonly number[])[];
+  /** What the file says that it holds. */
+  readonly description: string;
 }
 
 const LENGTHS = { 348: 'NIfTI-1', 540: 'NIfTI-2' } as const;
@@ -87,6 +89,12 @@ function isBigEndian(littleCount: number, view: DataView): boolean {
   return littleCount < 1 || littleCount > 7;
 }
 
+/** The field of 80 letters at a byte, without zeros. */
+function lettersOf(view: DataView, at: number): string {
+  const bytes = new Uint8Array(view.buffer, view.byteOffset + at, 80);
+  return new TextDecoder('latin1').decode(bytes).replaceAll('\0', '');
+}
+
 function firstHeader(view: DataView): Fields {
   const isBig = isBigEndian(view.getInt16(40, true), view);
   const short = (at: number) => view.getInt16(at, !isBig);
@@ -106,6 +114,7 @@ function firstHeader(view: DataView): Fields {
     quaternion: several(3, 4, 256, float),
     offset: several(3, 4, 268, float),
     rows: [280, 296, 312].map((at) => several(4, 4, at, float)),
+    description: lettersOf(view, 148),
   };
 }
 
@@ -129,5 +138,6 @@ function secondHeader(view: DataView): Fields {
     quaternion: several(3, 8, 352, double),
     offset: several(3, 8, 376, double),
     rows: [400, 432, 464].map((at) => several(4, 8, at, double)),
+    description: lettersOf(view, 240),
   };
 }

@@ -54,7 +54,8 @@ export async function openNifti(source: Source, beside: Beside): Promise<VolumeF
   const stored = { kind, isBig: header.isBig };
   const scaling = scalingOf(path, header);
   const states = statesOf(header);
-  return { path, format: header.format, size, worldFromIndex, stored, scaling, place, notes, states };
+  const read = { path, format: header.format, size, worldFromIndex, stored, scaling, place, notes, states };
+  return { ...read, content: header.description };
 }
 
 /** The other file of a pair where this one's name ends as `mine` (`x.img.gz` belongs to `x.hdr.gz` or `x.hdr`). */

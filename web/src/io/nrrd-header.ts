@@ -23,6 +23,8 @@ export class NrrdHeader {
     private readonly fields: ReadonlyMap<string, string>,
     /** The byte behind the header. */
     readonly end: number,
+    /** What the file says that it holds. */
+    readonly content: string,
   ) {}
 
   has(name: string): boolean {
@@ -99,7 +101,7 @@ export function readHeader(path: string, head: Uint8Array): NrrdHeader {
     }
     fields.set(name, value.trim());
   }
-  return new NrrdHeader(path, fields, end);
+  return new NrrdHeader(path, fields, end, lines.find((line) => /^content\s*:[^=]/i.test(line)) ?? '');
 }
 
 /** The lines of a header, up to an empty line or the end of the file, and the byte behind them. */

@@ -69,7 +69,18 @@ export async function openNrrd(source: Source, beside: Beside): Promise<VolumeFi
     spacing: statesSpacing(header, axes),
     orientation: directions !== null && toLps(header) !== null,
   };
-  return { path, format: 'NRRD', size, worldFromIndex, stored, scaling: UNSCALED, place, notes, states };
+  const read = {
+    path,
+    format: 'NRRD',
+    size,
+    worldFromIndex,
+    stored,
+    scaling: UNSCALED,
+    place,
+    notes,
+    states,
+  };
+  return { ...read, content: header.content };
 }
 
 /** The three axes of the grid; further axes must have length 1. */

@@ -17,6 +17,8 @@ import { formatFailure } from './words';
 export interface Study extends Sink {
   /** Gives notes. */
   openCenterlines(bytes: Uint8Array, name: string): readonly string[];
+  /** What must be known of the sides of a straightened volume, by a text of its file. */
+  sideNotes?(text: string): readonly string[];
 }
 
 /** What files are opened with. */
@@ -157,7 +159,9 @@ async function openVolume(sorted: Sorted, every: readonly Source[], asked: Asked
   const subject = archive?.path ?? commonName(sources);
   const series = { subject, sources, wanted: asked.wanted };
   const read = await openDicom(series, judge, asked.study, asked.steps);
-  return { ...read, name: fileName(subject), states: STATED };
+  const header = read.study ? new TextDecoder('latin1').decode(read.study.header) : '';
+  const notes = [...read.notes, ...sideNotes(asked.study, header)];
+  return { ...read, notes, name: fileName(subject), states: STATED };
 }
 
 async function membersOf(archive: Source): Promise<Source[]> {
@@ -169,8 +173,11 @@ async function openFile({ source, kind }: Known, { beside, study, steps }: Asked
   const open = kind === 'nrrd' ? openNrrd : kind === 'metaimage' ? openMetaImage : openNifti;
   const file = await open(source, beside);
   await load(file, study, steps);
-  return { study: null, name: fileName(source.path), notes: file.notes, states: file.states };
+  const notes = [...file.notes, ...sideNotes(study, file.content)];
+  return { study: null, name: fileName(source.path), notes, states: file.states };
 }
+
+const sideNotes = (study: Study, text = ''): readonly string[] => (text && study.sideNotes?.(text)) || [];
 
 /** The folder in which all files are; the name of a single one. */
 function commonName(sources: readonly Source[]): string {

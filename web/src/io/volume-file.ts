@@ -38,6 +38,8 @@ export interface VolumeFile {
   readonly place: Place;
   readonly notes: readonly string[];
   readonly states: States;
+  /** What the file says that it holds, which may name a patient: the engine alone reads it. */
+  readonly content?: string;
 }
 
 /** Makes room for a volume; what is no grid is refused in the name of its file. */

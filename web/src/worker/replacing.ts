@@ -2,7 +2,7 @@
 import type { SeriesWish } from '../core/messages';
 import type { Engine } from '../core/module';
 import type { Study, Means as StudyMeans } from '../io/study';
-import { ask } from './answers';
+import { ask, askAtOnce } from './answers';
 
 export class Replacing implements Study {
   hasBegun = false;
@@ -28,6 +28,10 @@ export class Replacing implements Study {
 
   openCenterlines(bytes: Uint8Array, name: string): readonly string[] {
     return ask(this.engine, 'open_centerlines', { name, wish: this.wish }, { bytes });
+  }
+
+  sideNotes(text: string): readonly string[] {
+    return askAtOnce('straightened_notes', { text });
   }
 }
 

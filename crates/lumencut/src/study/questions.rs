@@ -4,6 +4,7 @@
 use lumencut_vessels::measure::profile::Profile;
 
 use crate::report::Stated;
+use crate::straightened_sides::StraightenedSides;
 use crate::study::after_edit::{AfterEdit, FirstClick};
 use crate::study::asking::{Answer, Answering, Asking, Turn, WrittenFile, questions, read};
 use crate::study::centerline_files::AskedMessage;
@@ -216,6 +217,10 @@ of_the_study {
 at_once {
     /// The letters at the edges of a picture, and its scale bar.
     labels(picture: LaidPicture) -> PictureLabels = picture.into();
+
+    /// What must be known of the sides of a straightened volume, by a text of its file; nothing for another file.
+    straightened_notes { text: String } -> Vec<String> =
+        StraightenedSides::read(&text).map_or_else(Vec::new, |sides| sides.notes());
 
     /// As many views of a flight from one camera to another, equal times apart; the first and the last are these cameras.
     flight { from: CameraMessage, to: CameraMessage, views: usize } -> Vec<CameraMessage> =

@@ -116,7 +116,7 @@ fn the_mark_is_read_back_and_nothing_else_is() {
         let mark = made.mark();
         assert!(mark.is_ascii() && mark.len() <= 79, "{mark}");
         assert_eq!(StraightenedSides::read(&mark), Some(made.clone()));
-        assert_eq!(StraightenedSides::read(&format!("{mark}. More.")), Some(made));
+        assert_eq!(StraightenedSides::read(&format!("\0 ä content: {mark}. More, ä and more")), Some(made));
     }
     let others = ["", "chest", "Lumencut straightened vessel; sides LPX at its middle; up to 1.0 deg off"];
     let damaged = [

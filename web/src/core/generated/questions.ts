@@ -1273,6 +1273,13 @@ export type Questions = {
     readonly message: LaidPicture;
     readonly answer: PictureLabels;
   };
+  /** What must be known of the sides of a straightened volume, by a text of its file; nothing for another file. */
+  readonly straightened_notes: {
+    readonly message: {
+      readonly text: string;
+    };
+    readonly answer: ReadonlyArray<string>;
+  };
   /** As many views of a flight from one camera to another, equal times apart; the first and the last are these cameras. */
   readonly flight: {
     readonly message: {
@@ -1351,6 +1358,7 @@ export const TURNS = {
   write_session: { when: 'first', words: null },
   read_session: { when: 'first', words: null },
   labels: { when: 'at once', words: null },
+  straightened_notes: { when: 'at once', words: null },
   flight: { when: 'at once', words: null },
   settings_table: { when: 'at once', words: null },
   looks: { when: 'at once', words: null },
