@@ -56,3 +56,40 @@ test('among several series each shows its middle slice, and one is read by its b
   await viewer.rest();
   expect((await viewer.report()).volume?.size).toEqual([16, 16, 5]);
 });
+
+test('points of a line in another order are noted, and put in order', async () => {
+  await choose(series([0, 2, 4, 6, 8, 10]));
+  await viewer.rest();
+  const [corner, far] = await viewer.report().then(({ volume }) => [volume?.corners[0], volume?.corners[7]]);
+  const at = (n: number) =>
+    (corner ?? []).map((low, axis) => low + (((far ?? [])[axis] ?? 0) - low) * (0.2 + n / 100));
+  const order = [...Array(48).keys()].map((n) => at((n + 2) % 48));
+  const line = (points: readonly (readonly number[])[]) => ({
+    name: 'line.mrk.json',
+    mimeType: 'application/json',
+    buffer: Buffer.from(
+      JSON.stringify({
+        markups: [
+          {
+            type: 'Curve',
+            coordinateSystem: 'LPS',
+            coordinateUnits: 'mm',
+            controlPoints: points.map((position) => ({ position, positionStatus: 'defined' })),
+          },
+        ],
+      }),
+    ),
+  });
+  await choose([line(order)]);
+  await viewer.rest();
+  const notes = viewer.page.locator('details', { hasText: 'another order' });
+  const length = async () => (await viewer.report()).vessels?.map((vessel) => Math.round(vessel.length));
+  const [disordered] = (await length()) ?? [];
+  await notes.locator('summary').click();
+  await notes.getByRole('button', { name: 'Put the points in order' }).click();
+  await viewer.rest();
+  const ordered = await length();
+  expect(ordered).toHaveLength(1);
+  expect(ordered?.[0]).toBeLessThan((disordered ?? 0) * 0.6);
+  await expect(viewer.page.getByRole('button', { name: 'Put the points in order' })).toHaveCount(0);
+});

@@ -18,8 +18,8 @@ pub const REORDERED: &str = "points were put in another order";
 /// Without the file's name, where the order of a line is doubtful and no other is found without doubt.
 pub fn in_order(mut lines: Centerlines) -> Result<Centerlines> {
     let given = std::mem::take(&mut lines.lines);
-    for (number, line) in rejoined(given).into_iter().enumerate() {
-        let order = found_order(&line.points).map(|order| along_given(order));
+    for (number, line) in rejoined(&given).into_iter().enumerate() {
+        let order = found_order(&line.points).map(along_given);
         match order {
             Some(order) => {
                 let moved = order.len() - rising(&order).max(1);
@@ -41,7 +41,7 @@ pub fn in_order(mut lines: Centerlines) -> Result<Centerlines> {
 
 /// What is doubtful where a list of points was parted at long steps, although its points form one line in another order.
 pub fn parted_doubt(lines: &Centerlines) -> Option<LineDoubt> {
-    let joined = rejoined(lines.lines.clone());
+    let joined = rejoined(&lines.lines);
     let vessel = (0..joined.len()).find(|n| joined[*n].points.len() != lines.lines[*n].points.len())?;
     let parts = lines.lines.len() - joined.len() + 1;
     Some(LineDoubt {
@@ -57,7 +57,7 @@ pub fn parted_doubt(lines: &Centerlines) -> Option<LineDoubt> {
 }
 
 /// The lines, of which those that one list of points was parted into are one where its points form one line.
-fn rejoined(lines: Vec<Line>) -> Vec<Line> {
+fn rejoined(lines: &[Line]) -> Vec<Line> {
     let mut joined: Vec<Line> = Vec::with_capacity(lines.len());
     let mut from = 0;
     while from < lines.len() {

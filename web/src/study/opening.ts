@@ -6,6 +6,7 @@ import type { GivenFile, SeriesWish } from '../core/messages';
 import { addSegmentation } from '../edit/branches';
 import { isSegmentation } from '../edit/segmentation';
 import { isSession, openSession } from '../session/saving';
+import { document_, hasEdits, undo, undoWords } from '../state/history';
 import { openWith } from '../state/last-opened';
 import * as store from '../state/store';
 import { leave } from './leaving';
@@ -17,15 +18,22 @@ export function openFiles(
   files: readonly GivenFile[],
   first: SeriesWish = {},
 ): Promise<void> {
+  const before = store.notes.value;
+  const wasEdited = document_.value.vessels.length > 0 || hasEdits.value;
+  let isAgain = false;
   return openWith(first, (wish) => {
     const load = async () => {
       const opened = await engine.openFiles(files, wish, (told) => {
         store.progress.value = told;
       });
       const isVolume = opened.name !== undefined;
-      return isVolume
-        ? opened
-        : { ...opened, ...beside(), isBeside: true, notes: [...store.notes.value, ...opened.notes] };
+      // Lines that are read again take the place of those before.
+      if (isAgain && wasEdited && undoWords.value === 'open centerlines') {
+        undo();
+      }
+      const isBeside = !isAgain || wasEdited || hasEdits.value;
+      isAgain = true;
+      return isVolume ? opened : { ...opened, ...beside(), isBeside, notes: [...before, ...opened.notes] };
     };
     return open(engine, load, '');
   });

@@ -2,6 +2,7 @@
 
 import { tree } from '../edit/shown';
 import { nameOf } from '../state/changes';
+import { openAgain } from '../state/last-opened';
 import { hasMillimetres } from '../state/millimetres';
 import * as store from '../state/store';
 import { positionText } from '../views/position';
@@ -90,6 +91,13 @@ function Notes() {
         {notes.map((note) => (
           <li key={note}>{note}</li>
         ))}
+        {store.report.value?.can_reorder && (
+          <li>
+            <button type="button" onClick={() => void openAgain({ reorder: true })}>
+              Put the points in order
+            </button>
+          </li>
+        )}
       </ul>
     </details>
   );

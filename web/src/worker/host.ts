@@ -114,7 +114,7 @@ export class EngineHost {
     told: Told,
   ): Promise<Partial<Fetched> & { report: Report; notes: readonly string[] }> {
     const sources = files.map(({ path, file }) => new BlobSource(path, file));
-    const { coordinates: _, unit: __, every_second: ___, ...series } = wish;
+    const { coordinates: _, unit: __, every_second: ___, reorder: ____, ...series } = wish;
     const work = async (means: Means) => {
       const { openFiles } = await import('../io/study');
       const { volume, notes } = await openFiles(sources, among(sources), { ...ALL_OF_IT, ...series }, means);

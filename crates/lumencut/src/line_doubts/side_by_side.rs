@@ -26,7 +26,6 @@ const SHORTEST_RADII: f64 = 6.0;
 /// A place on a vessel.
 struct Spot {
     vessel: usize,
-    along: f64,
     radius: Option<f64>,
 }
 
@@ -39,18 +38,12 @@ pub(super) fn side_by_side(lines: &[DoubtedLine]) -> Vec<(usize, usize, f64)> {
     let nearby = Nearby::new(&points);
     let mut runs: BTreeMap<(usize, usize), Runs> = BTreeMap::new();
     for (n, spot) in spots.iter().enumerate() {
-        let mut others: Vec<(usize, f64)> = Vec::new();
-        let most = near(spot.radius, spot.radius).hypot(step);
-        nearby.within(points[n], most, |m| {
+        let mut others = BTreeMap::new();
+        nearby.within(points[n], near(spot.radius, spot.radius).hypot(step), |m| {
             let other = &spots[m];
-            if other.vessel != spot.vessel {
-                let radius = smaller(spot.radius, other.radius);
-                let distance = distance_to_line(points[n], &points, &spots, m);
-                if distance <= near(spot.radius, other.radius)
-                    && !others.iter().any(|one| one.0 == other.vessel)
-                {
-                    others.push((other.vessel, radius.unwrap_or(0.0)));
-                }
+            let most = near(spot.radius, other.radius);
+            if other.vessel != spot.vessel && distance_to_line(points[n], &points, &spots, m) <= most {
+                others.entry(other.vessel).or_insert(smaller(spot.radius, other.radius).unwrap_or(0.0));
             }
             true
         });
@@ -58,12 +51,13 @@ pub(super) fn side_by_side(lines: &[DoubtedLine]) -> Vec<(usize, usize, f64)> {
             runs.entry((spot.vessel, other)).or_default().add(n, radius);
         }
     }
-    let longest = |runs: &Runs| runs.longest(&points);
-    let long = runs.iter().filter_map(|((a, b), runs)| Some((*a.min(b), *a.max(b), longest(runs)?)));
+    // Each of both has stretches beside the other.
     let mut pairs: BTreeMap<(usize, usize), f64> = BTreeMap::new();
-    for (a, b, length) in long {
-        let most = pairs.entry((a, b)).or_default();
-        *most = most.max(length);
+    for ((a, b), runs) in runs {
+        if let Some(length) = runs.longest(&points) {
+            let most = pairs.entry((a.min(b), a.max(b))).or_default();
+            *most = most.max(length);
+        }
     }
     pairs.into_iter().map(|((a, b), length)| (a, b, length)).collect()
 }
@@ -112,7 +106,7 @@ fn spots(lines: &[DoubtedLine]) -> (Vec<DVec3>, Vec<Spot>, f64) {
             points.push(point_at(line.points, along, at));
             let next = along.partition_point(|one| *one < at).min(line.points.len() - 1);
             let radius = line.radius.and_then(|radius| radius.get(next)).copied();
-            spots.push(Spot { vessel, along: at, radius: radius.filter(|radius| *radius > 0.0) });
+            spots.push(Spot { vessel, radius: radius.filter(|radius| *radius > 0.0) });
         }
     }
     (points, spots, step)

@@ -1,9 +1,11 @@
 //! A file of centerlines becomes vessels in world space.
 
 use crate::extent::Extent;
+use crate::line_doubts::{DoubtedLine, LineDoubt, beside_doubts_of, order_doubts_of};
 use crate::lumen_points::{Lines, lumen_count};
 use crate::placement::{Judge, Known, placement};
 use crate::places::Statement;
+use crate::reordering::{in_order, parted_doubt};
 use glam::DVec3;
 use lumencut_core::vessel_tree::{Vessel, VesselTree};
 use lumencut_core::volume::Volume;
@@ -23,6 +25,30 @@ pub struct AskedMessage {
     /// `um`, `mm`, `cm`, `dm` or `m`.
     #[cfg_attr(test, ts(optional))]
     pub unit: Option<String>,
+    /// Whether the points of each line are put into their order.
+    #[cfg_attr(test, ts(optional))]
+    pub reorder: Option<bool>,
+}
+
+/// How centerlines are to be read.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Asked {
+    /// Their space and unit.
+    pub place: Statement,
+    /// Whether the points of each line are put into their order.
+    pub reorder: bool,
+}
+
+impl From<Statement> for Asked {
+    fn from(place: Statement) -> Self {
+        Self { place, reorder: false }
+    }
+}
+
+impl From<AskedMessage> for Asked {
+    fn from(message: AskedMessage) -> Self {
+        Self { reorder: message.reorder.unwrap_or(false), place: message.statement() }
+    }
 }
 
 impl AskedMessage {
@@ -43,6 +69,8 @@ pub struct PlacedVessels {
     pub names: Vec<String>,
     /// One sentence each.
     pub notes: Vec<String>,
+    /// Whether points are in another order, and may be put in order.
+    pub can_reorder: bool,
 }
 
 /// The vessels of the file `name` in world space, read in the space and unit that are asked for; what neither the file nor the
@@ -53,13 +81,13 @@ pub struct PlacedVessels {
 pub fn read_centerlines(
     bytes: &[u8],
     name: &str,
-    asked: Statement,
+    asked: Asked,
     volume: Option<&Volume>,
 ) -> Result<PlacedVessels> {
     let lines = centerlines::read(bytes, name)?;
     let known = Known {
-        asked_space: asked.space,
-        asked_unit: asked.unit,
+        asked_space: asked.place.space,
+        asked_unit: asked.place.unit,
         stated_space: lines.space,
         stated_unit: lines.unit,
         usual_unit: lines.conventional_unit.unwrap_or(Unit::Millimetre),
@@ -73,7 +101,10 @@ pub fn read_centerlines(
     let judge = volume.map(|volume| Judge { extent: Extent::from(volume), lumen: &lumen });
     let found = placement(&known, &points, judge.as_ref()).map_err(|error| error.in_file(name))?;
     let mm = found.place.unit.in_mm();
-    let placed = lines.scaled(mm).map(junctions::vessels).map_err(|error| error.in_file(name))?;
+    let mut doubts = if asked.reorder { Vec::new() } else { Vec::from_iter(parted_doubt(&lines)) };
+    let ordered = |lines| if asked.reorder { in_order(lines) } else { Ok(lines) };
+    let placed = lines.scaled(mm).and_then(ordered).map(junctions::vessels);
+    let placed = placed.map_err(|error| error.in_file(name))?;
     let signs = found.place.scale() / mm;
     let vessel = |line: &centerlines::Line| {
         Vessel::new(line.points.iter().map(|p| *p * signs).collect(), line.radius.clone())
@@ -81,6 +112,19 @@ pub fn read_centerlines(
     let vessels = placed.lines.iter().map(vessel).collect::<lumencut_core::error::Result<Vec<_>>>()?;
     let mut notes = placed.notes.clone();
     notes.extend((!found.decision.is_empty()).then_some(found.decision));
-    let names = placed.lines.iter().map(|line| line.name.clone().unwrap_or_default()).collect();
-    Ok(PlacedVessels { tree: VesselTree::new(vessels)?, names, notes })
+    let names: Vec<String> = placed.lines.iter().map(|line| line.name.clone().unwrap_or_default()).collect();
+    doubts.extend(doubts_of(&vessels, &names));
+    notes.extend(doubts.iter().map(LineDoubt::words));
+    let can_reorder = doubts.iter().any(|doubt| doubt.mend.is_some());
+    Ok(PlacedVessels { tree: VesselTree::new(vessels)?, names, notes, can_reorder })
+}
+
+/// What is doubtful about vessels of a file.
+fn doubts_of(vessels: &[Vessel], names: &[String]) -> Vec<LineDoubt> {
+    let pairs = vessels.iter().zip(names);
+    let looked_at: Vec<DoubtedLine> =
+        pairs.map(|(one, name)| DoubtedLine { points: one.points(), radius: one.radius(), name }).collect();
+    let mut doubts = order_doubts_of(&looked_at);
+    doubts.extend(beside_doubts_of(&looked_at));
+    doubts
 }

@@ -64,6 +64,8 @@ pub struct Content {
     pub held: Option<HeldVolume>,
     /// The tree.
     pub named: Option<NamedTree>,
+    /// Whether the points of centerlines that were opened may be put in order.
+    pub can_reorder: bool,
     /// The windows of what was opened, once they were asked for.
     windows: OnceLock<Option<Windows>>,
 }
@@ -81,6 +83,10 @@ pub struct Report {
     pub vessels: Option<Vec<VesselReport>>,
     /// The windows that the data suggest; none without a volume.
     pub windows: Option<Windows>,
+    /// Whether points of the centerlines that were read last are in another order, and may be put in order; left out where not.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    #[cfg_attr(test, ts(optional, as = "Option<bool>"))]
+    pub can_reorder: bool,
 }
 
 /// The volume that is open.
@@ -252,7 +258,7 @@ impl Content {
     pub fn report(&self) -> Result<Report> {
         let volume = self.held.as_ref().map(VolumeReport::of).transpose()?;
         let vessels = self.named.as_ref().map(VesselReport::of_all);
-        Ok(Report { volume, vessels, windows: self.windows()? })
+        Ok(Report { volume, vessels, windows: self.windows()?, can_reorder: self.can_reorder })
     }
 }
 

@@ -2,8 +2,7 @@
 
 use lumencut_core::vessel_tree::VesselTree;
 
-use crate::places::Statement;
-use crate::study::centerline_files::read_centerlines;
+use crate::study::centerline_files::{Asked, read_centerlines};
 use crate::study::failure::Result;
 use crate::study::held_volume::{HeldVolume, VolumeHeader};
 use crate::study::open_study::Study;
@@ -54,11 +53,17 @@ impl Study {
     ///
     /// # Errors
     /// `format` for a file that is damaged or holds none; the tree before stays then.
-    pub fn open_centerlines(&mut self, bytes: &[u8], name: &str, asked: Statement) -> Result<Vec<String>> {
+    pub fn open_centerlines(
+        &mut self,
+        bytes: &[u8],
+        name: &str,
+        asked: impl Into<Asked>,
+    ) -> Result<Vec<String>> {
         let volume = self.content.held.as_ref().map(HeldVolume::volume).transpose()?;
-        let read = read_centerlines(bytes, name, asked, volume.as_ref())?;
+        let read = read_centerlines(bytes, name, asked.into(), volume.as_ref())?;
         self.content.forget_windows();
         self.show_tree(read.tree, read.names)?;
+        self.content.can_reorder = read.can_reorder;
         Ok(read.notes)
     }
 

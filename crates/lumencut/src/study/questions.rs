@@ -56,7 +56,7 @@ of_the_study {
 
     /// Opens a file of centerlines beside the volume; tells what was odd about it, a sentence each.
     [Turn::First] open_centerlines { name: String, wish: AskedMessage } -> Vec<String> =
-        study.open_centerlines(asking.bytes, &name, wish.statement())?;
+        study.open_centerlines(asking.bytes, &name, wish)?;
 
     /// The camera of a named view that shows all of the study.
     [Turn::First] fitted { view: String, size: [usize; 2] } -> CameraMessage = study.fitted(&view, size)?;

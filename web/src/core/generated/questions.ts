@@ -40,6 +40,8 @@ export type CenterlineWish = {
   readonly coordinates?: string;
   /** `um`, `mm`, `cm`, `dm` or `m`. */
   readonly unit?: string;
+  /** Whether the points of each line are put into their order. */
+  readonly reorder?: boolean;
 };
 
 /** Places that are compared before anything is graded, such as those that are offered (arc lengths, mm). */
@@ -650,6 +652,8 @@ export type Report = {
   readonly vessels: ReadonlyArray<VesselReport> | null;
   /** The windows that the data suggest; none without a volume. */
   readonly windows: Windows | null;
+  /** Whether points of the centerlines that were read last are in another order, and may be put in order; left out where not. */
+  readonly can_reorder?: boolean;
 };
 
 /** A place with its name and colour. */

@@ -263,10 +263,42 @@ fn centerlines_are_read_in_the_space_and_unit_that_are_asked_for() {
     let asked = json!({"coordinates": "ras", "unit": "cm", "fill_gaps": true}).to_string();
     let asked: AskedMessage = serde_json::from_str(&asked).expect("a message");
     let lines = b"x,y,z\n0,0,-1\n1,0,1\n";
-    study.open_centerlines(lines, "line.csv", asked.statement()).expect("a line");
+    study.open_centerlines(lines, "line.csv", asked).expect("a line");
     let points = study.content.tree().expect("a tree").tree().vessels()[0].points().to_vec();
     assert_eq!(points, [DVec3::new(0.0, 0.0, -10.0), DVec3::new(-10.0, 0.0, 10.0)]);
     assert_eq!(AskedMessage::default().statement(), Statement::default());
+}
+
+#[test]
+fn points_in_another_order_are_noted_and_can_be_put_in_order() {
+    let mut study = opened("stenosis");
+    let points = study.content.tree().expect("a tree").tree().vessels()[0].points().to_vec();
+    let markups = |points: &[DVec3]| {
+        let points: Vec<_> = points.iter().map(|p| json!({"position": [p.x, p.y, p.z]})).collect();
+        let units = json!({"type": "Curve", "coordinateSystem": "LPS", "coordinateUnits": "mm"});
+        let mut markup = units.as_object().cloned().expect("an object");
+        markup.insert("controlPoints".to_owned(), json!(points));
+        json!({"markups": [markup]}).to_string()
+    };
+    let open = |study: &mut Study, points: &[DVec3], reorder: bool| {
+        let asked = AskedMessage { reorder: Some(reorder), ..AskedMessage::default() };
+        study.open_centerlines(markups(points).as_bytes(), "line.mrk.json", asked).expect("a line")
+    };
+    let has_doubt =
+        |notes: &[String]| notes.iter().any(|note| note.contains("perhaps its points are in another order"));
+    let mut turned = points.clone();
+    turned.rotate_left(2);
+    assert!(!has_doubt(&open(&mut study, &points, false)));
+    assert!(report_of(&study)["can_reorder"].is_null());
+    assert!(has_doubt(&open(&mut study, &turned, false)));
+    assert_eq!(report_of(&study)["can_reorder"], true);
+    let notes = open(&mut study, &turned, true);
+    assert!(
+        !has_doubt(&notes) && notes.iter().any(|note| note.contains("were put in another order")),
+        "{notes:?}"
+    );
+    assert!(report_of(&study)["can_reorder"].is_null());
+    assert_eq!(study.content.tree().expect("a tree").tree().vessels()[0].points(), points);
 }
 
 #[test]
