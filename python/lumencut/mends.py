@@ -8,7 +8,7 @@ from typing import Any, Literal, NamedTuple, TypeAlias
 
 MendName: TypeAlias = Literal[
     "bridge", "every_second", "cpu", "windows", "threshold", "fewer_pixels", "doubtful", "smaller_radius",
-    "coordinates", "unit", "place",
+    "coordinates", "unit", "place", "reading",
     "series", "phase", "fill_gaps", "resample_slices", "resample_and_fill",
 ]  # fmt: skip
 
@@ -69,8 +69,9 @@ class Mend:
     ----------
     name : str
         The same on every host: "bridge", "every_second", "cpu", "windows", "threshold", "fewer_pixels",
-        "doubtful" and "smaller_radius" of tracing, devices and volumes; "coordinates", "unit" and "place" of
-        centerlines; "series", "phase", "fill_gaps", "resample_slices" and "resample_and_fill" of DICOM.
+        "doubtful" and "smaller_radius" of tracing, devices and volumes; "coordinates", "unit", "place" and
+        "reading" of centerlines; "series", "phase", "fill_gaps", "resample_slices" and "resample_and_fill"
+        of DICOM.
     values : tuple of str
         What can be chosen among, such as units or phases; empty where there is nothing to choose.
     """
@@ -96,6 +97,15 @@ def _one_of(name: str, values: Sequence[str]) -> _Parts:
 def _place(_: Sequence[str]) -> _Parts:
     either = Option("coordinates", "lps"), " or ", Option("coordinates", "ras", form="again")
     return ("give ", *either, " and the unit if the file belongs to this volume")
+
+
+def _reading(values: Sequence[str]) -> _Parts:
+    """The options for space and unit of each of the readings, such as ``lps in cm``."""
+    parts: list[str | Option] = []
+    for value in values:
+        space, unit = value.split(" in ")
+        parts += [", or " if parts else "give ", Option("coordinates", space), " and ", Option("unit", unit)]
+    return tuple(parts or ["give the space and the unit"])
 
 
 def _resampled(_: Sequence[str]) -> _Parts:
@@ -127,6 +137,7 @@ WORDS: dict[MendName, Callable[[Sequence[str]], _Parts]] = {
     "coordinates": lambda values: _one_of("coordinates", values),
     "unit": lambda values: _one_of("unit", values),
     "place": _place,
+    "reading": _reading,
     "series": lambda _: ("its number or UID as ", Option("series", None, "quoted")),
     "phase": lambda _: ("give the value of the one to read as ", Option("phase", None, "quoted")),
     "fill_gaps": lambda _: ("have them interpolated with ", Option("fill_gaps", value=True)),

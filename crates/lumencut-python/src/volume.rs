@@ -102,6 +102,13 @@ impl GridArgument {
     }
 }
 
+/// What speaks against the lengths of a grid, by its size (ni, nj, nk) and world from index without the last row; None of a
+/// plausible one.
+#[pyfunction]
+pub fn doubted_size(size: [usize; 3], affine_rows: [[f64; 4]; 3]) -> Option<String> {
+    lumencut::doubted_scan::doubted_size(size, affine(affine_rows))
+}
+
 /// Which world points (n, 3) (mm, LPS) lie inside the outer corners of a volume; shape (n,).
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]

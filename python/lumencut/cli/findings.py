@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     import numpy as np
     import numpy.typing as npt
 
+    from lumencut.mends import Told
     from lumencut.vessel_tree import VesselTree
 
 #: Who decided on a space or unit.
@@ -103,7 +104,7 @@ def of_centerlines(
         "largest_shift": _largest_shift(tree),
         "judged_by": place.judge,
         "decisions": [one_line(text) for text in (place.choice, report.decision) if text],
-        "notes": [*place.undecided, *report.notes, *_odd_tree(tree)],
+        "notes": [*place.undecided, *_doubts(report.doubt), *report.notes, *_odd_tree(tree, report.doubt)],
         "_tree": tree,
     }
 
@@ -150,7 +151,12 @@ def _odd_grid(affine: npt.NDArray[np.float64], low_high: list[float] | None) -> 
     return notes
 
 
-def _odd_tree(tree: VesselTree) -> list[str]:
+def _doubts(doubt: Told) -> list[str]:
+    return [one_line(doubt)] if doubt else []
+
+
+def _odd_tree(tree: VesselTree, doubt: Told) -> list[str]:
+    """What is odd about a tree; a doubt of its unit tells its size already."""
     import numpy as np
 
     from lumencut._lumencut import SETTINGS
@@ -158,7 +164,7 @@ def _odd_tree(tree: VesselTree) -> list[str]:
 
     notes = []
     extent = float(np.linalg.norm(np.diff(tree.bounds, axis=0)))
-    if not SMALLEST <= extent <= LARGEST:
+    if not (SMALLEST <= extent <= LARGEST or doubt):
         notes.append(f"the tree is {extent:.3g} mm long from corner to corner; perhaps its unit is not mm")
     bare = sum(vessel.radius is None for vessel in tree)
     taken = f"taken as {SETTINGS['unknown_radius'].default:g} mm where lumen comes first (--unknown-radius)"

@@ -3,7 +3,7 @@
 use lumencut_core::vessel_tree::VesselTree;
 
 use crate::places::Statement;
-use crate::study::centerline_files::read_centerlines;
+use crate::study::centerline_files::{OpenedLines, read_centerlines};
 use crate::study::failure::Result;
 use crate::study::held_volume::{HeldVolume, VolumeHeader};
 use crate::study::open_study::Study;
@@ -54,12 +54,12 @@ impl Study {
     ///
     /// # Errors
     /// `format` for a file that is damaged or holds none; the tree before stays then.
-    pub fn open_centerlines(&mut self, bytes: &[u8], name: &str, asked: Statement) -> Result<Vec<String>> {
+    pub fn open_centerlines(&mut self, bytes: &[u8], name: &str, asked: Statement) -> Result<OpenedLines> {
         let volume = self.content.held.as_ref().map(HeldVolume::volume).transpose()?;
         let read = read_centerlines(bytes, name, asked, volume.as_ref())?;
         self.content.forget_windows();
         self.show_tree(read.tree, read.names)?;
-        Ok(read.notes)
+        Ok(OpenedLines { notes: read.notes, doubt: read.doubt })
     }
 
     /// Closes what is open; its memory is free again.
