@@ -122,7 +122,7 @@ def placement(
     }
     found = _lumencut.placement(subject, lines.points, lines.radii, known, volume)
     also = tuple(found.pop("also"))
-    decision = _decision(found.pop("decision"), *found.pop("confirmed_by"), also)
+    decision = _decision(found.pop("decision"), *found.pop("confirmed_by"), also=also)
     return Placement(decision=decision, also=also, doubt=_doubt(found.pop("doubt")), **found)
 
 

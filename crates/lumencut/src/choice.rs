@@ -79,11 +79,15 @@ impl Choice {
         }
         let fitting: Vec<Reading> =
             self.readings.iter().filter(|reading| reading.is_as_good_as(most)).copied().collect();
-        let found = self.of_one_unit(fitting, lumen)?;
+        let found = self.of_one_unit(&fitting, lumen)?;
         let (best, by_values) = match found.readings[..] {
             [one, other] => {
                 let (best, words) =
-                    self.space_by_values(one, other, lumen).ok_or_else(|| self.undecided(&[one, other]))?;
+                    self.space_by_values(one, other, lumen).ok_or_else(|| match found.also[..] {
+                        [] => self.undecided(&[one, other]),
+                        // Where the space is asked for, so is the unit.
+                        _ => self.undecided(&fitting),
+                    })?;
                 (best, Some(ByValues { space: true, unit: found.words.is_some(), words }))
             }
             [only, ..] => {
@@ -97,18 +101,18 @@ impl Choice {
 
     /// The readings of the unit in which the points evidently look like lumen, else those of the usual one. Lines that are
     /// short in the usual unit are as likely in another.
-    fn of_one_unit(&self, fitting: Vec<Reading>, lumen: Lumen) -> Result<OfOneUnit> {
-        let units = units_of(&fitting);
+    fn of_one_unit(&self, fitting: &[Reading], lumen: Lumen) -> Result<OfOneUnit> {
+        let units = units_of(fitting);
         if units.len() < 2 {
-            return Ok(OfOneUnit::unopposed(fitting));
+            return Ok(OfOneUnit::unopposed(fitting.to_vec()));
         }
         let of =
             |unit| fitting.iter().filter(|reading| reading.place.unit == unit).copied().collect::<Vec<_>>();
         let usual = of(self.usual.unit);
-        match self.unit_by_values(&fitting, lumen) {
+        match self.unit_by_values(fitting, lumen) {
             Some((unit, _)) if unit == self.usual.unit => Ok(OfOneUnit::unopposed(usual)),
             Some((unit, words)) => Ok(OfOneUnit { readings: of(unit), words: Some(words), also: Vec::new() }),
-            None if usual.iter().all(Reading::is_short) => Err(self.undecided(&fitting)),
+            None if usual.iter().all(Reading::is_short) => Err(self.undecided(fitting)),
             None => {
                 let also = units.into_iter().filter(|unit| *unit != self.usual.unit).collect();
                 Ok(OfOneUnit { readings: usual, words: None, also })
@@ -190,11 +194,11 @@ impl Choice {
         Error::new("", format!("{found}: {}", self.several(fitting)), "one that fits").mended_by(mend)
     }
 
-    /// Several readings with the counts behind them, and with their sizes where units differ.
+    /// Several readings with the counts behind them, and with their sizes where the unit is not the usual one.
     fn several(&self, fitting: &[Reading]) -> String {
-        let is_one_unit = units_of(fitting).len() == 1;
+        let is_usual = units_of(fitting)[..] == [self.usual.unit];
         let told = |reading: &Reading| {
-            let size = if is_one_unit { String::new() } else { format!(", {} across", mm(reading.across)) };
+            let size = if is_usual { String::new() } else { format!(", {} across", mm(reading.across)) };
             format!("{} ({} of {} points inside{size})", reading.place, reading.inside, self.total)
         };
         fitting.iter().map(told).collect::<Vec<_>>().join(", ")

@@ -154,8 +154,8 @@ export class EngineHost {
         const loaded = await work({ study, loadJudge, steps: new Steps(told, signal) });
         const report = this.report();
         const ofVolume = replacing.hasBegun ? report.volume?.doubt : null;
-        const told = [...loaded.notes, ofVolume, wish.every_second ? COARSER : null];
-        const notes = [...new Set(told.filter((note) => note != null))];
+        const every = [...loaded.notes, ofVolume, wish.every_second ? COARSER : null];
+        const notes = [...new Set(every.filter((note) => note != null))];
         return { ...loaded, notes, report, doubt: replacing.doubt };
       } catch (error) {
         if (replacing.hasBegun) {
