@@ -122,7 +122,8 @@ def placement(
     }
     found = _lumencut.placement(subject, lines.points, lines.radii, known, volume)
     also = tuple(found.pop("also"))
-    decision = _decision(found.pop("decision"), *found.pop("confirmed_by"), also=also)
+    confirmed_by = found.pop("confirmed_by")
+    decision = _decision(found.pop("decision"), confirmed_by[0], confirmed_by[1], also)
     return Placement(decision=decision, also=also, doubt=_doubt(found.pop("doubt")), **found)
 
 

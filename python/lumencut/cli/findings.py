@@ -104,7 +104,7 @@ def of_centerlines(
         "largest_shift": _largest_shift(tree),
         "judged_by": place.judge,
         "decisions": [one_line(text) for text in (place.choice, report.decision) if text],
-        "notes": [*place.undecided, *_doubts(report.doubt), *report.notes, *_odd_tree(tree, report.doubt)],
+        "notes": [*place.undecided, *_doubts(report.doubt), *report.notes, *_odd_tree(tree)],
         "_tree": tree,
     }
 
@@ -155,8 +155,7 @@ def _doubts(doubt: Told) -> list[str]:
     return [one_line(doubt)] if doubt else []
 
 
-def _odd_tree(tree: VesselTree, doubt: Told) -> list[str]:
-    """What is odd about a tree; a doubt of its unit tells its size already."""
+def _odd_tree(tree: VesselTree) -> list[str]:
     import numpy as np
 
     from lumencut._lumencut import SETTINGS
@@ -164,7 +163,7 @@ def _odd_tree(tree: VesselTree, doubt: Told) -> list[str]:
 
     notes = []
     extent = float(np.linalg.norm(np.diff(tree.bounds, axis=0)))
-    if not (SMALLEST <= extent <= LARGEST or doubt):
+    if not SMALLEST <= extent <= LARGEST:
         notes.append(f"the tree is {extent:.3g} mm long from corner to corner; perhaps its unit is not mm")
     bare = sum(vessel.radius is None for vessel in tree)
     taken = f"taken as {SETTINGS['unknown_radius'].default:g} mm where lumen comes first (--unknown-radius)"
