@@ -27,6 +27,7 @@ PAGE = Path(__file__).parents[1] / "web/src/core/mends.ts"
 
 #: What can be chosen among.
 VALUES = {"coordinates": ("lps", "ras"), "place": ("lps", "ras"), "unit": ("cm", "dm"), "phase": ("0", "400")}
+VALUES["reading"] = ("lps in cm", "ras in m")
 
 
 def test_every_host_knows_the_names_of_the_crates():
@@ -60,6 +61,11 @@ def test_every_mend_has_words_for_python_and_for_the_command_line(name):
             "coordinates",
             'give coordinates="lps" or coordinates="ras"',
             "give --coordinates lps or --coordinates ras",
+        ),
+        (
+            "reading",
+            'give coordinates="lps" and unit="cm", or coordinates="ras" and unit="m"',
+            "give --coordinates lps and --unit cm, or --coordinates ras and --unit m",
         ),
         ("series", "its number or UID as `series`", "its number or UID as --series NUMBER|UID"),
         (

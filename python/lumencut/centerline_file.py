@@ -62,6 +62,10 @@ class CenterlineReport:
         What was odd about the file, one sentence each, those of `doubts` among them.
     doubts : tuple of LineDoubt
         What is doubtful about its lines.
+    fits_also : tuple of str
+        Units that would fit the volume too, where it decided for the usual one.
+    doubt : Told
+        What speaks against the unit that the file states, or that was assumed; empty where nothing does.
     """
 
     format: str
@@ -78,6 +82,8 @@ class CenterlineReport:
     is_unusual: bool
     notes: tuple[str, ...]
     doubts: tuple[LineDoubt, ...] = ()
+    fits_also: tuple[Unit, ...] = ()
+    doubt: Told = Told()  # noqa: RUF009 - it never changes
 
     @property
     def reordered(self) -> tuple[str, ...]:
@@ -146,7 +152,8 @@ class CenterlineFile:
             # Lines are joined by distances in mm.
             vessels, notes = content.vessels(MILLIMETRES[place.unit], reorder)
         tree = VesselTree([Vessel(points * place.signs, radius, name) for points, radius, name in vessels])
-        tree._space_settled = place.space_from == "asked" or place.is_unusual
+        is_told = place.is_unusual or (volume is not None and bool(place.doubt))
+        tree._space_settled = place.space_from == "asked" or is_told
         doubts = line_doubts(tree, beside=True)
         if not reorder:
             doubts += worded(content.parted_doubts())
@@ -184,8 +191,14 @@ class CenterlineFile:
             warnings.warn(SpaceWarning(told), stacklevel=4)
         elif report.decision:
             weak = report.space_from == "volume" and _mostly_outside(tree, volume)
-            level = logging.WARNING if weak or report.space_from == "assumed" else logging.INFO
-            _log.log(level, "%s: %s", self.path, report.decision)
+            is_open = weak or report.fits_also or report.space_from == "assumed"
+            _log.log(logging.WARNING if is_open else logging.INFO, "%s: %s", self.path, report.decision)
+        if report.doubt and volume is not None:
+            warnings.warn(SpaceWarning(report.doubt.after(f"{self.path.name}: ")), stacklevel=4)
+        elif report.doubt:
+            _log.warning("%s: %s", self.path, report.doubt)
+        for note in report.notes:
+            _log.info("%s: %s", self.path, note)
         return tree, report
 
     def beside(
@@ -227,6 +240,8 @@ class CenterlineFile:
             is_unusual=place.is_unusual,
             notes=(*notes, *(doubt.text for doubt in doubts)),
             doubts=tuple(doubts),
+            fits_also=place.also,
+            doubt=place.doubt,
         )
 
 

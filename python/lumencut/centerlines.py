@@ -69,8 +69,8 @@ def read_centerlines(
         seems to be missing, or two lines lie side by side in one vessel.
     SpaceWarning
         Where the volume decides against LPS or the usual unit, or the space by its values; where what the
-        file states fits the volume clearly worse than another space or unit, which is not repaired. The text
-        names both counts.
+        file states fits the volume clearly worse than another space or unit, or makes lines of no size of
+        vessels, which is not repaired. The text names both counts.
         What else was assumed (without a volume) or decided is logged.
     """
     volume = None if volume is None else as_volume(volume)

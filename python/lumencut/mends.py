@@ -10,7 +10,7 @@ from lumencut._pickles import by_name
 
 MendName: TypeAlias = Literal[
     "bridge", "every_second", "cpu", "windows", "threshold", "fewer_pixels", "doubtful", "smaller_radius",
-    "coordinates", "unit", "place", "reorder",
+    "coordinates", "unit", "place", "reading", "reorder",
     "series", "phase", "fill_gaps", "resample_slices", "resample_and_fill",
 ]  # fmt: skip
 
@@ -72,9 +72,9 @@ class Mend:
     ----------
     name : str
         The same on every host: "bridge", "every_second", "cpu", "windows", "threshold", "fewer_pixels",
-        "doubtful" and "smaller_radius" of tracing, devices and volumes; "coordinates", "unit", "place" and
-        "reorder" of centerlines; "series", "phase", "fill_gaps", "resample_slices" and "resample_and_fill" of
-        DICOM.
+        "doubtful" and "smaller_radius" of tracing, devices and volumes; "coordinates", "unit", "place",
+        "reading" and "reorder" of centerlines; "series", "phase", "fill_gaps", "resample_slices" and
+        "resample_and_fill" of DICOM.
     values : tuple of str
         What can be chosen among, such as units or phases; empty where there is nothing to choose.
     """
@@ -100,6 +100,15 @@ def _one_of(name: str, values: Sequence[str]) -> _Parts:
 def _place(_: Sequence[str]) -> _Parts:
     either = Option("coordinates", "lps"), " or ", Option("coordinates", "ras", form="again")
     return ("give ", *either, " and the unit if the file belongs to this volume")
+
+
+def _reading(values: Sequence[str]) -> _Parts:
+    """The options for space and unit of each of the readings, such as ``lps in cm``."""
+    parts: list[str | Option] = []
+    for value in values:
+        space, unit = value.split(" in ")
+        parts += [", or " if parts else "give ", Option("coordinates", space), " and ", Option("unit", unit)]
+    return tuple(parts or ["give the space and the unit"])
 
 
 def _resampled(_: Sequence[str]) -> _Parts:
@@ -131,6 +140,7 @@ WORDS: dict[MendName, Callable[[Sequence[str]], _Parts]] = {
     "coordinates": lambda values: _one_of("coordinates", values),
     "unit": lambda values: _one_of("unit", values),
     "place": _place,
+    "reading": _reading,
     "reorder": lambda _: (Option("reorder", value=True), " puts the points of the file in order"),
     "series": lambda _: ("its number or UID as ", Option("series", None, "quoted")),
     "phase": lambda _: ("give the value of the one to read as ", Option("phase", None, "quoted")),

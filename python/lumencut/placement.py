@@ -8,7 +8,7 @@ Nothing is decided in silence: every choice that the file does not state is note
 from __future__ import annotations
 
 import warnings
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
@@ -61,6 +61,10 @@ class Placement:
         What was decided, by what, and what confirms it; empty where the file or the caller said everything.
     is_unusual : bool
         Whether the volume decided against LPS or the usual unit, or the space by its values alone.
+    also : tuple of str
+        Units that would fit the volume too, where it decided for the usual one.
+    doubt : Told
+        What speaks against the unit that the file states, or that was assumed; empty where nothing does.
     """
 
     space: Coordinates
@@ -69,6 +73,8 @@ class Placement:
     unit_from: Origin
     decision: Told = _NOTHING
     is_unusual: bool = False
+    also: tuple[Unit, ...] = ()
+    doubt: Told = _NOTHING
 
     @property
     def signs(self) -> npt.NDArray[np.float64]:
@@ -116,12 +122,30 @@ def placement(
         "usual_unit": stated.usual_unit,
     }
     found = _lumencut.placement(subject, lines.points, lines.radii, known, volume)
-    decision = _decision(found.pop("decision"), *found.pop("confirmed_by"))
-    return Placement(decision=decision, **found)
+    also = tuple(found.pop("also"))
+    confirmed_by = found.pop("confirmed_by")
+    decision = _decision(found.pop("decision"), confirmed_by[0], confirmed_by[1], also)
+    return Placement(decision=decision, also=also, doubt=_doubt(found.pop("doubt")), **found)
 
 
-def _decision(words: str, space: Coordinates | None, unit: Unit | None) -> Told:
-    """What was decided, and what the caller would state to confirm it."""
+def _units(units: Sequence[Unit]) -> list[str | Option]:
+    """The options for units, one of which is to be given."""
+    parts = [part for unit in units for part in (" or ", Option("unit", unit))]
+    return parts[1:]
+
+
+def _doubt(found: tuple[str, Sequence[Unit]] | None) -> Told:
+    """What speaks against the unit, and what would read the lines in another one."""
+    if found is None:
+        return _NOTHING
+    words, units = found
+    return Told(words, "; read them with ", *_units(units)) if units else Told(words)
+
+
+def _decision(words: str, space: Coordinates | None, unit: Unit | None, also: Sequence[Unit]) -> Told:
+    """What was decided, and what the caller would state to confirm it, or to have it otherwise."""
+    if also:
+        return Told(words, "; ", *_units(also), " reads them so")
     stated = [Option(name, value) for name, value in (("coordinates", space), ("unit", unit)) if value]
     if not stated:
         return Told(words)

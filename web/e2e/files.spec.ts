@@ -21,6 +21,22 @@ test('centerlines whose space nothing tells are read as the user says', async ({
   await viewer.close();
 });
 
+test('centerlines whose space and unit nothing tells are read as the user says', async ({ browser }) => {
+  const viewer = await Viewer.open(browser, '?phantom=stenosis&device=cpu');
+  await viewer.rest();
+  const chooser = viewer.page.locator('input[type=file]').first();
+  const metres = 'x,y,z,radius\n0,0,-0.008,0.0015\n0,0,0,0.0015\n0,0,0.008,0.0015\n';
+  await chooser.setInputFiles({ name: 'axis.csv', mimeType: 'text/csv', buffer: Buffer.from(metres) });
+  const alert = viewer.page.getByRole('alert');
+  await expect(alert).toContainText('16 mm across');
+  await alert.getByRole('button', { name: 'Read as RAS in m', exact: true }).click();
+  await expect(alert).toBeHidden();
+  await viewer.rest();
+  await expect(viewer.readOut).toContainText('vessel 2 · 8.0 mm');
+  viewer.expectNoFault();
+  await viewer.close();
+});
+
 /** A bright bar of a scan that does not say how far its voxels lie apart. */
 function bar(): { name: string; mimeType: string; buffer: Buffer } {
   const sizes = [12, 10, 30] as const;

@@ -180,7 +180,14 @@ type Answering = Readonly<Record<Question, (message: unknown) => Promise<unknown
 
 /** The report of a study with vessels of 10 mm. */
 export function reportOf(lines: readonly NamedLine[]): Report {
-  const volume = { size: [1, 1, 1], world_from_index: [], corners: [], smallest_side: 1, scan: '' } as const;
+  const volume = {
+    size: [1, 1, 1],
+    world_from_index: [],
+    corners: [],
+    smallest_side: 1,
+    scan: '',
+    doubt: null,
+  } as const;
   const vessels = lines.map(({ line, name }) => ({ line, name, length: 10, has_radius: true }));
   return { volume, vessels, windows: null };
 }

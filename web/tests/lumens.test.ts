@@ -59,7 +59,14 @@ test('while tracing, the wheel with Alt steps, and the wheel alone does what it 
 });
 
 test('the ray of a pixel runs along the camera through every place that is seen at it', () => {
-  const volume = { size: [1, 1, 1], world_from_index: [], corners: [], smallest_side: 1, scan: '' } as const;
+  const volume = {
+    size: [1, 1, 1],
+    world_from_index: [],
+    corners: [],
+    smallest_side: 1,
+    scan: '',
+    doubt: null,
+  } as const;
   const projection = ofCamera(CAMERA, volume);
   const from = projection.at([120, 80], [0, 0, 0]);
   const along = projection.along as Vector;

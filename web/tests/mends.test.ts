@@ -9,6 +9,7 @@ import { MEND_NAMES, type MendName, mendWords } from '../src/core/mends';
 const VALUES: Partial<Record<MendName, readonly string[]>> = {
   coordinates: ['lps', 'ras'],
   place: ['lps', 'ras'],
+  reading: ['lps in cm', 'ras in m'],
   unit: ['cm', 'dm'],
   phase: ['0', '400'],
 };
@@ -31,6 +32,7 @@ test('what can be chosen among is named', () => {
   const words = (name: MendName) => mendWords({ name, values: VALUES[name] ?? [] });
   expect(words('coordinates')).toContain('LPS or RAS');
   expect(words('unit')).toContain('cm or dm');
+  expect(words('reading')).toContain('LPS in cm or RAS in m');
 });
 
 test('no text of the page names an argument of Python, and none is read for words', () => {

@@ -30,6 +30,7 @@ const VOLUME: VolumeReport = {
   ),
   smallest_side: 1,
   scan: '',
+  doubt: null,
 };
 const THROUGH: Vector = [3, -11, 7];
 

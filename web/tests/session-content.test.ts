@@ -11,7 +11,14 @@ const GRID = [
   [0, 0, 0, 1],
 ];
 const REPORT: Report = {
-  volume: { size: [10, 11, 12], world_from_index: GRID, corners: [], smallest_side: 0.5, scan: '' },
+  volume: {
+    size: [10, 11, 12],
+    world_from_index: GRID,
+    corners: [],
+    smallest_side: 0.5,
+    scan: '',
+    doubt: null,
+  },
   vessels: [],
   windows: null,
 };

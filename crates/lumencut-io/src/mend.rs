@@ -17,11 +17,19 @@ pub enum Mend {
     Place,
     /// Put the points of each line into their order along the vessel.
     Reorder,
+    /// State space and unit of the coordinates, one of these pairs: the volume does not tell.
+    Reading(Vec<(Space, Unit)>),
 }
+
+/// The names of readings: a row for each space, a column for each unit.
+const READINGS: [[&str; 5]; 2] = [
+    ["lps in um", "lps in mm", "lps in cm", "lps in dm", "lps in m"],
+    ["ras in um", "ras in mm", "ras in cm", "ras in dm", "ras in m"],
+];
 
 impl Mend {
     /// The name of every mend of this crate.
-    pub const NAMES: [&str; 4] = ["coordinates", "unit", "place", "reorder"];
+    pub const NAMES: [&str; 5] = ["coordinates", "unit", "place", "reading", "reorder"];
 
     /// The name by which every host knows it.
     #[must_use]
@@ -31,16 +39,20 @@ impl Mend {
             Self::Unit(_) => "unit",
             Self::Place => "place",
             Self::Reorder => "reorder",
+            Self::Reading(_) => "reading",
         }
     }
 
-    /// What can be chosen among: names of spaces or units.
+    /// What can be chosen among: names of spaces or units, or of both as in `lps in cm`.
     #[must_use]
     pub fn values(&self) -> Vec<&'static str> {
         match self {
             Self::Coordinates | Self::Place => Space::ALL.map(Space::name).to_vec(),
             Self::Unit(units) => units.iter().map(|unit| unit.name()).collect(),
             Self::Reorder => Vec::new(),
+            Self::Reading(all) => {
+                all.iter().map(|(space, unit)| READINGS[*space as usize][*unit as usize]).collect()
+            }
         }
     }
 }
@@ -51,6 +63,7 @@ impl fmt::Display for Mend {
         match self {
             Self::Coordinates => write!(f, "state the space, {values}"),
             Self::Unit(_) => write!(f, "state the unit, {values}"),
+            Self::Reading(_) => write!(f, "state the space and the unit, {values}"),
             Self::Place => {
                 write!(f, "state the space, {values}, and the unit if the file belongs to this volume")
             }
@@ -65,10 +78,15 @@ mod tests {
 
     #[test]
     fn every_mend_has_its_name_and_its_choice() {
-        let all =
-            [Mend::Coordinates, Mend::Unit(vec![Unit::Centimetre, Unit::Metre]), Mend::Place, Mend::Reorder];
+        let readings = Space::ALL.into_iter().flat_map(|space| Unit::ALL.map(|unit| (space, unit)));
+        let named = |(space, unit): (Space, Unit)| format!("{} in {}", space.name(), unit.name());
+        let reading = Mend::Reading(readings.clone().collect());
+        assert_eq!(reading.values(), readings.map(named).collect::<Vec<_>>());
+        let units = Mend::Unit(vec![Unit::Centimetre, Unit::Metre]);
+        let reading = Mend::Reading(vec![(Space::Ras, Unit::Metre)]);
+        let all = [Mend::Coordinates, units, Mend::Place, reading, Mend::Reorder];
         assert_eq!(all.each_ref().map(Mend::name), Mend::NAMES);
-        let values = [vec!["lps", "ras"], vec!["cm", "m"], vec!["lps", "ras"], vec![]];
+        let values = [vec!["lps", "ras"], vec!["cm", "m"], vec!["lps", "ras"], vec!["ras in m"], vec![]];
         assert_eq!(all.each_ref().map(Mend::values), values);
     }
 

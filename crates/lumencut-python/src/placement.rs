@@ -132,6 +132,11 @@ pub fn placement<'py>(
     fields.set_item("decision", found.decision)?;
     fields.set_item("confirmed_by", names_of(found.confirmed_by))?;
     fields.set_item("is_unusual", found.is_unusual)?;
+    fields.set_item("also", found.also.iter().map(|unit| unit.name()).collect::<Vec<_>>())?;
+    let doubt = found
+        .doubt
+        .map(|doubt| (doubt.found, doubt.units.iter().map(|unit| unit.name()).collect::<Vec<_>>()));
+    fields.set_item("doubt", doubt)?;
     Ok(fields)
 }
 

@@ -105,6 +105,13 @@ impl GridArgument {
     }
 }
 
+/// What speaks against the lengths of a grid, by its size (ni, nj, nk) and world from index without the last row; None of a
+/// plausible one.
+#[pyfunction]
+pub fn doubted_size(size: [usize; 3], affine_rows: [[f64; 4]; 3]) -> Option<String> {
+    lumencut::doubted_scan::doubted_size(size, affine(affine_rows))
+}
+
 /// As many points are looked up between two looks at whether to stop.
 const PART: usize = 1 << 14;
 

@@ -5,10 +5,10 @@ use std::collections::BTreeSet;
 use lumencut_io::{Error, Mend, Result, Space, Unit};
 
 use crate::lumen_points::LumenCount;
-use crate::places::{Place, Reading, Statement};
+use crate::places::{Place, Reading, Statement, mm};
 
-/// A place is as good as another if it brings at least this part of the other's points into the volume.
-const AS_GOOD: f64 = 0.8;
+/// Counts the points that look like lumen in a place.
+type Lumen<'a> = &'a dyn Fn(Place) -> LumenCount;
 
 /// The choice of a place by the points that it brings into the volume.
 pub struct Choice {
@@ -24,44 +24,127 @@ pub struct Choice {
 pub struct Chosen {
     /// The place, and how many points it brings into the volume.
     pub best: Reading,
-    /// Where the values of the volume have chosen: what they say.
-    pub by_values: Option<String>,
+    /// Where the values of the volume have chosen the space or the unit: what they say.
+    pub by_values: Option<ByValues>,
+    /// The units that fit the volume too.
+    pub also: Vec<Unit>,
+}
+
+/// What the values of a volume have chosen.
+#[derive(Clone, Debug)]
+pub struct ByValues {
+    /// Whether they chose the space.
+    pub space: bool,
+    /// Whether they chose the unit, and not the usual one.
+    pub unit: bool,
+    /// What they say, in words.
+    pub words: String,
+}
+
+/// Readings in one unit, and what led to it.
+struct OfOneUnit {
+    readings: Vec<Reading>,
+    /// What the values say, where they chose.
+    words: Option<String>,
+    also: Vec<Unit>,
+}
+
+impl OfOneUnit {
+    fn unopposed(readings: Vec<Reading>) -> Self {
+        Self { readings, words: None, also: Vec::new() }
+    }
 }
 
 impl Chosen {
     fn by_extent(best: Reading) -> Self {
-        Self { best, by_values: None }
+        Self { best, by_values: None, also: Vec::new() }
     }
 }
 
 impl Choice {
     /// The place that fits the volume; the usual one where the file states a space and none fits.
-    pub fn best(&self, lumen: &dyn Fn(Place) -> LumenCount) -> Result<Chosen> {
-        let most = self.readings.iter().map(|reading| reading.inside).max().unwrap_or(0);
+    ///
+    /// # Errors
+    /// Where several places fit it alike and its values do not tell which, or none fits and the space is open.
+    pub fn best(&self, lumen: Lumen) -> Result<Chosen> {
+        let most = self.readings.iter().map(Reading::fits).max().unwrap_or(0);
         let spaces: BTreeSet<&str> = self.readings.iter().map(|reading| reading.place.space.name()).collect();
         if most == 0 && spaces.len() == 1 {
-            return Ok(Chosen::by_extent(Reading { place: self.usual, inside: 0 }));
+            let usual = self.readings.iter().find(|reading| reading.place == self.usual);
+            let nowhere = |usual: &Reading| Chosen::by_extent(Reading { inside: 0, ..*usual });
+            return usual.map(nowhere).ok_or_else(|| self.nowhere(&spaces));
         }
         if most == 0 {
             return Err(self.nowhere(&spaces));
         }
         let fitting: Vec<Reading> =
             self.readings.iter().filter(|reading| reading.is_as_good_as(most)).copied().collect();
-        // Another unit is only thought of where the usual one does not fit.
-        let usual: Vec<Reading> =
-            fitting.iter().filter(|reading| reading.place.unit == self.usual.unit).copied().collect();
-        let fitting = if usual.is_empty() { fitting } else { usual };
-        match fitting[..] {
-            [only] => Ok(Chosen::by_extent(only)),
-            [one, other] if one.place.unit == other.place.unit => {
-                self.by_values(one, other, lumen).ok_or_else(|| self.undecided(&fitting))
+        let found = self.of_one_unit(&fitting, lumen)?;
+        let (best, by_values) = match found.readings[..] {
+            [one, other] => {
+                let (best, words) =
+                    self.space_by_values(one, other, lumen).ok_or_else(|| match found.also[..] {
+                        [] => self.undecided(&[one, other]),
+                        // Where the space is asked for, so is the unit.
+                        _ => self.undecided(&fitting),
+                    })?;
+                (best, Some(ByValues { space: true, unit: found.words.is_some(), words }))
             }
-            _ => Err(self.undecided(&fitting)),
+            [only, ..] => {
+                let by_values = |words| ByValues { space: false, unit: true, words };
+                (only, found.words.map(by_values))
+            }
+            [] => return Err(self.nowhere(&spaces)),
+        };
+        Ok(Chosen { best, by_values, also: found.also })
+    }
+
+    /// The readings of the unit in which the points evidently look like lumen, else those of the usual one. Lines that are
+    /// short in the usual unit are as likely in another.
+    fn of_one_unit(&self, fitting: &[Reading], lumen: Lumen) -> Result<OfOneUnit> {
+        let units = units_of(fitting);
+        if units.len() < 2 {
+            return Ok(OfOneUnit::unopposed(fitting.to_vec()));
+        }
+        let of =
+            |unit| fitting.iter().filter(|reading| reading.place.unit == unit).copied().collect::<Vec<_>>();
+        let usual = of(self.usual.unit);
+        match self.unit_by_values(fitting, lumen) {
+            Some((unit, _)) if unit == self.usual.unit => Ok(OfOneUnit::unopposed(usual)),
+            Some((unit, words)) => Ok(OfOneUnit { readings: of(unit), words: Some(words), also: Vec::new() }),
+            None if usual.iter().all(Reading::is_short) => Err(self.undecided(fitting)),
+            None => {
+                let also = units.into_iter().filter(|unit| *unit != self.usual.unit).collect();
+                Ok(OfOneUnit { readings: usual, words: None, also })
+            }
         }
     }
 
-    /// The one of two spaces in which the points look like lumen, where that is evident.
-    fn by_values(&self, one: Reading, other: Reading, lumen: &dyn Fn(Place) -> LumenCount) -> Option<Chosen> {
+    /// The unit in which the points look like lumen, where that is evident beside all others.
+    fn unit_by_values(&self, fitting: &[Reading], lumen: Lumen) -> Option<(Unit, String)> {
+        let counts: Vec<(Place, LumenCount)> =
+            fitting.iter().map(|reading| (reading.place, lumen(reading.place))).collect();
+        let (best, most) = counts.iter().max_by_key(|(_, count)| count.like_lumen)?;
+        let others = counts.iter().filter(|(place, _)| place.unit != best.unit);
+        if !others.clone().all(|(_, count)| most.is_evident_beside(*count)) {
+            return None;
+        }
+        let told = |(place, count): &(Place, LumenCount)| {
+            format!("{} of {} points looked at look like lumen in {place}", count.like_lumen, count.of)
+        };
+        let others: Vec<String> = others.map(told).collect();
+        let words = format!(
+            "{} fit the volume; {}, but {}: read in {}",
+            self.several(fitting),
+            others.join(" and "),
+            told(&(*best, *most)),
+            best.unit.name(),
+        );
+        Some((best.unit, words))
+    }
+
+    /// The one of two spaces in which the points look like lumen, where that is evident, and what the values say.
+    fn space_by_values(&self, one: Reading, other: Reading, lumen: Lumen) -> Option<(Reading, String)> {
         let (of_one, of_other) = (lumen(one.place), lumen(other.place));
         let (best, other, count, few) = if of_one.is_evident_beside(of_other) {
             (one, other, of_one, of_other)
@@ -85,7 +168,7 @@ impl Choice {
             other.place.space.name(),
             best.place.space.name(),
         );
-        Some(Chosen { best, by_values: Some(by_values) })
+        Some((best, by_values))
     }
 
     fn nowhere(&self, spaces: &BTreeSet<&str>) -> Error {
@@ -98,18 +181,27 @@ impl Choice {
     }
 
     fn undecided(&self, fitting: &[Reading]) -> Error {
-        let told = |reading: &Reading| {
-            format!("{} ({} of {} points inside)", reading.place, reading.inside, self.total)
-        };
-        let several: Vec<String> = fitting.iter().map(told).collect();
-        let fits = |space| fitting.iter().any(|reading| reading.place.space == space);
-        let mend = if Space::ALL.into_iter().all(fits) {
+        let units = units_of(fitting);
+        let is_open = |space| self.readings.iter().any(|reading| reading.place.space == space);
+        let mend = if units[..] == [self.usual.unit] {
             Mend::Coordinates
+        } else if Space::ALL.into_iter().all(is_open) {
+            Mend::Reading(fitting.iter().map(|reading| (reading.place.space, reading.place.unit)).collect())
         } else {
-            Mend::Unit(fitting.iter().map(|reading| reading.place.unit).collect())
+            Mend::Unit(units)
         };
         let found = "neither stated nor to be told by the volume what its coordinates are";
-        Error::new("", format!("{found}: {}", several.join(", ")), "one that fits").mended_by(mend)
+        Error::new("", format!("{found}: {}", self.several(fitting)), "one that fits").mended_by(mend)
+    }
+
+    /// Several readings with the counts behind them, and with their sizes where the unit is not the usual one.
+    fn several(&self, fitting: &[Reading]) -> String {
+        let is_usual = units_of(fitting)[..] == [self.usual.unit];
+        let told = |reading: &Reading| {
+            let size = if is_usual { String::new() } else { format!(", {} across", mm(reading.across)) };
+            format!("{} ({} of {} points inside{size})", reading.place, reading.inside, self.total)
+        };
+        fitting.iter().map(told).collect::<Vec<_>>().join(", ")
     }
 
     /// What the caller would state to confirm a choice against the usual place.
@@ -127,13 +219,18 @@ impl Choice {
             return self.told_as_usual(best);
         }
         let usual = self.readings.iter().find(|reading| reading.place == self.usual);
+        let inside = usual.map_or(0, |reading| reading.inside);
+        // Lines that lie inside and have no size in the usual unit.
+        let tiny = usual.filter(|usual| usual.inside > 0 && !usual.is_plausible);
+        let size = |across| tiny.map_or(String::new(), |_| format!(", {} across", mm(across)));
         format!(
-            "{} of {} points lie inside the volume in {}, but {} in {}: read so",
-            usual.map_or(0, |reading| reading.inside),
+            "{inside} of {} points lie inside the volume in {}{}, but {} in {}{}: read so",
             self.total,
             self.usual,
+            size(tiny.map_or(0.0, |usual| usual.across)),
             best.inside,
             best.place,
+            size(best.across),
         )
     }
 
@@ -157,8 +254,7 @@ impl Choice {
     }
 }
 
-impl Reading {
-    pub(crate) fn is_as_good_as(&self, inside: usize) -> bool {
-        self.inside as f64 >= AS_GOOD * inside as f64
-    }
+/// The units of readings, each once.
+fn units_of(readings: &[Reading]) -> Vec<Unit> {
+    Unit::ALL.into_iter().filter(|unit| readings.iter().any(|reading| reading.place.unit == *unit)).collect()
 }

@@ -3,6 +3,8 @@
 use glam::{DAffine3, DMat3, DVec3};
 use lumencut_core::volume::Volume;
 
+use crate::fused;
+
 /// How far outside a point may lie (voxels): a corner is inside whatever the last bits of its way through the affine
 /// and back.
 const TOLERANCE: f64 = 1e-9;
@@ -13,6 +15,7 @@ pub struct Extent {
     index_from_offset: Elimination,
     origin: DVec3,
     last: DVec3,
+    smallest_side: f64,
 }
 
 impl Extent {
@@ -22,6 +25,7 @@ impl Extent {
             index_from_offset: Elimination::of(&world_from_index.matrix3),
             origin: world_from_index.translation,
             last: DVec3::from_array(size.map(|n| n as f64 - 0.5)),
+            smallest_side: smallest_column(&world_from_index.matrix3),
         }
     }
 
@@ -31,10 +35,20 @@ impl Extent {
         index.cmpge(DVec3::splat(-0.5 - TOLERANCE)).all() && index.cmple(self.last + TOLERANCE).all()
     }
 
+    /// The smallest side of a voxel (mm).
+    pub fn smallest_side(&self) -> f64 {
+        self.smallest_side
+    }
+
     /// How many points lie inside.
     pub fn count(&self, points: impl IntoIterator<Item = DVec3>) -> usize {
         points.into_iter().filter(|point| self.contains(*point)).count()
     }
+}
+
+fn smallest_column(matrix: &DMat3) -> f64 {
+    let length = |column: DVec3| fused::dot(column, column).sqrt();
+    [matrix.x_axis, matrix.y_axis, matrix.z_axis].map(length).into_iter().fold(f64::INFINITY, f64::min)
 }
 
 impl From<&Volume<'_>> for Extent {

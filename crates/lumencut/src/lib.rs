@@ -10,6 +10,8 @@ mod choice;
 pub mod cut_at;
 pub mod cut_diameter;
 pub mod devices;
+pub mod doubted_scan;
+pub mod doubted_unit;
 pub mod extent;
 pub mod feature_aggregation;
 pub mod flag_table;

@@ -5,11 +5,15 @@ use lumencut_io::{Space, Unit};
 
 use crate::extent::Extent;
 use crate::placement::Judge;
-use crate::places::{Place, places, readings};
+use crate::places::{Place, Reading, mm, places, readings};
 
 /// Whether points in LPS and mm miss the volume, in whatever space and unit they might be meant.
 pub fn fits_nowhere(points: &[DVec3], volume: &Extent) -> bool {
-    readings(points, &places(&Space::ALL, &Unit::ALL), volume).iter().all(|reading| reading.inside == 0)
+    let is_outside = |reading: &Reading| match reading.place.unit {
+        Unit::Millimetre => reading.inside == 0,
+        _ => reading.fits() == 0,
+    };
+    readings(points, &places(&Space::ALL, &Unit::ALL), volume).iter().all(is_outside)
 }
 
 /// Points that another place fits better.
@@ -23,7 +27,7 @@ pub struct Misplaced {
 
 /// What is to be said of points in LPS and mm where another place brings twice as many of them into the volume, and a
 /// tenth of all more: as when RAS was read as LPS, or centimetres as millimetres. Or where both spaces fit the volume, and
-/// the points evidently look like lumen with x and y negated alone.
+/// the points evidently look like lumen with x and y negated alone. Points that are shorter than a few voxels lie nowhere.
 pub fn better_place(points: &[DVec3], volume: &Judge) -> Option<Misplaced> {
     better_by_extent(points, &volume.extent).or_else(|| mirrored_by_values(points, volume))
 }
@@ -33,21 +37,26 @@ fn better_by_extent(points: &[DVec3], volume: &Extent) -> Option<Misplaced> {
     // The likeliest mistakes first: of places that fit alike the first one is named.
     candidates.sort_by_key(|place| place.unit != Unit::Millimetre);
     let readings = readings(points, &candidates, volume);
-    let as_read = readings[0].inside;
-    let best = readings.iter().rev().max_by_key(|reading| reading.inside)?;
-    let better = best.inside;
-    if better < 2 * as_read || better < as_read + (points.len() / 10).max(1) {
+    let as_read = readings[0];
+    let best = readings.iter().rev().max_by_key(|reading| reading.fits())?;
+    let total = points.len();
+    if !best.is_clearly_better_than(as_read.fits(), total) {
         return None;
     }
-    let (how, total) = (best.place.mistaken(), points.len());
-    let found = format!("{as_read} of {total} points lie inside the volume as read, but {better} {how}");
+    let size = if as_read.is_plausible { String::new() } else { format!(", {} across", mm(as_read.across)) };
+    let found = format!(
+        "{} of {total} points lie inside the volume as read{size}, but {} {}",
+        as_read.inside,
+        best.inside,
+        best.place.mistaken(),
+    );
     Some(Misplaced { found, meant: best.place })
 }
 
 fn mirrored_by_values(points: &[DVec3], volume: &Judge) -> Option<Misplaced> {
     let found = readings(points, &places(&Space::ALL, &[Unit::Millimetre]), &volume.extent);
     let [as_read, mirrored] = found[..] else { return None };
-    if mirrored.inside == 0 || !mirrored.is_as_good_as(as_read.inside) {
+    if mirrored.fits() == 0 || !mirrored.is_as_good_as(as_read.fits()) {
         return None;
     }
     let (few, count) = ((volume.lumen)(as_read.place), (volume.lumen)(mirrored.place));

@@ -6,7 +6,8 @@
 use glam::DVec3;
 use lumencut_io::{Result, Space, Unit};
 
-use crate::choice::Choice;
+use crate::choice::{Choice, Chosen};
+use crate::doubted_unit::{Doubt, doubted_unit};
 use crate::extent::Extent;
 use crate::lumen_points::LumenCount;
 use crate::places::{Place, Statement, places, readings};
@@ -82,6 +83,10 @@ pub struct Placement {
     pub confirmed_by: Statement,
     /// Whether the volume decided against LPS or the usual unit, or the space by its values alone.
     pub is_unusual: bool,
+    /// Units that would fit the volume too, where it decided for the usual one.
+    pub also: Vec<Unit>,
+    /// What speaks against the unit that the file states, or that was assumed.
+    pub doubt: Option<Doubt>,
 }
 
 /// What the volume can say.
@@ -111,6 +116,11 @@ pub fn placement(known: &Known, points: &[DVec3], volume: Option<&Judge>) -> Res
         decision,
         confirmed_by: Statement::default(),
         is_unusual: place != usual,
+        also: Vec::new(),
+        doubt: match unit_from {
+            Origin::Stated | Origin::Assumed => doubted_unit(points, place, volume),
+            Origin::Asked | Origin::Volume | Origin::Values => None,
+        },
     };
     if open.is_empty() {
         return Ok(told(usual, space_from, unit_from, known.overruled()));
@@ -123,18 +133,19 @@ pub fn placement(known: &Known, points: &[DVec3], volume: Option<&Judge>) -> Res
         );
         let readings = readings(points, &candidates, &volume.extent);
         let choice = Choice { readings, usual, total: points.len() };
-        let found = choice.best(volume.lumen)?;
-        if let Some(by_values) = found.by_values {
-            let decision = format!("{nothing}; {by_values}");
-            let placement = told(found.best.place, Origin::Values, unit_from.decided(), decision);
-            let confirmed_by = Statement { space: Some(found.best.place.space), unit: None };
-            return Ok(Placement { is_unusual: true, confirmed_by, ..placement });
+        let Chosen { best, by_values, also } = choice.best(volume.lumen)?;
+        let mut confirmed_by = choice.confirmed_by(best);
+        if let Some(by_values) = by_values {
+            let from = |is_chosen, from: Origin| if is_chosen { Origin::Values } else { from.decided() };
+            let froms = [from(by_values.space, space_from), from(by_values.unit, unit_from)];
+            let placement = told(best.place, froms[0], froms[1], format!("{nothing}; {}", by_values.words));
+            confirmed_by.space = confirmed_by.space.or(by_values.space.then_some(best.place.space));
+            return Ok(Placement { is_unusual: true, confirmed_by, also, ..placement });
         }
-        if found.best.inside > 0 {
-            let decision = format!("{nothing}; {}", choice.told(found.best));
-            let confirmed_by = choice.confirmed_by(found.best);
-            let placement = told(found.best.place, space_from.decided(), unit_from.decided(), decision);
-            return Ok(Placement { confirmed_by, ..placement });
+        if best.inside > 0 {
+            let decision = format!("{nothing}; {}", choice.told(best));
+            let placement = told(best.place, space_from.decided(), unit_from.decided(), decision);
+            return Ok(Placement { confirmed_by, also, ..placement });
         }
     }
     let decision = format!("{nothing}; {usual} is assumed");

@@ -7,11 +7,18 @@ use lumencut_io::{Space, Unit};
 
 use crate::extent::Extent;
 use crate::fused;
+use crate::text::rounded;
 
 /// Extents between these (mm) pass for vessels of a body.
 pub const SMALLEST: f64 = 8.0;
 /// See [`SMALLEST`].
 pub const LARGEST: f64 = 2500.0;
+/// A line that is shorter than this many voxels shows nothing.
+const FEW_VOXELS: f64 = 3.0;
+/// Digits of a length in words.
+const DIGITS: usize = 3;
+/// A place is as good as another if it brings at least this part of the other's points into the volume.
+const AS_GOOD: f64 = 0.8;
 
 /// A space and a unit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -70,30 +77,62 @@ pub fn places(spaces: &[Space], units: &[Unit]) -> Vec<Place> {
 }
 
 /// How many points lie inside a volume where their coordinates are read in a place.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reading {
     /// The place.
     pub place: Place,
-    /// How many points lie inside; none where the vessels had no size of a body's.
+    /// How many points lie inside.
     pub inside: usize,
+    /// The size of the vessels, from corner to corner (mm).
+    pub across: f64,
+    /// Whether vessels can have that size: in mm they may be short pieces, of a few voxels at least; in another unit they have a
+    /// size of a body's.
+    pub is_plausible: bool,
+}
+
+impl Reading {
+    /// How many points lie inside; none of vessels without a plausible size.
+    pub fn fits(&self) -> usize {
+        if self.is_plausible { self.inside } else { 0 }
+    }
+
+    /// Whether the vessels are shorter than most, so that another unit is as likely where it fits.
+    pub fn is_short(&self) -> bool {
+        self.across < SMALLEST
+    }
+
+    /// Whether it brings about as many points into the volume as a place that brings this many.
+    pub fn is_as_good_as(&self, inside: usize) -> bool {
+        self.fits() as f64 >= AS_GOOD * inside as f64
+    }
+
+    /// Whether it brings twice as many points into the volume, and a tenth of all more.
+    pub fn is_clearly_better_than(&self, inside: usize, total: usize) -> bool {
+        self.fits() >= 2 * inside && self.fits() >= inside + (total / 10).max(1)
+    }
 }
 
 /// What each place makes of the points.
 pub fn readings(points: &[DVec3], candidates: &[Place], volume: &Extent) -> Vec<Reading> {
-    let extent = diagonal(points);
+    let bare = across(points);
     let reading = |place: &Place| {
-        // What is given in mm may be a short piece; in another unit it has to look like vessels.
-        let is_plausible =
-            place.unit == Unit::Millimetre || (SMALLEST..=LARGEST).contains(&(extent * place.unit.in_mm()));
+        let across = bare * place.unit.in_mm();
+        let is_of_body = place.unit == Unit::Millimetre || (SMALLEST..=LARGEST).contains(&across);
+        let is_plausible = is_of_body && across >= FEW_VOXELS * volume.smallest_side();
         let scale = place.scale();
-        let inside = if is_plausible { volume.count(points.iter().map(|p| *p * scale)) } else { 0 };
-        Reading { place: *place, inside }
+        let inside = volume.count(points.iter().map(|p| *p * scale));
+        Reading { place: *place, inside, across, is_plausible }
     };
     candidates.iter().map(reading).collect()
 }
 
+/// A length in words.
+pub fn mm(length: f64) -> String {
+    format!("{} mm", rounded(length, DIGITS))
+}
+
 /// The diagonal of the box around the points, 0 of no points.
-fn diagonal(points: &[DVec3]) -> f64 {
+pub fn across(points: &[DVec3]) -> f64 {
     let (low, high) =
         points.iter().fold((DVec3::MAX, DVec3::MIN), |(low, high), p| (low.min(*p), high.max(*p)));
     let sides = if points.is_empty() { DVec3::ZERO } else { high - low };
@@ -122,24 +161,24 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_size_of_vessels_counts_only_in_mm() {
+    fn what_is_no_size_of_vessels_counts_nowhere() {
         let volume = Extent::new([100; 3], DAffine3::IDENTITY);
         let counted = |points: &[DVec3]| {
             readings(points, &places(&[Space::Lps], &Unit::ALL), &volume)
                 .iter()
-                .map(|r| r.inside)
+                .map(Reading::fits)
                 .collect::<Vec<_>>()
         };
-        // 2 units: a short piece in mm, 20 mm in cm, 200 mm in dm, of which one end leaves the volume.
-        assert_eq!(counted(&[DVec3::ZERO, DVec3::X * 2.0]), [0, 2, 2, 1, 1]);
-        // Beyond 2500 mm in metres.
-        assert_eq!(counted(&[DVec3::ZERO, DVec3::X * 2.6]), [0, 2, 2, 1, 0]);
+        // 4 units: a short piece in mm, 40 mm in cm, 400 mm in dm, of which one end leaves the volume; 4 m.
+        assert_eq!(counted(&[DVec3::ZERO, DVec3::X * 4.0]), [0, 2, 2, 1, 0]);
+        // Shorter than three voxels in mm.
+        assert_eq!(counted(&[DVec3::ZERO, DVec3::X * 2.4]), [0, 0, 2, 1, 1]);
         assert_eq!(counted(&[]), [0; 5]);
     }
 
     #[test]
     fn the_diagonal_is_that_of_the_box() {
         let points = [DVec3::new(1.0, 5.0, 0.0), DVec3::new(4.0, 1.0, 12.0), DVec3::new(2.0, 3.0, 4.0)];
-        assert_eq!(diagonal(&points), 13.0);
+        assert_eq!(across(&points), 13.0);
     }
 }

@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     import numpy as np
     import numpy.typing as npt
 
+    from lumencut.mends import Told
     from lumencut.vessel_tree import VesselTree
 
 #: Who decided on a space or unit.
@@ -103,7 +104,7 @@ def of_centerlines(
         "largest_shift": _largest_shift(tree),
         "judged_by": place.judge,
         "decisions": [one_line(text) for text in (place.choice, report.decision) if text],
-        "notes": [*place.undecided, *map(one_line, report.notes), *_odd_tree(tree)],
+        "notes": [*place.undecided, *_doubts(report.doubt), *map(one_line, report.notes), *_odd_tree(tree)],
         "_tree": tree,
     }
 
@@ -147,6 +148,10 @@ def _odd_grid(affine: npt.NDArray[np.float64], low_high: list[float] | None) -> 
     if low_high is not None and low_high[0] == low_high[1]:
         notes.append(f"every voxel has the value {low_high[0]:g}")
     return notes
+
+
+def _doubts(doubt: Told) -> list[str]:
+    return [one_line(doubt)] if doubt else []
 
 
 def _odd_tree(tree: VesselTree) -> list[str]:

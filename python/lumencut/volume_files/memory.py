@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from lumencut import _lumencut
 from lumencut.errors import FormatError, SeriesError, VolumeError
 from lumencut.volume import Volume
 
@@ -50,7 +51,11 @@ def as_volume(image: Any) -> Volume:
     convert = _room(image)
     if convert is None:
         raise VolumeError("image", f"{type(image).__module__}.{type(image).__name__}", _ACCEPTED)
-    return convert(image)
+    volume = convert(image)
+    doubt = _lumencut.doubted_size(volume.size, volume.world_from_index[:3].tolist())
+    if doubt and convert is not _from_pydicom:
+        _log.warning("%s: %s", type(image).__name__, doubt)
+    return volume
 
 
 def is_image(image: Any) -> bool:

@@ -17,6 +17,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from lumencut import _lumencut
 from lumencut.dicom_objects.patients import Patient
 from lumencut.dicom_objects.study import Study
 from lumencut.errors import FileError, FormatError, LumencutError, VolumeError
@@ -89,8 +90,11 @@ class VolumeFile:
         return volume
 
     def checked(self) -> VolumeFile:
-        """Refuse a grid that no volume can have before any voxel is read."""
+        """Refuse a grid that no volume can have before any voxel is read, and note a doubtful size."""
         _placed(self, np.zeros((1, 1, 1), np.uint8))
+        doubt = _lumencut.doubted_size(self.size, self.world_from_index[:3].tolist())
+        if doubt and doubt not in self.notes:
+            self.notes.append(doubt)
         return self
 
 

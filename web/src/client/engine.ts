@@ -2,7 +2,7 @@
 import { proxy, type Remote, transfer, wrap } from 'comlink';
 import type { Answer, Asked, Beside, Message, Question, Told } from '../core/asked';
 import { Failure } from '../core/failure';
-import { TURNS } from '../core/generated/questions';
+import { type PlaceDoubt, TURNS } from '../core/generated/questions';
 import type { Drawn, GivenFile, Report, SeriesWish, Started, States, View } from '../core/messages';
 import { Precedence } from '../core/precedence';
 import type { ScanStudy } from '../core/scan-study';
@@ -20,6 +20,8 @@ export interface Opened {
   readonly name?: string;
   readonly states?: States;
   readonly study?: ScanStudy | null;
+  /** What speaks against where centerlines were read. */
+  readonly doubt?: PlaceDoubt | null;
 }
 
 /** Bits of the byte that stops work: a view gives way to whatever the user waits for, long work to `cancel` alone. */

@@ -13,6 +13,7 @@ export const MEND_NAMES = [
   'coordinates',
   'unit',
   'place',
+  'reading',
   'reorder',
   'series',
   'phase',
@@ -31,6 +32,10 @@ export interface Mend {
 
 export const EVERY_SECOND: Mend = { name: 'every_second', values: [] };
 
+/** A space and a unit in the words of the page, such as `LPS in cm` for `lps in cm`. */
+export const readingWords = (reading: string): string =>
+  reading.replace(/^\w+/, (space) => space.toUpperCase());
+
 const spaces = ({ values }: Mend): string => values.map((space) => space.toUpperCase()).join(' or ');
 
 const WORDS: Record<MendName, (mend: Mend) => string> = {
@@ -45,6 +50,8 @@ const WORDS: Record<MendName, (mend: Mend) => string> = {
   coordinates: (mend) => `choose the space of its coordinates, ${spaces(mend)}`,
   unit: ({ values }) => `choose the unit of its coordinates, ${values.join(' or ')}`,
   place: (mend) => `choose the space of its coordinates, ${spaces(mend)}, if it belongs to this scan`,
+  reading: ({ values }) =>
+    `choose the space and the unit of its coordinates, ${values.map(readingWords).join(' or ')}`,
   reorder: () => 'put the points of the file in order',
   series: () => 'choose one of the series',
   phase: ({ values }) =>

@@ -36,6 +36,7 @@ export async function open(engine: EngineClient, load: () => Promise<Loaded>, na
     const isEdited = document_.value.vessels.length > 0 || hasEdits.value;
     const comesToEdits = opened.isBeside && store.hasVolume.value && isEdited;
     await (comesToEdits ? showBeside(engine, opened) : showStudy(engine, opened, opened.name ?? name));
+    store.problem.value = misread(opened);
   } catch (error) {
     const failure = Failure.of(error);
     if (failure.kind !== 'interrupted') {
@@ -45,6 +46,16 @@ export async function open(engine: EngineClient, load: () => Promise<Loaded>, na
   } finally {
     store.progress.value = null;
   }
+}
+
+/** A doubt of where centerlines were read, with what reads them elsewhere; null where nothing does. */
+function misread({ doubt }: Loaded): Failure | null {
+  const values = doubt?.readings ?? [];
+  const mends = [{ name: 'reading', values }] as const;
+  const expected = 'lines of the size and the place of vessels';
+  return doubt && values.length > 0
+    ? new Failure('format', 'Centerlines', doubt.found, expected, '', { mends })
+    : null;
 }
 
 /** What was open stays where others were refused before they took its place. */

@@ -1,6 +1,6 @@
 /** What can be done at once about what was refused: a button for each mend that the page can do here. */
 import type { Failure, SeriesChoice } from '../core/failure';
-import type { Mend, MendName } from '../core/mends';
+import { type Mend, type MendName, readingWords } from '../core/mends';
 import type { SeriesWish } from '../core/messages';
 import { openAgain } from '../state/last-opened';
 import { SeriesThumbnail } from './SeriesThumbnail';
@@ -25,6 +25,11 @@ const BUTTONS: Record<MendName, (mend: Mend) => readonly Button[]> = {
   coordinates: spaces,
   unit: ({ values }) => values.map((unit) => [`Read in ${unit}`, { unit }]),
   place: spaces,
+  reading: ({ values }) =>
+    values.map((value) => {
+      const [coordinates = '', unit = ''] = value.split(' in ');
+      return [`Read as ${readingWords(value)}`, { coordinates, unit }];
+    }),
   reorder: () => [['Put the points in order', { reorder: true }]],
   series: NONE,
   phase: ({ values }) => values.map((phase) => [`Read the phase ${phase}`, { phase }]),

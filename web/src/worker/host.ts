@@ -2,6 +2,7 @@
 import { transfer } from 'comlink';
 import type { Beside, Message, Question, Told } from '../core/asked';
 import { CRASH, Failure } from '../core/failure';
+import type { PlaceDoubt } from '../core/generated/questions';
 import type { Drawn, GivenFile, Picture, Report, SeriesWish, Started, View } from '../core/messages';
 import { Engine, loadJudge, loadModule, memorySize } from '../core/module';
 import { ALL_OF_IT } from '../io/dicom/wanted';
@@ -17,6 +18,12 @@ import { startThreads } from './threads';
 
 /** What is told of a volume of which not every voxel was taken. */
 const COARSER = 'every second voxel along each axis was taken; measured numbers are less sure';
+
+/** What is known of everything that was loaded. */
+interface Loaded {
+  readonly report: Report;
+  readonly doubt: PlaceDoubt | null;
+}
 
 export class EngineHost {
   private readonly queue = new Queue();
@@ -103,7 +110,7 @@ export class EngineHost {
     centerlines: string | null,
     wish: SeriesWish,
     told: Told,
-  ): Promise<Fetched & { report: Report }> {
+  ): Promise<Fetched & Loaded> {
     return this.load(told, (means) => fetchStudy(means, { volume, centerlines }, told), wish);
   }
 
@@ -112,7 +119,7 @@ export class EngineHost {
     files: readonly GivenFile[],
     wish: SeriesWish,
     told: Told,
-  ): Promise<Partial<Fetched> & { report: Report; notes: readonly string[] }> {
+  ): Promise<Partial<Fetched> & Loaded & { notes: readonly string[] }> {
     const sources = files.map(({ path, file }) => new BlobSource(path, file));
     const { coordinates: _, unit: __, every_second: ___, reorder: ____, ...series } = wish;
     const work = async (means: Means) => {
@@ -136,7 +143,7 @@ export class EngineHost {
     told: Told,
     work: (means: Means) => Promise<T>,
     wish: SeriesWish,
-  ): Promise<T & { report: Report }> {
+  ): Promise<T & Loaded> {
     this.cancelled.abort();
     this.cancelled = new AbortController();
     const { signal } = this.cancelled;
@@ -145,8 +152,11 @@ export class EngineHost {
       const study = wish.every_second ? new EverySecond(replacing) : replacing;
       try {
         const loaded = await work({ study, loadJudge, steps: new Steps(told, signal) });
-        const notes = wish.every_second ? [...loaded.notes, COARSER] : loaded.notes;
-        return { ...loaded, notes, report: this.report() };
+        const report = this.report();
+        const ofVolume = replacing.hasBegun ? report.volume?.doubt : null;
+        const every = [...loaded.notes, ofVolume, wish.every_second ? COARSER : null];
+        const notes = [...new Set(every.filter((note) => note != null))];
+        return { ...loaded, notes, report, doubt: replacing.doubt };
       } catch (error) {
         if (replacing.hasBegun) {
           replacing.close();

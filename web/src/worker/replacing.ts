@@ -1,4 +1,5 @@
 /** The engine as readers of files have it: it tells whether they began to replace what was open. */
+import type { PlaceDoubt } from '../core/generated/questions';
 import type { SeriesWish } from '../core/messages';
 import type { Engine } from '../core/module';
 import type { Study, Means as StudyMeans } from '../io/study';
@@ -6,6 +7,8 @@ import { ask, askAtOnce } from './answers';
 
 export class Replacing implements Study {
   hasBegun = false;
+  /** What speaks against where centerlines were read. */
+  doubt: PlaceDoubt | null = null;
 
   constructor(
     private readonly engine: Engine,
@@ -27,7 +30,9 @@ export class Replacing implements Study {
   }
 
   openCenterlines(bytes: Uint8Array, name: string): readonly string[] {
-    return ask(this.engine, 'open_centerlines', { name, wish: this.wish }, { bytes });
+    const { notes, doubt } = ask(this.engine, 'open_centerlines', { name, wish: this.wish }, { bytes });
+    this.doubt = doubt;
+    return notes;
   }
 
   sideNotes(text: string): readonly string[] {

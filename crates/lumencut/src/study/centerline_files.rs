@@ -3,14 +3,15 @@
 use crate::extent::Extent;
 use crate::line_doubts::{DoubtedLine, LineDoubt, beside_doubts_of, order_doubts_of};
 use crate::lumen_points::{Lines, lumen_count};
-use crate::placement::{Judge, Known, placement};
-use crate::places::Statement;
+use crate::misplaced::{better_place, fits_nowhere};
+use crate::placement::{Judge, Known, Origin, Placement, placement};
+use crate::places::{Place, Statement};
 use crate::reordering::{in_order, parted_doubt};
 use glam::DVec3;
 use lumencut_core::vessel_tree::{Vessel, VesselTree};
 use lumencut_core::volume::Volume;
 use lumencut_io::{self as centerlines, Space, Unit, junctions};
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use crate::study::failure::Result;
 
@@ -71,6 +72,28 @@ pub struct PlacedVessels {
     pub notes: Vec<String>,
     /// Whether points are in another order, and may be put in order.
     pub can_reorder: bool,
+    /// What speaks against the space or unit in which they were read.
+    pub doubt: Option<PlaceDoubt>,
+}
+
+/// What speaks against the space or unit of centerlines, and how else they can be read.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub struct PlaceDoubt {
+    /// What was found, in words.
+    pub found: String,
+    /// The places that fit instead, such as `lps in cm`; none where no other fits.
+    pub readings: Vec<String>,
+}
+
+/// What is told of centerlines that were opened.
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub struct OpenedLines {
+    /// What was odd about their file, one sentence each.
+    pub notes: Vec<String>,
+    /// What speaks against the space or unit in which they were read.
+    pub doubt: Option<PlaceDoubt>,
 }
 
 /// The vessels of the file `name` in world space, read in the space and unit that are asked for; what neither the file nor the
@@ -110,13 +133,17 @@ pub fn read_centerlines(
         Vessel::new(line.points.iter().map(|p| *p * signs).collect(), line.radius.clone())
     };
     let vessels = placed.lines.iter().map(vessel).collect::<lumencut_core::error::Result<Vec<_>>>()?;
-    let mut notes = placed.notes.clone();
-    notes.extend((!found.decision.is_empty()).then_some(found.decision));
     let names: Vec<String> = placed.lines.iter().map(|line| line.name.clone().unwrap_or_default()).collect();
     doubts.extend(doubts_of(&vessels, &names));
+    let tree = VesselTree::new(vessels)?;
+    let mut notes = placed.notes;
+    notes.extend(Some(found.decision.clone()).filter(|decision| !decision.is_empty()));
+    let beside = volume.and_then(|volume| doubt_beside(&tree, volume, &found));
+    let doubt = doubt_of_unit(&found).or(beside);
+    notes.extend(doubt.iter().map(|doubt| doubt.found.clone()).filter(|words| *words != found.decision));
     notes.extend(doubts.iter().map(LineDoubt::words));
     let can_reorder = doubts.iter().any(|doubt| doubt.mend.is_some());
-    Ok(PlacedVessels { tree: VesselTree::new(vessels)?, names, notes, can_reorder })
+    Ok(PlacedVessels { tree, names, notes, doubt, can_reorder })
 }
 
 /// What is doubtful about vessels of a file.
@@ -127,4 +154,40 @@ fn doubts_of(vessels: &[Vessel], names: &[String]) -> Vec<LineDoubt> {
     let mut doubts = order_doubts_of(&looked_at);
     doubts.extend(beside_doubts_of(&looked_at));
     doubts
+}
+
+/// What speaks against the unit, or which other ones fit the volume too.
+fn doubt_of_unit(found: &Placement) -> Option<PlaceDoubt> {
+    let of =
+        |units: &[Unit]| units.iter().map(|unit| Place { unit: *unit, ..found.place }.to_string()).collect();
+    if let Some(doubt) = &found.doubt {
+        return Some(PlaceDoubt { found: doubt.found.clone(), readings: of(&doubt.units) });
+    }
+    let also = of(&found.also);
+    (!found.also.is_empty()).then(|| PlaceDoubt { found: found.decision.clone(), readings: also })
+}
+
+/// What is to be said of vessels beside a volume: that they miss it, or where nothing is told yet, that another place fits.
+fn doubt_beside(tree: &VesselTree, volume: &Volume, read: &Placement) -> Option<PlaceDoubt> {
+    let points: Vec<DVec3> = tree.vessels().iter().flat_map(|vessel| vessel.points()).copied().collect();
+    let radius =
+        |vessel: &Vessel| (0..vessel.points().len()).map(|i| vessel.radius_or_zero(i)).collect::<Vec<_>>();
+    let radii: Vec<f64> = tree.vessels().iter().flat_map(radius).collect();
+    let lines = Lines { points: &points, radii: &radii };
+    let lumen = |place| lumen_count(volume, &lines, place);
+    let judge = Judge { extent: Extent::from(volume), lumen: &lumen };
+    if fits_nowhere(&points, &judge.extent) {
+        let found = "no point lies inside the volume; perhaps the centerlines are of another scan".to_owned();
+        return Some(PlaceDoubt { found, readings: Vec::new() });
+    }
+    let is_told = read.is_unusual || read.space_from == Origin::Asked;
+    let better = better_place(&points, &judge).filter(|_| !is_told)?;
+    // The place that fits is that of lines that were read as LPS: those that were read as RAS fit the other way round.
+    let space = if better.meant.space == read.place.space { Space::Lps } else { Space::Ras };
+    let is_in_mm = read.place.unit == Unit::Millimetre;
+    let meant = Place { space, ..better.meant };
+    Some(PlaceDoubt {
+        found: better.found,
+        readings: is_in_mm.then(|| meant.to_string()).into_iter().collect(),
+    })
 }

@@ -11,6 +11,7 @@ use lumencut_core::settings::{ContextName, Window};
 use lumencut_core::vessel_tree::{Vessel, VesselTree};
 use serde::Serialize;
 
+use crate::doubted_scan::doubted_size;
 use crate::scan_details::ScanDetails;
 use crate::study::failure::Result;
 use crate::study::held_volume::HeldVolume;
@@ -105,6 +106,8 @@ pub struct VolumeReport {
     pub smallest_side: f64,
     /// How the scan was made, in words.
     pub scan: String,
+    /// What speaks against its lengths; none where nothing does.
+    pub doubt: Option<String>,
 }
 
 /// A vessel that is shown.
@@ -271,6 +274,7 @@ impl VolumeReport {
             corners: volume.corners().map(|corner| corner.to_array()),
             smallest_side: volume.smallest_side(),
             scan: held.scan.words(),
+            doubt: doubted_size(held.size, held.world_from_index),
         })
     }
 }

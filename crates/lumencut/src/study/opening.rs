@@ -2,7 +2,7 @@
 
 use lumencut_core::vessel_tree::VesselTree;
 
-use crate::study::centerline_files::{Asked, read_centerlines};
+use crate::study::centerline_files::{Asked, OpenedLines, read_centerlines};
 use crate::study::failure::Result;
 use crate::study::held_volume::{HeldVolume, VolumeHeader};
 use crate::study::open_study::Study;
@@ -58,13 +58,13 @@ impl Study {
         bytes: &[u8],
         name: &str,
         asked: impl Into<Asked>,
-    ) -> Result<Vec<String>> {
+    ) -> Result<OpenedLines> {
         let volume = self.content.held.as_ref().map(HeldVolume::volume).transpose()?;
         let read = read_centerlines(bytes, name, asked.into(), volume.as_ref())?;
         self.content.forget_windows();
         self.show_tree(read.tree, read.names)?;
         self.content.can_reorder = read.can_reorder;
-        Ok(read.notes)
+        Ok(OpenedLines { notes: read.notes, doubt: read.doubt })
     }
 
     /// Closes what is open; its memory is free again.

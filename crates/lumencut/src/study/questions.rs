@@ -7,7 +7,7 @@ use crate::report::Stated;
 use crate::straightened_sides::StraightenedSides;
 use crate::study::after_edit::{AfterEdit, FirstClick};
 use crate::study::asking::{Answer, Answering, Asking, Turn, WrittenFile, questions, read};
-use crate::study::centerline_files::AskedMessage;
+use crate::study::centerline_files::{AskedMessage, OpenedLines};
 use crate::study::content::Report;
 use crate::study::document::{Document, DocumentVessel};
 use crate::study::doubts::{DoubtRow, doubt_rows};
@@ -54,8 +54,8 @@ of_the_study {
     /// Closes what is open.
     [Turn::First] close(_nothing: ()) -> () = study.close();
 
-    /// Opens a file of centerlines beside the volume; tells what was odd about it, a sentence each.
-    [Turn::First] open_centerlines { name: String, wish: AskedMessage } -> Vec<String> =
+    /// Opens a file of centerlines beside the volume; tells what was odd about it, and what speaks against where it was read.
+    [Turn::First] open_centerlines { name: String, wish: AskedMessage } -> OpenedLines =
         study.open_centerlines(asking.bytes, &name, wish)?;
 
     /// The camera of a named view that shows all of the study.

@@ -2,6 +2,7 @@ use glam::DAffine3;
 
 use super::*;
 use crate::misplaced::{Misplaced, better_place, fits_nowhere};
+use crate::places::{SMALLEST, across};
 use lumencut_io::Mend;
 
 /// A volume of 100 mm along each axis, far enough from the origin that only one space fits it.
@@ -213,4 +214,146 @@ fn values_that_speak_for_the_mirrored_lines_are_told() {
     // Lines that leave the volume when they are mirrored lie where they are read.
     let judge = Judge { extent: volume(), lumen: &counts(0, 100) };
     assert_eq!(better_place(&self::points(Space::Lps, Unit::Millimetre), &judge), None);
+}
+
+/// A cube of 640 mm whose voxels have a side of 1 mm, with its middle at a place.
+fn cube_around(middle: DVec3) -> Extent {
+    Extent::new([640; 3], DAffine3::from_translation(middle - 319.5))
+}
+
+/// A line of a length (mm) around the middle of a cube, as a file in this place would hold it.
+fn line_of(length: f64, middle: DVec3, place: Place) -> Vec<DVec3> {
+    let along = |n: i32| (f64::from(n) / 49.0 - 0.5) * length;
+    let point = |n| middle + DVec3::new(3.0 * (along(n) / 9.0).sin(), -6.0, along(n));
+    (0..50).map(|n| point(n) / place.scale()).collect()
+}
+
+/// What a caller states who follows a mend: all that it offers.
+fn followed(mend: &Mend, known: &Known) -> Vec<Known> {
+    let space = |space: &Space| Known { asked_space: Some(*space), ..*known };
+    let unit = |unit: &Unit| Known { asked_unit: Some(*unit), ..*known };
+    match mend {
+        Mend::Coordinates => Space::ALL.iter().map(space).collect(),
+        Mend::Unit(units) => units.iter().map(unit).collect(),
+        Mend::Reading(all) => {
+            let both = |(space, unit): &(Space, Unit)| Known {
+                asked_space: Some(*space),
+                asked_unit: Some(*unit),
+                ..*known
+            };
+            all.iter().map(both).collect()
+        }
+        Mend::Place => panic!("the lines lie in the volume"),
+    }
+}
+
+/// Follows every mend until the points are read; whether one way ends at the place that is true.
+fn leads_to(truth: Place, known: &Known, points: &[DVec3], judge: &Judge) -> bool {
+    match placement(known, points, Some(judge)) {
+        Ok(found) => {
+            let doubted = found.doubt.iter().flat_map(|doubt| &doubt.units).chain(&found.also);
+            let units: Vec<Unit> = doubted.copied().collect();
+            assert!(
+                known.asked_unit.is_some() || found.place.unit == truth.unit || units.contains(&truth.unit),
+                "{} points in {truth} are read as {} without a word",
+                points.len(),
+                found.place
+            );
+            found.place == truth
+                || units
+                    .into_iter()
+                    .any(|unit| leads_to(truth, &Known { asked_unit: Some(unit), ..*known }, points, judge))
+        }
+        Err(error) => {
+            let mend = error.mended_by.as_deref().expect("a mend");
+            followed(mend, known).iter().any(|known| leads_to(truth, known, points, judge))
+        }
+    }
+}
+
+const TRIED: [Unit; 4] = [Unit::Micrometre, Unit::Millimetre, Unit::Centimetre, Unit::Metre];
+
+/// Every line that is tried, with its place and the volume.
+fn tried() -> impl Iterator<Item = (Vec<DVec3>, Place, Extent)> {
+    let middles = [DVec3::new(20.0, -30.0, 5.0), DVec3::new(700.0, 800.0, 400.0)];
+    let of = move |middle: DVec3, length: f64| {
+        let of = move |place: Place| (line_of(length, middle, place), place, cube_around(middle));
+        places(&Space::ALL, &TRIED).into_iter().map(of)
+    };
+    middles
+        .into_iter()
+        .flat_map(move |middle| [20.0, 72.0, 600.0].into_iter().flat_map(move |l| of(middle, l)))
+}
+
+#[test]
+fn no_unit_is_wrong_without_a_word_and_every_mend_leads_to_the_place() {
+    for (points, truth, extent) in tried() {
+        let judge = silent(extent);
+        let stated = |space, unit| Known { stated_space: space, stated_unit: unit, ..nothing() };
+        let mut tried = vec![nothing(), stated(Some(truth.space), None)];
+        // What is stated is believed where it is a size of vessels, as 60 mm for 600 mm in cm are.
+        if !(SMALLEST..300.0).contains(&across(&points)) {
+            tried.push(stated(Some(truth.space), Some(Unit::Millimetre)));
+        }
+        for known in tried {
+            assert!(leads_to(truth, &known, &points, &judge), "{truth}, {known:?}, {} mm", across(&points));
+        }
+        // The caller who names both is believed.
+        let asked = Known { asked_space: Some(truth.space), asked_unit: Some(truth.unit), ..nothing() };
+        let found = placement(&asked, &points, Some(&judge)).expect("what was asked");
+        assert_eq!((found.place, found.doubt, found.also), (truth, None, Vec::new()));
+    }
+}
+
+#[test]
+fn values_tell_the_unit_where_they_are_evident() {
+    for (points, truth, extent) in tried() {
+        let lumen = |place| LumenCount { like_lumen: if place == truth { 90 } else { 20 }, of: 100 };
+        let judge = Judge { extent, lumen: &lumen };
+        for stated_space in [None, Some(truth.space)] {
+            let found = placement(&Known { stated_space, ..nothing() }, &points, Some(&judge)).expect("told");
+            assert_eq!(found.place, truth, "{}", found.decision);
+            assert!(found.is_unusual || truth.unit == Unit::Millimetre && found.also.is_empty());
+        }
+    }
+    let middle = DVec3::new(20.0, -30.0, 5.0);
+    let truth = Place { space: Space::Lps, unit: Unit::Centimetre };
+    let lumen = |place| LumenCount { like_lumen: if place == truth { 90 } else { 20 }, of: 100 };
+    let judge = Judge { extent: cube_around(middle), lumen: &lumen };
+    let known = Known { stated_space: Some(Space::Lps), ..nothing() };
+    let found = placement(&known, &line_of(600.0, middle, truth), Some(&judge)).expect("told");
+    let told = "the file states no unit; lps in mm (50 of 50 points inside, 60 mm across), lps in cm (50 of 50 points \
+                inside, 600 mm across) fit the volume; 20 of 100 points looked at look like lumen in lps in mm, but 90 of \
+                100 points looked at look like lumen in lps in cm: read in cm";
+    assert_eq!((found.decision.as_str(), found.unit_from), (told, Origin::Values));
+    assert_eq!(found.confirmed_by, Statement { space: None, unit: Some(Unit::Centimetre) });
+}
+
+#[test]
+fn a_size_that_is_none_is_told_without_a_volume_too() {
+    let at = Place { space: Space::Ras, unit: Unit::Metre };
+    let points = line_of(72.0, DVec3::ZERO, at);
+    let stated = Known { stated_space: Some(Space::Ras), stated_unit: Some(Unit::Millimetre), ..nothing() };
+    for known in [nothing(), stated] {
+        let doubt = placement(&known, &points, None).expect("a place").doubt.expect("a doubt");
+        assert_eq!(doubt.units, [Unit::Metre]);
+        assert!(doubt.found.starts_with("the lines are 0.072"), "{}", doubt.found);
+        assert!(doubt.found.contains("mm across in mm, 72."), "{}", doubt.found);
+    }
+    let points = line_of(72.0, DVec3::ZERO, Place { unit: Unit::Millimetre, ..at });
+    assert_eq!(placement(&stated, &points, None).expect("a place").doubt, None);
+}
+
+#[test]
+fn lines_of_a_few_voxels_are_told_of_with_the_volume_that_they_lie_in() {
+    let middle = DVec3::new(20.0, -30.0, 5.0);
+    let points = line_of(72.0, middle, Place { space: Space::Lps, unit: Unit::Metre });
+    let better = better_place(&points, &silent(cube_around(middle))).expect("a better place");
+    assert!(
+        better.found.starts_with("50 of 50 points lie inside the volume as read, 0.072"),
+        "{}",
+        better.found
+    );
+    assert_eq!(better.meant, Place { space: Space::Lps, unit: Unit::Metre });
+    assert!(!fits_nowhere(&points, &cube_around(middle)));
 }

@@ -461,6 +461,14 @@ export type NumberedLine = {
   readonly content: LineContent;
 };
 
+/** What is told of centerlines that were opened. */
+export type OpenedLines = {
+  /** What was odd about their file, one sentence each. */
+  readonly notes: ReadonlyArray<string>;
+  /** What speaks against the space or unit in which they were read. */
+  readonly doubt: PlaceDoubt | null;
+};
+
 /** A way to where the pointer is. */
 export type PathRequest = {
   /** The last click. */
@@ -499,6 +507,14 @@ export type PictureLabels = {
   readonly letters: EdgeLetters;
   /** The scale bar; none where the picture has no width. */
   readonly bar: ScaleBar | null;
+};
+
+/** What speaks against the space or unit of centerlines, and how else they can be read. */
+export type PlaceDoubt = {
+  /** What was found, in words. */
+  readonly found: string;
+  /** The places that fit instead, such as `lps in cm`; none where no other fits. */
+  readonly readings: ReadonlyArray<string>;
 };
 
 /** A turn about a place on a vessel, which runs upwards through the middle of the picture. */
@@ -932,6 +948,8 @@ export type VolumeReport = {
   readonly smallest_side: number;
   /** How the scan was made, in words. */
   readonly scan: string;
+  /** What speaks against its lengths; none where nothing does. */
+  readonly doubt: string | null;
 };
 
 /** The whole vessel that a click would add. */
@@ -974,13 +992,13 @@ export type Questions = {
     readonly message: null;
     readonly answer: null;
   };
-  /** Opens a file of centerlines beside the volume; tells what was odd about it, a sentence each. */
+  /** Opens a file of centerlines beside the volume; tells what was odd about it, and what speaks against where it was read. */
   readonly open_centerlines: {
     readonly message: {
       readonly name: string;
       readonly wish: CenterlineWish;
     };
-    readonly answer: ReadonlyArray<string>;
+    readonly answer: OpenedLines;
   };
   /** The camera of a named view that shows all of the study. */
   readonly fitted: {

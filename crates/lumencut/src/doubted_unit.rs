@@ -1,0 +1,74 @@
+//! Doubts of the unit of lines: a size that vessels of a body do not have, or another unit that fits the volume better.
+
+use std::cmp::Reverse;
+
+use glam::DVec3;
+use lumencut_io::Unit;
+
+use crate::placement::Judge;
+use crate::places::{LARGEST, Place, Reading, SMALLEST, across, mm, places, readings};
+
+/// A unit that may be wrong.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Doubt {
+    /// What was found, in words.
+    pub found: String,
+    /// The units that fit instead, the likeliest first; none where no other fits.
+    pub units: Vec<Unit>,
+}
+
+/// What speaks against the unit of the points of a file, as they stand in it, that are read in a place.
+pub fn doubted_unit(points: &[DVec3], place: Place, volume: Option<&Judge>) -> Option<Doubt> {
+    match volume {
+        Some(volume) => doubted_by_volume(points, place, volume),
+        None => doubted_by_size(points, place),
+    }
+}
+
+fn doubted_by_size(points: &[DVec3], place: Place) -> Option<Doubt> {
+    let bare = across(points);
+    let is_size = |unit: &Unit| (SMALLEST..=LARGEST).contains(&(bare * unit.in_mm()));
+    if is_size(&place.unit) {
+        return None;
+    }
+    let units: Vec<Unit> = Unit::ALL.into_iter().filter(is_size).collect();
+    let sizes = units.iter().map(|unit| format!(", {} in {}", mm(bare * unit.in_mm()), unit.name()));
+    let size = mm(bare * place.unit.in_mm());
+    let found = format!("the lines are {size} across in {}{}", place.unit.name(), sizes.collect::<String>());
+    Some(Doubt { found, units })
+}
+
+fn doubted_by_volume(points: &[DVec3], place: Place, volume: &Judge) -> Option<Doubt> {
+    let all = readings(points, &places(&[place.space], &Unit::ALL), &volume.extent);
+    let as_read = all.iter().find(|reading| reading.place == place)?;
+    let mut others: Vec<&Reading> =
+        all.iter().filter(|other| other.place != place && other.fits() > 0 && !other.is_short()).collect();
+    others.sort_by_key(|other| Reverse(other.fits()));
+    others.retain(|other| is_likelier(other, as_read, points.len(), volume));
+    let is_no_size = !as_read.is_plausible || as_read.across > LARGEST;
+    if others.is_empty() && !is_no_size {
+        return None;
+    }
+    let told = |reading: &Reading| {
+        format!(
+            "{} across in {}, with {} of {} points inside the volume",
+            mm(reading.across),
+            reading.place.unit.name(),
+            reading.inside,
+            points.len()
+        )
+    };
+    let instead: String = others.iter().map(|other| format!("; {}", told(other))).collect();
+    let found = format!("the lines are {}{instead}", told(as_read));
+    Some(Doubt { found, units: others.iter().map(|other| other.place.unit).collect() })
+}
+
+/// Whether lines are likelier meant in another unit than in the one in which they are read.
+fn is_likelier(other: &Reading, as_read: &Reading, total: usize, volume: &Judge) -> bool {
+    if other.is_clearly_better_than(as_read.fits(), total) {
+        return true;
+    }
+    let is_alike = other.is_as_good_as(as_read.fits());
+    let by_values = || (volume.lumen)(other.place).is_evident_beside((volume.lumen)(as_read.place));
+    is_alike && (as_read.is_short() || by_values())
+}
