@@ -43,6 +43,7 @@ mod faults;
 mod gathering;
 mod geometry;
 mod grey;
+mod grouping;
 mod headers;
 mod image;
 mod images;
