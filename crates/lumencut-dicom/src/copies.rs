@@ -9,7 +9,7 @@ use crate::slices::{Pair, are_unlike, slices_of};
 use crate::value::Value;
 use crate::wording::{counted, listed};
 
-/// What tells nothing of the image itself; patients are compared on their own.
+/// What says nothing of the image itself; patients are compared on their own.
 const OF_THE_PATIENT: [Keyword; 4] =
     [Keyword::PatientID, Keyword::IssuerOfPatientID, Keyword::PatientName, Keyword::PatientBirthDate];
 

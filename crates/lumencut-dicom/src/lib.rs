@@ -66,6 +66,7 @@ mod uneven;
 mod value;
 mod wording;
 
+pub use directions::corrected;
 pub use error::{Error, ErrorKind, Result};
 pub use headers::{Attributes, File, FrameOf, Header, Headers, Unlike};
 pub use judging::{Wanted, describe, judge};

@@ -46,8 +46,8 @@ impl Patient {
             return "no PatientID".to_owned();
         }
         let issuer =
-            if self.issuer.is_empty() { String::new() } else { format!(" of {}", told(&self.issuer)) };
-        told(&self.id) + &issuer
+            if self.issuer.is_empty() { String::new() } else { format!(" of {}", as_shown(&self.issuer)) };
+        as_shown(&self.id) + &issuer
     }
 }
 
@@ -95,6 +95,6 @@ fn plain_name(name: &str) -> String {
     parts.join("^").trim_end_matches('^').to_owned()
 }
 
-fn told(text: &str) -> String {
+fn as_shown(text: &str) -> String {
     quoted(&shown(text))
 }
