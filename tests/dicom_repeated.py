@@ -10,6 +10,7 @@ from pathlib import Path
 from pydicom.dataset import Dataset
 
 from dicom_codecs import gdcm_does
+from dicom_enhanced import enhanced
 from dicom_phantom import ROOT, Stored, save, single
 from dicom_series import COUNT, LATE_STACK, PLAIN_STACK, Case, Made, Stack
 
@@ -37,6 +38,26 @@ def acquired(
                 save(data, folder / f"IM{number:04}.dcm")
                 read.setdefault(k, image)
         return Made(folder, [read[k] for k in sorted(read)])
+
+    return write
+
+
+def frames(folder: Path) -> Made:
+    """A multi-frame image of two overlapping acquisitions whose values differ at the shared place."""
+    data = enhanced([*PLAIN_STACK[:13], *LATE_STACK[12:]])
+    for n, groups in enumerate(data.PerFrameFunctionalGroupsSequence):
+        groups.FrameContentSequence[0].FrameAcquisitionNumber = 1 + (n >= 13)
+    save(data, folder / "all.dcm")
+    return Made(folder, PLAIN_STACK, None)
+
+
+def part(parts: Sequence[Part], number: int, late: Sequence[int] = ()) -> Callable[[Path], Made]:
+    """Acquisitions of which one is asked for, the part of that number."""
+
+    def write(folder: Path) -> Made:
+        acquired(parts, late)(folder)
+        low, high = parts[number]
+        return Made(folder, list((LATE_STACK if number in late else PLAIN_STACK)[low:high]))
 
     return write
 
@@ -137,6 +158,26 @@ REPEATED = [
         GROUP,
         acquired([(0, 13), (12, 24)], late=[1]),
         ("25 slices at 24 places, of different values: IM0013.dcm and IM0014.dcm", "overlapping parts"),
+    ),
+    Case(
+        "overlap: frames of other values",
+        GROUP,
+        frames,
+        ("all.dcm frame 13 and all.dcm frame 14; FrameAcquisitionNumber",),
+    ),
+    Case(
+        "overlap: other values, one part asked for",
+        GROUP,
+        part([(0, 13), (12, 24)], 1, late=[1]),
+        notes=("phase 3 leaves out 12 of 24 places",),
+        phase="3",
+    ),
+    Case(
+        "overlap: one part asked for",
+        GROUP,
+        part(OVERLAPS["three acquisitions"], 2),
+        notes=("phase 4 leaves out 14 of 24 places",),
+        phase="4",
     ),
     Case(
         "overlap: a gap between parts",

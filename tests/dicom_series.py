@@ -82,6 +82,8 @@ class Case:
         How much a value may be off, where compression loses some.
     series : str, optional
         The series that is asked for.
+    phase : str, optional
+        The phase that is asked for.
     resample_slices : bool
         Whether slices of uneven distances are to be put on a regular grid.
     needs : str
@@ -95,6 +97,7 @@ class Case:
     notes: tuple[str, ...] = ()
     loss: float = 0.0
     series: str | None = None
+    phase: str | None = None
     resample_slices: bool = False
     needs: str = ""
 

@@ -135,6 +135,21 @@ def test_copies_of_a_multi_frame_image_are_one(tmp_path):
         read_volume(tmp_path)
 
 
+def test_frames_of_overlapping_parts_are_compared(tmp_path):
+    data = enhanced([*PLAIN_STACK[:13], *PLAIN_STACK[12:]])
+    for n, groups in enumerate(data.PerFrameFunctionalGroupsSequence):
+        groups.FrameContentSequence[0].FrameAcquisitionNumber = 1 + (n >= 13)
+    save(data, tmp_path / "all.dcm")
+    volume = read_volume(tmp_path)
+    np.testing.assert_array_equal(volume.array, np.stack([one.values for one in PLAIN_STACK]))
+    frame = 2 * 64 * 48
+    data.PixelData = data.PixelData[: 13 * frame] + bytes(frame) + data.PixelData[14 * frame :]
+    save(data, tmp_path / "all.dcm")
+    with pytest.raises(FormatError, match=r"all\.dcm frame 13 and all\.dcm frame 14; FrameAcquisitionNumber"):
+        read_volume(tmp_path)
+    assert read_volume(tmp_path, phase=2).size[2] == 12
+
+
 def test_the_wrong_copy_removed_the_scan_is_read(tmp_path):
     changed()(tmp_path)
     with pytest.raises(

@@ -23,11 +23,12 @@ def test_series(tmp_path, caplog, case):
     caplog.set_level(logging.WARNING, "lumencut")
     if case.words:
         with pytest.raises(FormatError) as caught:
-            read_volume(made.path, series=case.series)
+            read_volume(made.path, series=case.series, phase=case.phase)
         for word in case.words:
             assert re.search(word, str(caught.value)), str(caught.value)
         return
-    volume = read_volume(made.path, series=case.series, resample_slices=case.resample_slices)
+    wanted = {"series": case.series, "phase": case.phase, "resample_slices": case.resample_slices}
+    volume = read_volume(made.path, **wanted)
     affine, voxels = made.truth
     np.testing.assert_allclose(volume.world_from_index, affine, atol=1e-5)
     assert volume.array.shape == voxels.shape
@@ -43,7 +44,7 @@ def test_datasets_in_memory_are_what_their_files_are(tmp_path, case):
     if case.needs:
         pytest.importorskip(case.needs)
     made = case.write(tmp_path)
-    if not made.path.is_dir() or case.series is not None:
+    if not made.path.is_dir() or case.series is not None or case.phase is not None:
         return
     try:
         datasets = [pydicom.dcmread(path) for path in sorted(made.path.rglob("*")) if path.is_file()]

@@ -77,6 +77,24 @@ def test_frames_lie_where_their_positions_say_in_any_order(tmp_path, affine):
     np.testing.assert_allclose(read.world_from_index[:3, :3], both[1].world_from_index[:3, :3], atol=1e-6)
 
 
+def test_rounded_directions_are_corrected_as_those_of_the_scan(tmp_path):
+    data = segmentation(masks(oblique()), NAMES)
+    orientation = data.SharedFunctionalGroupsSequence[0].PlaneOrientationSequence[0]
+    stated = [float(one) for one in orientation.ImageOrientationPatient]
+    orientation.ImageOrientationPatient = [f"{one:.2f}" for one in stated]
+    folder = write_scan(tmp_path / "ct", oblique())
+    for path in folder.iterdir():
+        one = pydicom.dcmread(path)
+        one.ImageOrientationPatient = [f"{float(cosine):.2f}" for cosine in one.ImageOrientationPatient]
+        save(one, path)
+    mask, scan = read_volume(save(data, tmp_path / "seg.dcm")), read_volume(folder)
+    np.testing.assert_allclose(mask.direction, scan.direction, atol=1e-6)
+    np.testing.assert_array_equal(on_grid_of(mask, scan).array > 0, scan.array > 0)
+    orientation.ImageOrientationPatient = [1, 0, 0, 0.5, 1, 0]
+    with pytest.raises(FormatError, match="expected two orthogonal unit vectors"):
+        read_volume(save(data, tmp_path / "skewed.dcm"))
+
+
 def test_slices_between_frames_are_empty(tmp_path):
     both = masks()
     for mask in both.values():

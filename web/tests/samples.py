@@ -252,7 +252,7 @@ def made(folder: Path) -> Iterator[dict[str, Any]]:
         place = folder / f"series-{number}"
         place.mkdir()
         path = case.write(place).path
-        wanted = {"series": case.series, "resample_slices": case.resample_slices}
+        wanted = {"series": case.series, "phase": case.phase, "resample_slices": case.resample_slices}
         named = {"name": case.name, "kind": "series", "path": str(path), "folder": str(place)}
         truth = named | {"wanted": wanted} | read(path, **wanted)
         if case.loss:

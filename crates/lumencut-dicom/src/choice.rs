@@ -48,9 +48,8 @@ fn asked_for<'s, 'a>(every: &'s [Series<'a>], wanted: &str) -> Result<&'s Series
 
 fn not_one(series: Vec<Report>, expected: &str) -> Error {
     // Those that can be volumes come first: they are what a reader chooses from.
-    let mut told: Vec<&Report> = series.iter().collect();
-    told.sort_by_key(|one| !one.can_be_volume);
-    let told: Vec<String> = told.into_iter().map(ToString::to_string).collect();
+    let (volumes, others): (Vec<&Report>, Vec<&Report>) = series.iter().partition(|one| one.can_be_volume);
+    let told: Vec<String> = volumes.into_iter().chain(others).map(ToString::to_string).collect();
     let error = Error::new(format!("{} series: {}", series.len(), listed(&told)), expected);
     let error = error.mend("give the folder of one series").mended_by(Mend::Series);
     Error { kind: ErrorKind::Series, series: series.into(), ..error }

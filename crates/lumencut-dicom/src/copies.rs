@@ -1,8 +1,7 @@
 //! Files that hold one image: the first is read, and the host compares the others with it.
 
-use std::collections::HashMap;
-
 use crate::error::{Error, Result};
+use crate::grouping::groups;
 use crate::headers::{Attributes, Unlike};
 use crate::image::Image;
 use crate::keyword::Keyword;
@@ -10,7 +9,7 @@ use crate::slices::{Pair, are_unlike, slices_of};
 use crate::value::Value;
 use crate::wording::{counted, listed};
 
-/// What tells nothing of the image itself; patients are compared on their own.
+/// What says nothing of the image itself; patients are compared on their own.
 const OF_THE_PATIENT: [Keyword; 4] =
     [Keyword::PatientID, Keyword::IssuerOfPatientID, Keyword::PatientName, Keyword::PatientBirthDate];
 
@@ -19,18 +18,15 @@ type Copy<'i, 'a> = (&'i Image<'a>, &'i Image<'a>);
 
 /// The images without copies, and each copy with the image that is read.
 pub fn without_copies<'i, 'a>(images: &[&'i Image<'a>]) -> (Vec<&'i Image<'a>>, Vec<Copy<'i, 'a>>) {
-    let mut firsts: HashMap<String, &Image> = HashMap::new();
+    let identifier = |(number, image): (usize, &&Image)| match image.get(Keyword::SOPInstanceUID) {
+        uid if uid.is_empty() => format!("without, {number}"),
+        uid => uid.to_string(),
+    };
     let (mut kept, mut copies) = (Vec::new(), Vec::new());
-    for &image in images {
-        let uid = image.get(Keyword::SOPInstanceUID).to_string();
-        let is_stated = !image.get(Keyword::SOPInstanceUID).is_empty();
-        match firsts.get(&uid).filter(|_| is_stated) {
-            Some(first) => copies.push((*first, image)),
-            None => {
-                kept.push(image);
-                firsts.insert(uid, image);
-            }
-        }
+    for group in groups(images.iter().enumerate().map(identifier)) {
+        let first = images[group[0]];
+        kept.push(first);
+        copies.extend(group[1..].iter().map(|&number| (first, images[number])));
     }
     (kept, copies)
 }

@@ -37,8 +37,15 @@ impl Directions {
         })
     }
 
+    /// The directions of slices that follow each other along this unit vector: rounded ones are turned across it, where that
+    /// is within rounding.
+    pub fn along(self, line: Option<DVec3>) -> Self {
+        let line = line.filter(|_| self.is_rounded);
+        line.and_then(|line| self.across(line)).unwrap_or(self)
+    }
+
     /// The directions across this unit vector; none where that moves a cosine by more than rounding does.
-    pub fn across(&self, normal: DVec3) -> Option<Self> {
+    fn across(&self, normal: DVec3) -> Option<Self> {
         let within = |vector: DVec3| vector - vector.dot(normal) * normal;
         let [along_i, along_j] = orthonormal([within(self.along_i), within(self.along_j)])?;
         Some(Self { along_i, along_j, ..*self }).filter(|made| made.correction() <= ROUNDING)
@@ -54,6 +61,14 @@ impl Directions {
     pub fn normal(&self) -> DVec3 {
         self.along_i.cross(self.along_j)
     }
+}
+
+/// Direction cosines as a stack has them whose positions go along this vector; none where they are too far from orthogonal unit
+/// vectors.
+pub fn corrected(cosines: &[f64; 6], line: [f64; 3]) -> Option<[f64; 6]> {
+    let made = Directions::of(cosines)?.along(DVec3::from_array(line).try_normalize());
+    let ([a, b, c], [d, e, f]) = (made.along_i.to_array(), made.along_j.to_array());
+    Some([a, b, c, d, e, f])
 }
 
 /// The orthogonal unit vectors nearest to two vectors; each is turned by the same angle.

@@ -1,9 +1,8 @@
 //! Series of one slice each that are one scan, as anonymisers leave them.
 
-use std::collections::BTreeMap;
-
 use crate::error::Result;
 use crate::geometry::{Mending, Stack, stacked};
+use crate::grouping::groups;
 use crate::image::Image;
 use crate::keyword::Keyword;
 use crate::patients::Patient;
@@ -23,15 +22,12 @@ const SHARED: [Keyword; 6] = [
 
 /// The series, where those of one slice each that form one stack are put together in the place of the first.
 pub fn gathered(every: Vec<Series>) -> Vec<Series> {
-    let mut parts: BTreeMap<(Vec<String>, Patient), Vec<usize>> = BTreeMap::new();
-    for (n, series) in every.iter().enumerate().filter(|(_, series)| is_single(series)) {
-        let image = &series.images[0];
-        let shared = SHARED.map(|keyword| image.text(keyword)).to_vec();
-        parts.entry((shared, Patient::of(image))).or_default().push(n);
-    }
+    let numbers: Vec<usize> = (0..every.len()).filter(|&n| is_single(&every[n])).collect();
+    let parts = groups(numbers.iter().map(|&n| shared(&every[n].images[0])));
     let mut every: Vec<Option<Series>> = every.into_iter().map(Some).collect();
     let mut apart = Vec::new();
-    for places in parts.into_values().filter(|places| places.len() >= FEWEST) {
+    for part in parts.into_iter().filter(|part| part.len() >= FEWEST) {
+        let places: Vec<usize> = part.into_iter().map(|n| numbers[n]).collect();
         let own: Vec<Series> = places.iter().filter_map(|&n| every[n].take()).collect();
         let one = Series {
             uid: own[0].uid.clone(),
@@ -50,6 +46,12 @@ pub fn gathered(every: Vec<Series>) -> Vec<Series> {
         }
     }
     every.into_iter().flatten().collect()
+}
+
+/// What an image shares with the others of its series, in one text.
+fn shared(image: &Image) -> String {
+    let texts = SHARED.map(|keyword| image.text(keyword));
+    format!("{texts:?} {:?}", Patient::of(image))
 }
 
 /// Notes that a series was put together.
@@ -84,9 +86,5 @@ fn is_scan(series: &Series) -> bool {
 
 /// How many different positions images state.
 fn place_count(series: &Series) -> usize {
-    let mut positions: Vec<String> =
-        series.images.iter().map(|image| image.get(Keyword::ImagePositionPatient).to_string()).collect();
-    positions.sort();
-    positions.dedup();
-    positions.len()
+    groups(series.images.iter().map(|image| image.get(Keyword::ImagePositionPatient).to_string())).len()
 }

@@ -101,7 +101,7 @@ fn correct_directions(slices: &mut [Slice], notes: &mut Vec<String>) {
     let tilt = first.image.number(first.frame, Keyword::GantryDetectorTilt).ok().flatten();
     let line = (last.position - first.position).try_normalize();
     let line = line.filter(|_| tilt.is_none_or(|tilt| tilt.abs() <= TILT));
-    let directions = line.and_then(|line| first.directions.across(line)).unwrap_or(first.directions);
+    let directions = first.directions.along(line);
     slices.iter_mut().for_each(|one| one.directions = directions);
     note_correction(slices, notes);
 }

@@ -43,6 +43,7 @@ mod faults;
 mod gathering;
 mod geometry;
 mod grey;
+mod grouping;
 mod headers;
 mod image;
 mod images;
@@ -65,6 +66,7 @@ mod uneven;
 mod value;
 mod wording;
 
+pub use directions::corrected;
 pub use error::{Error, ErrorKind, Result};
 pub use headers::{Attributes, File, FrameOf, Header, Headers, Unlike};
 pub use judging::{Wanted, describe, judge};

@@ -1,15 +1,14 @@
 //! Which patient images name: the slices of one scan are of one patient.
 
-use std::collections::BTreeMap;
-
 use crate::error::{Error, Result};
+use crate::grouping::groups;
 use crate::image::Image;
 use crate::keyword::Keyword;
 use crate::value::Value;
 use crate::wording::{counted, listed, quoted, shown};
 
 /// Whom an image names; a text is empty where the image does not state it.
-#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Debug)]
 pub struct Patient {
     id: String,
     issuer: String,
@@ -47,37 +46,33 @@ impl Patient {
             return "no PatientID".to_owned();
         }
         let issuer =
-            if self.issuer.is_empty() { String::new() } else { format!(" of {}", told(&self.issuer)) };
-        told(&self.id) + &issuer
+            if self.issuer.is_empty() { String::new() } else { format!(" of {}", as_shown(&self.issuer)) };
+        as_shown(&self.id) + &issuer
     }
 }
 
 /// Refuses images that name several patients; messages name them by ID alone.
 pub fn require_one_patient(images: &[Image]) -> Result<()> {
-    let mut firsts: BTreeMap<Patient, &Image> = BTreeMap::new();
-    for image in images {
-        firsts.entry(Patient::of(image)).or_insert(image);
-    }
-    let patients: Vec<&Patient> = firsts.keys().collect();
-    let pairs = patients.iter().flat_map(|one| patients.iter().map(move |other| (*one, *other)));
-    let Some((one, other)) = pairs.into_iter().find(|(one, other)| one.differs(other)) else { return Ok(()) };
-    let found = if one.named() == other.named() {
-        let names = format!("{} and {}", firsts[one].name, firsts[other].name);
+    let every: Vec<Patient> = images.iter().map(Patient::of).collect();
+    let firsts: Vec<usize> =
+        groups(every.iter().map(|one| format!("{one:?}"))).iter().map(|group| group[0]).collect();
+    let pairs = firsts.iter().flat_map(|&a| firsts.iter().map(move |&b| (a, b)));
+    let Some((a, b)) = pairs.into_iter().find(|&(a, b)| every[a].differs(&every[b])) else { return Ok(()) };
+    let found = if every[a].named() == every[b].named() {
+        let names = format!("{} and {}", images[a].name, images[b].name);
         format!("slices of several patients: PatientName or PatientBirthDate differs in {names}")
     } else {
-        format!("slices of several patients: PatientID is {}", ids(images))
+        format!("slices of several patients: PatientID is {}", ids(images, &every))
     };
     Err(Error::new(found, "one patient").mend("move the slices of each patient to a folder of their own"))
 }
 
 /// Which IDs images have, and how many have each.
-fn ids(images: &[Image]) -> String {
-    let mut counts: BTreeMap<String, (i64, &str)> = BTreeMap::new();
-    for image in images {
-        counts.entry(Patient::of(image).named()).or_insert((0, &image.name)).0 += 1;
-    }
-    let each = counts.iter();
-    let each = each.map(|(id, (count, first))| format!("{id} in {} ({first})", counted(*count, "image")));
+fn ids(images: &[Image], every: &[Patient]) -> String {
+    let each = groups(every.iter().map(Patient::named)).into_iter().map(|group| {
+        let count = counted(group.len() as i64, "image");
+        format!("{} in {count} ({})", every[group[0]].named(), images[group[0]].name)
+    });
     listed(&each.collect::<Vec<_>>())
 }
 
@@ -100,6 +95,6 @@ fn plain_name(name: &str) -> String {
     parts.join("^").trim_end_matches('^').to_owned()
 }
 
-fn told(text: &str) -> String {
+fn as_shown(text: &str) -> String {
     quoted(&shown(text))
 }

@@ -1,10 +1,9 @@
 //! Images of one series, and their slices.
 
-use std::collections::HashMap;
-
 use crate::copies::{compared, without_copies};
 use crate::error::{Error, Result};
 use crate::grey::require_grey;
+use crate::grouping::groups;
 use crate::headers::Unlike;
 use crate::image::Image;
 use crate::keyword::Keyword;
@@ -84,17 +83,13 @@ impl Series<'_> {
 
 /// Puts images of one series together, in the order in which the series appear.
 pub fn grouped(images: Vec<Image>) -> Vec<Series> {
-    let mut places = HashMap::new();
-    let mut groups: Vec<Series> = Vec::new();
-    for image in images {
-        let uid = image.text(Keyword::SeriesInstanceUID);
-        let place = *places.entry(uid.clone()).or_insert(groups.len());
-        if place == groups.len() {
-            groups.push(Series { uid, part_count: 1, images: Vec::new() });
-        }
-        groups[place].images.push(image);
-    }
-    groups
+    let groups = groups(images.iter().map(|image| image.text(Keyword::SeriesInstanceUID)));
+    let mut images: Vec<Option<Image>> = images.into_iter().map(Some).collect();
+    let series = groups.into_iter().map(|numbers| {
+        let images: Vec<Image> = numbers.into_iter().filter_map(|number| images[number].take()).collect();
+        Series { uid: images[0].text(Keyword::SeriesInstanceUID), part_count: 1, images }
+    });
+    series.collect()
 }
 
 /// A number without the zeros or the plus sign before it; other texts as they are.

@@ -3,9 +3,11 @@
 //! Parts that overlap hold the same values where they do; phases differ. Headers cannot tell: the host compares the values of
 //! the pairs that are given here.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::cmp::Ordering;
+use std::collections::BTreeSet;
 
 use crate::error::{Error, Result};
+use crate::grouping::groups;
 use crate::headers::Unlike;
 use crate::keyword::Keyword;
 use crate::phases::{choice, in_order, mixed, telling, told, values_of};
@@ -60,12 +62,10 @@ fn places<'s, 'a>(ordered: &'s [Slice<'a>]) -> Vec<&'s [Slice<'a>]> {
 /// extend each other or share few places.
 fn may_overlap(places: &[&[Slice]], keyword: Keyword) -> bool {
     let shared = places.iter().filter(|place| place.len() > 1).count();
-    let mut covered: BTreeMap<String, usize> = BTreeMap::new();
-    for place in places {
-        let values: BTreeSet<String> = place.iter().map(|one| told(one, keyword)).collect();
-        values.into_iter().for_each(|value| *covered.entry(value).or_default() += 1);
-    }
-    let extend_each_other = covered.values().all(|&count| count < places.len());
+    let values =
+        places.iter().map(|place| place.iter().map(|one| told(one, keyword)).collect::<BTreeSet<_>>());
+    let covered = groups(values.flatten());
+    let extend_each_other = covered.iter().all(|part| part.len() < places.len());
     shared < places.len() && (extend_each_other || 2 * shared <= places.len())
 }
 
@@ -73,14 +73,13 @@ fn may_overlap(places: &[&[Slice]], keyword: Keyword) -> bool {
 fn firsts<'a>(places: &[&[Slice<'a>]], keyword: Option<Keyword>) -> (Vec<Slice<'a>>, Vec<Pair<'a>>) {
     let (mut kept, mut pairs) = (Vec::new(), Vec::new());
     for place in places {
-        let mut here = place.to_vec();
-        if let Some(keyword) = keyword {
-            here.sort_by(|a, b| in_order(&told(a, keyword), &told(b, keyword)));
-        }
-        let mut here = here.into_iter();
-        let Some(first) = here.next() else { continue };
-        pairs.extend(here.map(|other| (first.clone(), other)));
-        kept.push(first);
+        let in_order = |a: &&Slice, b: &&Slice| {
+            keyword.map_or(Ordering::Equal, |keyword| in_order(&told(a, keyword), &told(b, keyword)))
+        };
+        let Some(first) = place.iter().min_by(in_order) else { continue };
+        let others = place.iter().filter(|other| !std::ptr::eq(*other, first));
+        pairs.extend(others.map(|other| (first.clone(), other.clone())));
+        kept.push(first.clone());
     }
     (kept, pairs)
 }

@@ -26,3 +26,10 @@ pub fn judge_dicom(py: Python<'_>, headers: &[u8], wanted: &[u8]) -> String {
 pub fn describe_dicom(py: Python<'_>, headers: &[u8]) -> String {
     py.detach(|| json::describe(headers))
 }
+
+/// Direction cosines of slices whose positions go along a line; none where they are too far from orthogonal unit vectors.
+#[pyfunction]
+#[pyo3(signature = (cosines, line, /))]
+pub fn dicom_directions(cosines: [f64; 6], line: [f64; 3]) -> Option<[f64; 6]> {
+    lumencut_dicom::corrected(&cosines, line)
+}

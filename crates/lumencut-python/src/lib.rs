@@ -84,6 +84,7 @@ fn _lumencut(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(cpr::straightened_mark, module)?)?;
     module.add_function(wrap_pyfunction!(device::devices, module)?)?;
     module.add_function(wrap_pyfunction!(dicom::describe_dicom, module)?)?;
+    module.add_function(wrap_pyfunction!(dicom::dicom_directions, module)?)?;
     module.add_function(wrap_pyfunction!(dicom::judge_dicom, module)?)?;
     module.add_function(wrap_pyfunction!(camera::check_camera, module)?)?;
     module.add_function(wrap_pyfunction!(labels::edge_letters, module)?)?;

@@ -36,8 +36,9 @@ def same_values(pairs: Sequence[tuple[Slice, Slice]], notes: list[str]) -> Itera
 
 
 def _are_copies(one: Image, other: Image) -> bool:
+    """Whether two files have one identifier; frames of one file are no copies."""
     first, second = (image.header.get("SOPInstanceUID") for image in (one, other))
-    return bool(first) and first == second
+    return one is not other and bool(first) and first == second
 
 
 def _same_bytes(one: Image, other: Image) -> bool:

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from lumencut._lumencut import dicom_directions
 from lumencut.errors import FormatError
 
 _EVEN = 0.05
@@ -75,7 +76,6 @@ def segment_grid(subject: str, dataset: Any) -> SegmentGrid:
     if np.abs(turns - turns[0]).max() > _PARALLEL:
         raise FormatError(subject, "frames that are turned against each other", "parallel frames", _AGAIN)
     spacing = groups.numbers(0, "PixelMeasures", "PixelSpacing", 2)
-    along_i, along_j = turns[0, :3] * spacing[1], turns[0, 3:] * spacing[0]
     depths = positions @ np.cross(turns[0, :3], turns[0, 3:])
     first, last = int(depths.argmin()), int(depths.argmax())
     step = _step(subject, depths, groups.spacing_of_slices())
@@ -83,7 +83,8 @@ def segment_grid(subject: str, dataset: Any) -> SegmentGrid:
     k = np.rint(places).astype(np.int64)
     if k[last] >= _MOST_SLICES:
         raise FormatError(subject, f"a grid of {k[last] + 1} slices", f"at most {_MOST_SLICES}", _AGAIN)
-    along_k = np.cross(turns[0, :3], turns[0, 3:]) * step
+    row, column = _directions(subject, turns[0], positions[last] - positions[first])
+    along_k = np.cross(row, column) * step
     if k[last]:
         along_k = (positions[last] - positions[first]) / k[last]
     off = positions - positions[first] - k[:, None] * along_k
@@ -92,9 +93,20 @@ def segment_grid(subject: str, dataset: Any) -> SegmentGrid:
             subject, "frames that lie beside each other", "frames of one straight stack", _AGAIN
         )
     affine = np.eye(4)
-    affine[:3] = np.stack([along_i, along_j, along_k, positions[first]], axis=1)
+    affine[:3] = np.stack([row * spacing[1], column * spacing[0], along_k, positions[first]], axis=1)
     frames = [SegmentFrame(n, segment, int(k[n])) for n, segment in enumerate(segments)]
     return SegmentGrid(frames, (int(dataset.Columns), int(dataset.Rows), int(k[last]) + 1), affine)
+
+
+def _directions(
+    subject: str, cosines: npt.NDArray[np.float64], line: npt.NDArray[np.float64]
+) -> npt.NDArray[np.float64]:
+    """The directions of rows and columns, as those of the slices of a scan."""
+    made = dicom_directions(tuple(cosines), tuple(line))
+    if made is None:
+        found = f"ImageOrientationPatient {cosines.tolist()}"
+        raise FormatError(subject, found, "two orthogonal unit vectors", _AGAIN)
+    return np.array(made).reshape(2, 3)
 
 
 def _step(subject: str, depths: npt.NDArray[np.float64], stated: float) -> float:

@@ -41,9 +41,10 @@ class Values {
   }
 }
 
+/** Whether two files have one identifier; frames of one file are no copies. */
 function areCopies(one: Image, other: Image): boolean {
   const uid = one.header.attributes.SOPInstanceUID;
-  return Boolean(uid) && uid === other.header.attributes.SOPInstanceUID;
+  return one !== other && Boolean(uid) && uid === other.header.attributes.SOPInstanceUID;
 }
 
 async function haveSameBytes({ source: one }: Image, { source: other }: Image): Promise<boolean> {
