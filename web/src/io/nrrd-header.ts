@@ -1,4 +1,5 @@
 /** The fields of an NRRD header that place and describe the voxels. */
+import { isOfSegment } from './segments';
 import { decoded, numberOf, wordsOf } from './text-header';
 import { formatFailure } from './words';
 
@@ -23,6 +24,8 @@ export class NrrdHeader {
     private readonly fields: ReadonlyMap<string, string>,
     /** The byte behind the header. */
     readonly end: number,
+    /** The lines that describe segments of 3D Slicer. */
+    readonly segmentLines: readonly string[],
   ) {}
 
   has(name: string): boolean {
@@ -99,7 +102,7 @@ export function readHeader(path: string, head: Uint8Array): NrrdHeader {
     }
     fields.set(name, value.trim());
   }
-  return new NrrdHeader(path, fields, end);
+  return new NrrdHeader(path, fields, end, lines.filter(isOfSegment));
 }
 
 /** The lines of a header, up to an empty line or the end of the file, and the byte behind them. */
