@@ -19,6 +19,7 @@ export interface Header {
   readonly size: [number, number, number];
   readonly dtype: Kind;
   readonly world_from_index: number[][];
+  readonly label_names?: Record<string, string>;
 }
 
 const modules = fileURLToPath(new URL('../node_modules', import.meta.url));

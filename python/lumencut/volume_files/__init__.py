@@ -33,6 +33,7 @@ from lumencut.volume_files.metaimage import open_metaimage
 from lumencut.volume_files.nifti import head_bytes, nifti_kind, open_nifti
 from lumencut.volume_files.nrrd import open_nrrd
 from lumencut.volume_files.opened import Progress, VolumeFile, heeding, refusing
+from lumencut.volume_files.overlaps import OverlapError
 from lumencut.volume_files.rescale import slabs
 from lumencut.volume_files.slicer_segments import no_segmentation
 
@@ -210,7 +211,7 @@ def inspect_volume(
     callback(FormatError, "progress", progress)
     told = progress if progress is not None else _untold
     file = _open(path, _wanted(series, phase, fill_gaps, resample_slices), told)
-    return _report(file, file.volume(told) if values else None)
+    return _report(file, _values(file, told) if values else None)
 
 
 def inspected_volume(
@@ -226,8 +227,21 @@ def inspected_volume(
     callback(FormatError, "progress", progress)
     told = progress if progress is not None else _untold
     file = _open(path, _wanted(series, phase, fill_gaps, resample_slices), told)
-    volume = file.volume(told)
-    return _report(file, volume), volume
+    volume = _values(file, told)
+    report = _report(file, volume)
+    if volume is None:
+        # No label map shows segments that overlap; the grid is known all the same.
+        volume = Volume(np.zeros(file.size[::-1], np.uint8), world_from_index=file.world_from_index)
+    return report, volume
+
+
+def _values(file: VolumeFile, told: Progress) -> Volume | None:
+    """The volume; none, and a note, for segments that overlap."""
+    try:
+        return file.volume(told)
+    except OverlapError as error:
+        file.notes.append(f"{error.found}; {error.mend}")
+        return None
 
 
 def _report(file: VolumeFile, volume: Volume | None) -> VolumeReport:

@@ -14,6 +14,10 @@ Overlaps = Counter[tuple[int, int]]
 """For two segments, by their numbers, how many voxels they share."""
 
 
+class OverlapError(FormatError):
+    """Segments that cannot be one label map; their headers are sound."""
+
+
 def put(
     labels: npt.NDArray[np.integer], inside: npt.NDArray[np.bool_], number: int, overlaps: Overlaps
 ) -> None:
@@ -29,7 +33,7 @@ def refuse_overlaps(subject: object, names: Mapping[int, str], overlaps: Overlap
 
     Raises
     ------
-    FormatError
+    OverlapError
         Names the two that share most, and how others are chosen.
     """
     if not overlaps:
@@ -41,4 +45,4 @@ def refuse_overlaps(subject: object, names: Mapping[int, str], overlaps: Overlap
     if one == other:
         found = f"segment {first} twice in one place"
     mend = "choose segments that do not, by segments=(1,) of read_volume or --label of lumencut trace"
-    raise FormatError(str(subject), found, "at most one segment in each voxel", mend)
+    raise OverlapError(str(subject), found, "at most one segment in each voxel", mend)

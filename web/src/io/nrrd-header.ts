@@ -1,4 +1,5 @@
 /** The fields of an NRRD header that place and describe the voxels. */
+import { isOfSegment } from './segments';
 import { decoded, numberOf, wordsOf } from './text-header';
 import { formatFailure } from './words';
 
@@ -25,6 +26,8 @@ export class NrrdHeader {
     readonly end: number,
     /** What the file says that it holds. */
     readonly content: string,
+    /** The lines that describe segments of 3D Slicer. */
+    readonly segmentLines: readonly string[],
   ) {}
 
   has(name: string): boolean {
@@ -101,7 +104,8 @@ export function readHeader(path: string, head: Uint8Array): NrrdHeader {
     }
     fields.set(name, value.trim());
   }
-  return new NrrdHeader(path, fields, end, lines.find((line) => /^content\s*:[^=]/i.test(line)) ?? '');
+  const content = lines.find((line) => /^content\s*:[^=]/i.test(line)) ?? '';
+  return new NrrdHeader(path, fields, end, content, lines.filter(isOfSegment));
 }
 
 /** The lines of a header, up to an empty line or the end of the file, and the byte behind them. */

@@ -4,6 +4,7 @@ import type { Kind, StoredKind } from './numbers';
 import { byteCount } from './numbers';
 import type { Codec, Place } from './payload';
 import { UNSCALED } from './rescale';
+import { labelsOf, segmentsOf } from './segments';
 import type { Beside, Source } from './source';
 import { dataFile, wordsOf } from './text-header';
 import type { Affine, Size, VolumeFile } from './volume-file';
@@ -60,7 +61,7 @@ export async function openNrrd(source: Source, beside: Beside): Promise<VolumeFi
   const notes: string[] = [];
   const sizes = header.required('sizes') && header.whole('sizes');
   const directions = header.has('space directions') ? header.directions('space directions') : null;
-  const axes = spatialAxes(header, sizes || [], directions);
+  const { axes, layers } = axesAndLayers(header, sizes || [], directions);
   const size = axes.map((axis) => sizes[axis] ?? 0) as unknown as Size;
   const stored = storedKind(header);
   const worldFromIndex = affineOf(header, axes, directions, notes);
@@ -69,6 +70,10 @@ export async function openNrrd(source: Source, beside: Beside): Promise<VolumeFi
     spacing: statesSpacing(header, axes),
     orientation: directions !== null && toLps(header) !== null,
   };
+  const labels =
+    header.segmentLines.length > 0
+      ? labelsOf(path, stored, segmentsOf(header.segmentLines, layers), layers)
+      : null;
   const read = {
     path,
     format: 'NRRD',
@@ -79,16 +84,17 @@ export async function openNrrd(source: Source, beside: Beside): Promise<VolumeFi
     place,
     notes,
     states,
+    labels,
   };
   return { ...read, content: header.content };
 }
 
-/** The three axes of the grid; further axes must have length 1. */
-function spatialAxes(
+/** The three axes of the grid, and the length of a first one: 1 but for a segmentation in layers. */
+function axesAndLayers(
   header: NrrdHeader,
   sizes: readonly number[],
   directions: readonly Direction[] | null,
-): number[] {
+): { axes: number[]; layers: number } {
   const dimension = header.required('dimension') && header.whole('dimension')[0];
   if (sizes.length !== dimension || sizes.length < 3 || Math.min(...sizes) < 1) {
     throw formatFailure(header.path, `sizes: ${shown(listed(sizes))}`, '3 axes, none empty');
@@ -102,7 +108,8 @@ function spatialAxes(
   }
   const others = every.filter((axis) => !axes.slice(0, 3).includes(axis));
   const kinds = wordsOf(header.text('kinds'));
-  if (axes.length !== 3 || others.some((axis) => sizes[axis] !== 1)) {
+  const layers = header.segmentLines.length > 0 && others.includes(0) ? (sizes[0] ?? 1) : 1;
+  if (axes.length !== 3 || others.some((axis) => sizes[axis] !== 1 && !(axis === 0 && layers > 1))) {
     const stated = shown(kinds.join(' ')) || 'not stated';
     const found = `several values per voxel or time points (sizes: ${shown(listed(sizes))}, kinds: ${stated})`;
     throw formatFailure(header.path, found, '3 axes with a direction', 'write one component or time point');
@@ -118,7 +125,7 @@ function spatialAxes(
       'write one component',
     );
   }
-  return axes;
+  return { axes, layers };
 }
 
 function storedKind(header: NrrdHeader): StoredKind {

@@ -4,6 +4,7 @@ import type { States } from '../core/messages';
 import { byteCount, numbersOf, type StoredKind } from './numbers';
 import { type Bytes, type Place, requireRoom, voxelBytes } from './payload';
 import { conversion, needsRange, type Scaling } from './rescale';
+import type { Labels } from './segments';
 import type { Steps } from './steps';
 import { formatFailure } from './words';
 
@@ -17,6 +18,8 @@ interface Grid {
   readonly world_from_index: Affine;
   /** How the scan was made, where a file tells it. */
   readonly scan?: object;
+  /** The names of the labels of a mask. */
+  readonly label_names?: object;
 }
 
 /** What takes the voxels: the engine, or a test. */
@@ -40,6 +43,8 @@ export interface VolumeFile {
   readonly states: States;
   /** What the file says that it holds, which may name a patient: the engine alone reads it. */
   readonly content?: string;
+  /** Of a label map whose file describes its labels. */
+  readonly labels?: Labels | null;
 }
 
 /** Makes room for a volume; what is no grid is refused in the name of its file. */
@@ -58,20 +63,29 @@ export function begin(sink: Sink, path: string, grid: Grid, dtype: string): void
 /** Reads the voxels of a file into the engine. */
 export async function load(file: VolumeFile, sink: Sink, steps: Steps): Promise<void> {
   requireNumbers(file);
-  const needed = file.size.reduce((count, side) => count * side, byteCount(file.stored.kind));
+  const needed = file.size.reduce((count, side) => count * side, storedBytes(file));
   await requireRoom({ ...file.place, share: sink.share ?? 1 }, needed, file.stored.kind, steps);
   const isWanted = needsRange(file.stored.kind, file.scaling);
   const range = isWanted ? await rangeOf(file, needed, steps) : null;
-  const { kind, convert } = conversion(orderInMemory(file), file.scaling, range);
-  begin(sink, file.path, { size: file.size, world_from_index: file.worldFromIndex }, kind);
+  const map = file.labels?.map;
+  const { kind, convert } = map
+    ? { kind: map.kind, convert: (bytes: Bytes) => map.convert(bytes) }
+    : conversion(orderInMemory(file), file.scaling, range);
+  const names = file.labels && { label_names: file.labels.names };
+  begin(sink, file.path, { size: file.size, world_from_index: file.worldFromIndex, ...names }, kind);
   let offset = 0;
   for await (const bytes of wholeVoxels(file, needed)) {
     const voxels = convert(bytes);
     sink.take_voxels(offset, voxels);
     offset += voxels.length;
-    await steps.step('Volume', (offset / byteCount(kind)) * byteCount(file.stored.kind), needed);
+    await steps.step('Volume', (offset / byteCount(kind)) * storedBytes(file), needed);
   }
+  map?.refuseOverlaps();
 }
+
+/** The bytes that a voxel takes in the file. */
+const storedBytes = ({ stored, labels }: VolumeFile): number =>
+  byteCount(stored.kind) * (labels?.layers ?? 1);
 
 /** JSON has no NaN: without this it would become 0. */
 function requireNumbers(file: VolumeFile): void {
@@ -101,7 +115,7 @@ async function rangeOf(file: VolumeFile, needed: number, steps: Steps): Promise<
 
 /** The bytes of voxels in pieces of whole ones. */
 async function* wholeVoxels(file: VolumeFile, needed: number): AsyncGenerator<Bytes> {
-  const unit = byteCount(file.stored.kind);
+  const unit = storedBytes(file);
   let begun: Bytes = new Uint8Array();
   for await (const piece of voxelBytes(file.place, needed, file.stored.kind)) {
     const bytes = begun.length === 0 ? piece : joined(begun, piece);

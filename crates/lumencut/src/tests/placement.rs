@@ -243,7 +243,7 @@ fn followed(mend: &Mend, known: &Known) -> Vec<Known> {
             };
             all.iter().map(both).collect()
         }
-        Mend::Place => panic!("the lines lie in the volume"),
+        Mend::Place | Mend::Reorder => panic!("the lines lie in the volume, in order"),
     }
 }
 

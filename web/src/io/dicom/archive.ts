@@ -64,14 +64,16 @@ class Member implements Source {
   }
 
   async slice(start: number, end: number): Promise<Bytes> {
-    const wanted = new Uint8Array(Math.max(Math.min(end, this.size), 0));
+    const stopAt = Math.max(Math.min(end, this.size), 0);
+    const wanted = new Uint8Array(Math.max(stopAt - start, 0));
     const stop = new AbortController();
     let count = 0;
     const sink = new WritableStream<Uint8Array>({
       write: (chunk) => {
-        wanted.set(chunk.subarray(0, Math.max(wanted.length - count, 0)), Math.min(count, wanted.length));
+        const part = chunk.subarray(Math.max(start - count, 0), Math.max(stopAt - count, 0));
+        wanted.set(part, Math.max(count - start, 0));
         count += chunk.length;
-        if (count >= wanted.length && wanted.length < this.size) {
+        if (count >= stopAt && stopAt < this.size) {
           stop.abort();
         }
         if (count > this.size) {
@@ -86,6 +88,6 @@ class Member implements Source {
         throw damaged(this.path, 'a member of an archive that is damaged', 'a whole one');
       }
     }
-    return wanted.subarray(start, Math.min(count, wanted.length));
+    return wanted.subarray(0, Math.max(Math.min(count, stopAt) - start, 0));
   }
 }

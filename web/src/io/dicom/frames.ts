@@ -2,6 +2,7 @@
 
 import type { Failure } from '../../core/failure';
 import type { Bytes } from '../payload';
+import type { Source } from '../source';
 import { damaged, formatFailure } from '../words';
 import type { Image } from './headers';
 import { parsed, SYNTAXES } from './parsing';
@@ -12,6 +13,8 @@ export const NATIVE: readonly string[] = Object.values(SYNTAXES);
 const ITEM = 0xe000;
 const GROUP = 0xfffe;
 const END = 0xe0dd;
+/** So many bytes are read first, and twice as many again where the items go on. */
+const FIRST_WINDOW = 1 << 20;
 
 /** What the pixels of an image look like. */
 export interface Shape {
@@ -102,7 +105,7 @@ export class Frames {
 
   private async everyFrame(): Promise<Bytes[]> {
     const { source, pixels, extended } = this.image;
-    const bytes = await source.slice(pixels?.at ?? 0, source.size);
+    const bytes = await itemBytes(source, pixels?.at ?? 0);
     const { table, items, start } = itemsIn(source.path, bytes);
     if (extended) {
       return extended.map(([offset, length]) =>
@@ -130,6 +133,31 @@ interface Item {
   /** From the first item behind the table. */
   readonly offset: number;
   readonly bytes: Bytes;
+}
+
+/** The bytes of the items that begin at a place; what follows them, of whatever size, is not read. */
+async function itemBytes(source: Source, start: number): Promise<Bytes> {
+  for (let window = FIRST_WINDOW; ; window *= 2) {
+    const bytes = await source.slice(start, Math.min(start + window, source.size));
+    const end = endOfItems(bytes);
+    if (end !== null || start + window >= source.size) {
+      return bytes.subarray(0, end ?? bytes.length);
+    }
+  }
+}
+
+/** The byte behind the items and their end, null where more bytes must tell. */
+function endOfItems(bytes: Bytes): number | null {
+  const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
+  let at = 0;
+  while (at + 8 <= bytes.length) {
+    const isItem = view.getUint16(at, true) === GROUP && view.getUint16(at + 2, true) === ITEM;
+    if (!isItem) {
+      return at + 8;
+    }
+    at += 8 + view.getUint32(at + 4, true);
+  }
+  return null;
 }
 
 /** The items of encapsulated pixels: the basic offset table, then fragments of frames. */
