@@ -11,7 +11,7 @@ from typing import Any, cast
 
 from lumencut import _lumencut
 from lumencut._files import checked_path
-from lumencut.errors import FileError, FormatError, SpaceWarning
+from lumencut.errors import FileError, FormatError, SpaceWarning, StudyWarning
 from lumencut.file_kinds import kind_of
 from lumencut.mends import Told
 from lumencut.placement import (
@@ -26,6 +26,7 @@ from lumencut.placement import (
     fits_nowhere,
     placement,
 )
+from lumencut.session_scan import other_scan
 from lumencut.vessel import Vessel
 from lumencut.vessel_tree import VesselTree
 from lumencut.volume import Volume
@@ -96,7 +97,7 @@ class CenterlineFile:
         expected = "a readable centerline file"
         if is_poly_data(source):
             self.path = Path("vtkPolyData")
-            self._content = _lumencut.CenterlineFile(file_of(source), self.path.name)
+            self._content, self._session = _lumencut.CenterlineFile(file_of(source), self.path.name), b""
             return
         self.path = checked_path(source, expected)
         try:
@@ -108,6 +109,7 @@ class CenterlineFile:
             mend = kind.mend if kind.role == "centerlines" else "read_volume reads volumes"
             raise FormatError(str(self.path), kind.name, "a file of centerlines", mend)
         self._content = _lumencut.CenterlineFile(content, self.path.name)
+        self._session = content if _lumencut.is_session_file(content) else b""
 
     def placed(
         self, coordinates: Coordinates | None = None, unit: Unit | None = None, volume: Any = None
@@ -144,6 +146,8 @@ class CenterlineFile:
     ) -> tuple[VesselTree, CenterlineReport]:
         """Do as `tree`, and tell how the file was read."""
         tree, report = self.placed(coordinates, unit, volume)
+        if volume is not None and (words := other_scan(self._session, self.path.name, as_volume(volume))):
+            warnings.warn(StudyWarning(words), stacklevel=4)
         if report.is_unusual:
             told = report.decision.after(f"{self.path.name}: ")
             warnings.warn(SpaceWarning(told), stacklevel=4)
