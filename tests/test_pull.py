@@ -44,6 +44,22 @@ def test_a_series_is_pulled_whole_and_only_once(pacs, scan, tmp_path):
     assert set(pacs.asked.values()) == {1}
 
 
+def test_a_study_of_two_patients_is_said(pacs, tmp_path):
+    def two(handler, path):
+        if path != "/studies":
+            return False
+        found = [handler.described((pacs.study,)) for _ in range(2)]
+        found[1]["00100020"] = {"vr": "LO", "Value": ["B-2"]}
+        handler.send_json(200, found)
+        return True
+
+    assert "two patients" not in run("pull", pacs.address, "-o", tmp_path / "one").output
+    pacs.fault = two
+    done = run("pull", pacs.address, "-o", tmp_path / "out")
+    assert done.exit_code == 0, done.output
+    assert "two patients, PatientID 'phantom' and PatientID 'B-2'" in done.output
+
+
 def test_studies_and_series_are_listed_with_their_addresses(pacs):
     listed = run("pull", pacs.base, "--patient", "Ph*", "--modality", "CT")
     assert listed.exit_code == 0, listed.output

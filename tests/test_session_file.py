@@ -1,6 +1,7 @@
 """Session files of the viewer: their vessels, view and marks on the command line."""
 
 import json
+import warnings
 
 import numpy as np
 import pytest
@@ -80,6 +81,31 @@ def write_session(path, tree, view=VIEW, hidden=(), marks=None, fwhm=None, **mor
     content = json.loads(path.read_text()) | {"LumencutSession": session}
     path.write_text(json.dumps(content))
     return path
+
+
+def scan_of(volume, shift=0.0, every=1):
+    """The grid of a volume as the viewer saves it, moved along x (mm); of every second voxel for 2."""
+    rows = (volume.world_from_index * ([every] * 3 + [1])).tolist()
+    rows[0][3] += shift
+    return {"size": [-(-n // every) for n in volume.size], "world_from_index": rows}
+
+
+@pytest.mark.parametrize(
+    ("scan", "is_said"),
+    [({}, False), ({"every": 2}, False), ({"shift": 1e-4}, False), ({"shift": 30.0}, True)],
+)
+def test_a_session_of_another_scan_is_said(tmp_path, scan, is_said):
+    scene = phantom.y_junction()
+    session = write_session(tmp_path / "a.mrk.json", scene.tree, scan=scan_of(scene.volume, **scan))
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        read_centerlines(session, volume=scene.volume)
+    assert ["a session of another scan" in str(one.message) for one in caught] == [True] * is_said
+    assert {one.filename for one in caught} == {__file__} if is_said else not caught
+    volume = write_volume_of(scene.volume, tmp_path / "ct.nii.gz")
+    done = CliRunner().invoke(main, ["measure", str(volume), str(session), "-o", str(tmp_path / "a.csv")])
+    assert done.exit_code == 0, done.output
+    assert ("a session of another scan" in " ".join(done.output.split())) is is_said
 
 
 @pytest.fixture(scope="module")

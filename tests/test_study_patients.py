@@ -15,6 +15,7 @@ from lumencut import FormatError, SettingsError, StudyWarning, Volume
 from lumencut.cli import main
 from lumencut.dicom_objects.extents import Box
 from lumencut.dicom_objects.patients import Patient
+from lumencut.volume_writers import write_volume
 
 OTHER = {"PatientID": "B-2", "PatientName": "Roe^Mary"}
 FOLLOW_UP = {
@@ -275,6 +276,17 @@ def test_every_command_refuses_insists_and_warns_once(studies, line, tmp_path, c
     code, said = run(*words, "--like-study", studies(**FOLLOW_UP))
     assert code == 0, said
     assert said.count("are put into the study 1.2.9 of 20260505") == 1
+
+
+def test_a_scan_that_is_no_dicom_is_put_into_a_study_with_a_word(line, tmp_path):
+    write_volume(scan(), tmp_path / "ct.nrrd")
+    views = [word for name in ("anterior", "left") for word in ("--view", name)]
+    words = ("render", tmp_path / "ct.nrrd", line, *views, "--size", TALL, "-o", tmp_path / "{view}.dcm")
+    code, said = run(*words, "--like-study", series())
+    assert code == 0, said
+    assert said.count("names no patient to compare with; its study is of PatientID 'J-17'") == 1
+    code, said = run(*words, "--like-study", series(), "--other-patient")
+    assert "warning" not in said
 
 
 def test_insisting_on_nothing_is_refused(line, tmp_path):

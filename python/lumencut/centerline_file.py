@@ -11,7 +11,7 @@ from typing import Any, cast
 
 from lumencut import _lumencut
 from lumencut._files import checked_path
-from lumencut.errors import FileError, FormatError, SettingsError, SpaceWarning
+from lumencut.errors import FileError, FormatError, SettingsError, SpaceWarning, StudyWarning
 from lumencut.file_kinds import kind_of
 from lumencut.line_doubts import LineDoubt, line_doubts, settle, warn_of, worded
 from lumencut.mends import Told
@@ -27,6 +27,7 @@ from lumencut.placement import (
     fits_nowhere,
     placement,
 )
+from lumencut.session_scan import other_scan
 from lumencut.vessel import Vessel
 from lumencut.vessel_tree import VesselTree
 from lumencut.volume import Volume
@@ -111,7 +112,7 @@ class CenterlineFile:
         expected = "a readable centerline file"
         if is_poly_data(source):
             self.path = Path("vtkPolyData")
-            self._content = _lumencut.CenterlineFile(file_of(source), self.path.name)
+            self._content, self._session = _lumencut.CenterlineFile(file_of(source), self.path.name), b""
             return
         self.path = checked_path(source, expected)
         try:
@@ -123,6 +124,7 @@ class CenterlineFile:
             mend = kind.mend if kind.role == "centerlines" else "read_volume reads volumes"
             raise FormatError(str(self.path), kind.name, "a file of centerlines", mend)
         self._content = _lumencut.CenterlineFile(content, self.path.name)
+        self._session = content if _lumencut.is_session_file(content) else b""
 
     def placed(
         self,
@@ -186,6 +188,8 @@ class CenterlineFile:
             settle(tree)
         for note in report.reordered:
             _log.warning("%s: %s", self.path, note)
+        if volume is not None and (words := other_scan(self._session, self.path.name, as_volume(volume))):
+            warnings.warn(StudyWarning(words), stacklevel=4)
         if report.is_unusual:
             told = report.decision.after(f"{self.path.name}: ")
             warnings.warn(SpaceWarning(told), stacklevel=4)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -133,6 +134,7 @@ def _pull(client: Client, place: Address, folder: Path) -> bool:
     from lumencut.dicomweb.queries import find_instances
 
     instances = find_instances(client, place)
+    _warn_of_patients(client, place)
     with bar(f"fetching {len(instances)} instances", "instance") as told:
         done = pull_instances(client, instances, folder, told)
     already = f", {done.before} were there" if done.before else ""
@@ -140,3 +142,17 @@ def _pull(client: Client, place: Address, folder: Path) -> bool:
     if not done.is_complete:
         warn(f"{len(done.missing)} instances are missing: {done.reasons}; run it again to fetch them alone")
     return done.is_complete
+
+
+def _warn_of_patients(client: Client, place: Address) -> None:
+    """Say where the PACS has one study under several patients; one that cannot be asked is pulled from."""
+    from lumencut.dicomweb.queries import find_patients
+    from lumencut.errors import PacsError
+
+    with suppress(PacsError):
+        patients = find_patients(client, place.study)
+        others = [one for one in patients[1:] if one.differs_from(patients[0])]
+        if others:
+            first, other = patients[0], others[0]
+            found = f"two patients, {first} and {other}"
+            warn(f"study {place.study}: the PACS has it for {found}; check each series")

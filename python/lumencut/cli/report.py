@@ -140,7 +140,15 @@ def _shown_once() -> Callable[..., None]:
 
 
 class _Told(logging.Handler):
+    def __init__(self) -> None:
+        super().__init__()
+        self._once: set[str] = set()
+
     def emit(self, record: logging.LogRecord) -> None:
+        if getattr(record, "is_said_once", False):
+            if record.getMessage() in self._once:
+                return
+            self._once.add(record.getMessage())
         args = record.args or ()
         record.args = tuple(one_line(arg) if isinstance(arg, _WITH_OPTIONS) else arg for arg in args)
         (warn if record.levelno >= logging.WARNING else detail)(record.getMessage())

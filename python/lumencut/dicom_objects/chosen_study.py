@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import os
 import sys
 import warnings
@@ -22,6 +23,9 @@ from lumencut.errors import FormatError, SettingsError, StudyWarning
 from lumencut.volume import Volume
 from lumencut.volume_files.dicom.study import study_below
 
+_log = logging.getLogger("lumencut")
+#: Marks what the command line says once, for however many objects.
+_SAID_ONCE = {"is_said_once": True}
 _MEND = (
     "give study=FOLDER (--like-study FOLDER) of a scan of the same patient, or anonymous=True (--anonymous)"
 )
@@ -62,6 +66,9 @@ def chosen_study(origin: Origin, study: Any, *, anonymous: bool, other_patient: 
         return _checked(origin.study, "study of the scan")
     found, subject = _given(study)
     fitting = fitting_study(origin, found, subject, other_patient=other_patient)
+    if origin.study is None and not other_patient:
+        words = "the scan is no DICOM and names no patient to compare with"
+        _log.warning("%s: %s; its study is of %s", subject, words, patient_of(fitting), extra=_SAID_ONCE)
     if found is not None and not other_patient:
         for words in doubts(origin, found):
             warnings.warn(StudyWarning(f"{subject}: {words}"), stacklevel=_levels_within())
