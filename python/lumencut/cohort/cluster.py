@@ -15,15 +15,15 @@ from typing import Any
 
 from lumencut.cohort.child import Child, Outcome
 from lumencut.cohort.job import Job
-from lumencut.cohort.scheduler import SchedulerWatch, briefly
+from lumencut.cohort.scheduler import SchedulerWatch, briefly, within
 from lumencut.errors import MissingPackageError, SettingsError
 
 #: A study whose worker was lost is begun again on another one so many times.
 _LOST_WORKERS = 5
 #: How often the batch looks whether a study has ended, and a worker whether the batch is still there (s).
 _LOOK, _LOOK_FOR_BATCH = 0.1, 1.0
-#: How long the result of a study that has ended may take to come (s).
-_ANSWER = 5.0
+#: How long a connection may take, and the result of a study that has ended (s).
+_CONNECTING, _ANSWER = 10.0, 5.0
 #: What dask calls studies that have ended.
 _ENDED = ("finished", "error", "cancelled")
 #: What ``--slurm`` takes, by what dask-jobqueue calls it.
@@ -173,9 +173,13 @@ def dask_cluster(address: str) -> Iterator[Cluster]:
     """
     distributed = _package("distributed", "dask.distributed")
     try:
-        client = distributed.Client(address, timeout=10, set_as_default=False)
+        # It waits for ever where something accepts the connection and says nothing.
+        client = within(
+            _CONNECTING + _ANSWER,
+            lambda: distributed.Client(address, timeout=_CONNECTING, set_as_default=False),
+        )
     except (OSError, ValueError) as error:
-        found = str(error) or type(error).__name__
+        found = str(error) or "no answer"
         raise SettingsError(f"dask {address}", found, "the address of a scheduler that answers") from error
     try:
         yield Cluster(client)

@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import asyncio
+import concurrent.futures
 import logging
 import threading
 import time
 from collections.abc import Callable
 from contextlib import suppress
-from typing import Any
+from typing import Any, TypeVar
 
 from lumencut.errors import FileError
+
+Answer = TypeVar("Answer")
 
 _log = logging.getLogger("lumencut")
 
@@ -89,13 +92,27 @@ class SchedulerWatch:
             _log.warning("dask %s: it has no workers; the batch waits until some come", self._address)
 
 
+def within(seconds: float, act: Callable[[], Answer]) -> Answer:
+    """Return what dask answers, which may take for ever.
+
+    Raises
+    ------
+    TimeoutError
+        Where it takes longer; dask may go on in a thread that does not keep the program from ending.
+    """
+    answer: concurrent.futures.Future[Answer] = concurrent.futures.Future()
+
+    def work() -> None:
+        try:
+            answer.set_result(act())
+        except BaseException as error:
+            answer.set_exception(error)
+
+    threading.Thread(target=work, name="lumencut dask", daemon=True).start()
+    return answer.result(seconds)
+
+
 def briefly(act: Callable[[], object]) -> None:
-    """Let dask tidy up, and go on without it where it takes too long: a scheduler may not answer."""
-
-    def quietly() -> None:
-        with suppress(Exception):
-            act()
-
-    thread = threading.Thread(target=quietly, name="lumencut dask", daemon=True)
-    thread.start()
-    thread.join(_GRACE)
+    """Let dask tidy up, and go on without it where it fails or takes too long."""
+    with suppress(Exception):
+        within(_GRACE, act)
