@@ -61,8 +61,8 @@ class SchedulerWatch:
         silent = self._silent_since
         is_given_up = self._client.status in ("closing", "closed")
         if is_given_up or (silent is not None and time.monotonic() - silent > _PATIENCE):
-            found = f"no answer any more, after {done} of {count} studies"
-            mend = "start it, and run the same command again: it goes on with the studies that are not done"
+            found = f"no answer, after {done} of {count} studies"
+            mend = "start it, and run the command again: it goes on"
             raise FileError(f"dask {self._address}", found, "a scheduler that answers", mend)
 
     async def _ask_on(self) -> None:
