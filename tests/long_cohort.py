@@ -1,4 +1,4 @@
-"""Cohorts at length, for ``make test-long``: 200 studies and 20 kills, shards, a lost worker, and SLURM."""
+"""Cohorts at length, for ``make test-long``: 200 studies, 20 kills of a batch and of its scheduler, SLURM."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ import pytest
 from cohort_scenes import command, environment, run, table, wait_for, write_cohort
 from slurm_node import is_there, slurm
 from test_cohort import started
-from test_cohort_cluster import workers
+from test_cohort_cluster import CONNECTED, lose_scheduler, workers
 
 TABLES = ("vessels.csv", "sections.csv")
 
@@ -77,6 +77,27 @@ def test_a_lost_worker_loses_no_study_and_a_crash_takes_nobody_with_it(tmp_path)
     for name in ("id", "state", "reason", "vessels"):
         first, second = ([row[name] for row in table(out / "studies.csv")] for out in (here, there))
         assert first == second
+
+
+def test_twenty_kills_of_a_scheduler_end_each_batch_in_time_and_lose_no_study(tmp_path):
+    manifest = write_cohort(tmp_path, good=120, bad=False)
+    whole, killed = tmp_path / "whole", tmp_path / "killed"
+    assert run(manifest, whole, "--jobs", "2").returncode == 0
+    moments = random.Random(13)
+
+    def comes(batch):
+        wait_for(lambda: list(killed.glob(CONNECTED)), batch)
+        time.sleep(moments.uniform(0.0, 6.0))
+
+    done = 0
+    for trial in range(20):
+        told = lose_scheduler(manifest, killed, comes, signal.SIGSTOP if trial % 5 == 4 else signal.SIGKILL)
+        assert "expected a scheduler that answers" in told
+        assert len(list(killed.glob("sub-*/*_record.json"))) >= done
+        done = len(list(killed.glob("sub-*/*_record.json")))
+    assert run(manifest, killed, "--jobs", "2").returncode == 0
+    for name in TABLES:
+        assert (killed / name).read_bytes() == (whole / name).read_bytes()
 
 
 @pytest.fixture(scope="module")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import signal
 import subprocess
@@ -12,6 +13,7 @@ from pathlib import Path
 import pytest
 
 from cohort_scenes import command, environment, run, table, wait_for, write_cohort
+from lumencut.cohort import scheduler as scheduler_room
 from lumencut.cohort.cluster import slurm_options
 from lumencut.errors import SettingsError
 
@@ -32,6 +34,105 @@ def workers(manifest):
         finally:
             process.stdin.close()
             process.wait(60)
+
+
+@contextmanager
+def scheduler(manifest, folder):
+    """A scheduler in a process of its own with one worker: its process, and its address."""
+    place = folder / "scheduler.json"
+    place.unlink(missing_ok=True)
+    quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL, "env": environment(manifest)}
+    words = [sys.executable, "-m", "distributed.cli.dask_scheduler", "--host", "127.0.0.1", "--port", "0"]
+    words += ["--no-dashboard", "--scheduler-file", str(place)]
+    with subprocess.Popen(words, **quiet) as process:
+        wait_for(lambda: place.is_file() and place.read_text("utf-8").endswith("}"), process)
+        words = [sys.executable, "-m", "distributed.cli.dask_worker", "--scheduler-file", str(place)]
+        words += ["--nthreads", "1", "--no-nanny", "--no-dashboard", "--local-directory", str(folder)]
+        with subprocess.Popen(words, **quiet) as worker:
+            try:
+                yield process, json.loads(place.read_text("utf-8"))["address"]
+            finally:
+                # A worker that is asked to end waits for its scheduler.
+                worker.kill()
+                process.kill()
+
+
+def lose_scheduler(manifest, out, moment, number=signal.SIGKILL):
+    """Lose the scheduler of a batch at a moment, and return what the batch said before it ended."""
+    folder = manifest.parent
+    with scheduler(manifest, folder) as (process, address):
+        pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True}
+        words = command(manifest, out, "--dask", address)
+        with subprocess.Popen(words, env=environment(manifest), **pipes) as batch:
+            try:
+                moment(batch)
+                process.send_signal(number)
+                _, told = batch.communicate(timeout=30)
+            finally:
+                batch.kill()
+        assert (batch.returncode, "Traceback" in told) == (1, False), told
+        assert address in told
+    return told
+
+
+#: What is there at a moment of a batch: it has connected, a study works, one is done.
+CONNECTED, WORKING, DONE = ".lumencut/lock-*", ".lumencut/unfinished/*", "sub-*/*_record.json"
+
+
+@pytest.fixture(scope="module")
+def cohort(tmp_path_factory):
+    """A cohort, and its results on this machine alone."""
+    manifest = write_cohort(tmp_path_factory.mktemp("cohort"), good=3, bad=False)
+    whole = manifest.with_name("whole")
+    assert run(manifest, whole).returncode == 0
+    return manifest, whole
+
+
+@pytest.mark.parametrize(
+    ("sign", "number"),
+    [
+        (CONNECTED, signal.SIGKILL),
+        (WORKING, signal.SIGKILL),
+        (DONE, signal.SIGKILL),
+        (WORKING, signal.SIGSTOP),
+    ],
+    ids=["gone before a study", "gone while one works", "gone after one", "hangs"],
+)
+def test_a_batch_ends_without_its_scheduler_and_goes_on_when_run_again(cohort, tmp_path, sign, number):
+    manifest, whole = cohort
+    out = tmp_path / "out"
+    told = lose_scheduler(manifest, out, lambda batch: wait_for(lambda: list(out.glob(sign)), batch), number)
+    assert "expected a scheduler that answers; start it, and run the command again: it goes on" in told
+    wait_for(lambda: not processes_of(out))
+    done = [row["state"] for row in table(out / "studies.csv")].count("done")
+    assert done == len(list(out.glob(DONE)))
+    again = run(manifest, out)
+    assert f"3 done, 0 failed; {3 - done} of them now" in again.stdout
+    for name in ("vessels.csv", "sections.csv"):
+        assert (out / name).read_bytes() == (whole / name).read_bytes()
+
+
+def test_a_scheduler_that_hangs_from_the_start_is_refused(tmp_path):
+    manifest = write_cohort(tmp_path, good=1, bad=False)
+    with scheduler(manifest, tmp_path) as (process, address):
+        process.send_signal(signal.SIGSTOP)
+        ended = run(manifest, tmp_path / "out", "--dask", address)
+    assert ended.returncode == 1
+    assert "expected the address of a scheduler that answers" in ended.stderr
+
+
+def test_a_batch_says_that_no_worker_is_there(monkeypatch, caplog):
+    distributed = pytest.importorskip("distributed")
+    monkeypatch.setattr(scheduler_room, "_IDLE", 0.1)
+    monkeypatch.setattr(scheduler_room, "_EVERY", 0.1)
+    alone = {"n_workers": 0, "processes": False, "dashboard_address": None}
+    with (
+        distributed.LocalCluster(**alone) as cluster,
+        distributed.Client(cluster, set_as_default=False) as client,
+        scheduler_room.SchedulerWatch(client) as watch,
+    ):
+        wait_for(lambda: "it has no workers; the batch waits until some come" in caplog.text)
+        watch.check(0, 1)
 
 
 def test_studies_end_when_their_batch_is_interrupted(tmp_path):

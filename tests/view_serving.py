@@ -82,6 +82,17 @@ class Client:
             return rest_of(connection)
 
 
+def head(client, *lines, target=None, host=None):
+    """The bytes of a request, with more lines."""
+    target = f"/{client.place.token}/" if target is None else target
+    host = f"127.0.0.1:{client.place.port}" if host is None else host
+    return "\r\n".join([f"GET {target} HTTP/1.1", f"Host: {host}", *lines, "", ""]).encode()
+
+
+def status_of(received):
+    return int(received.split(maxsplit=2)[1])
+
+
 def rest_of(connection: socket.socket) -> bytes:
     """What comes in until the other side ends the connection."""
     received = b""

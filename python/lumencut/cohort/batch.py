@@ -154,7 +154,7 @@ def batch(
     FormatError
         For a manifest or a recipe with mistakes, and a folder with results of another recipe or version.
     FileError
-        For a folder that another batch writes into, and a full disk.
+        For a folder that another batch writes into, a full disk, and a scheduler that stops answering.
     SettingsError
         For numbers out of range, `dask` and `slurm` at once, and a scheduler that does not answer.
     MissingPackageError

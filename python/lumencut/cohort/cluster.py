@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import asyncio
+import concurrent.futures
 import os
 import time
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
@@ -12,12 +15,17 @@ from typing import Any
 
 from lumencut.cohort.child import Child, Outcome
 from lumencut.cohort.job import Job
+from lumencut.cohort.scheduler import SchedulerWatch, briefly, within
 from lumencut.errors import MissingPackageError, SettingsError
 
 #: A study whose worker was lost is begun again on another one so many times.
 _LOST_WORKERS = 5
-#: How often a worker looks whether the batch is still there (s), and the batch whether a study has ended.
-_LOOK, _TICK = 1.0, 1.0
+#: How often the batch looks whether a study has ended, and a worker whether the batch is still there (s).
+_LOOK, _LOOK_FOR_BATCH = 0.1, 1.0
+#: How long a connection may take, and the result of a study that has ended (s).
+_CONNECTING, _ANSWER = 10.0, 5.0
+#: What dask calls studies that have ended.
+_ENDED = ("finished", "error", "cancelled")
 #: What ``--slurm`` takes, by what dask-jobqueue calls it.
 SLURM_NAMES = {
     "partition": "queue",
@@ -46,53 +54,90 @@ class Cluster:
 
         A study whose worker or machine is lost is begun again elsewhere; one that crashes is not. Workers end
         the processes of their studies when the lock of the batch is gone.
+
+        Raises
+        ------
+        FileError
+            Where the scheduler does not answer any more.
         """
-        distributed = _package("distributed", "dask.distributed")
-        by_key: dict[str, Job] = {}
-        lost: dict[str, int] = {}
-        asked = [self._begin(job, lock, by_key) for job in jobs]
-        running = distributed.as_completed(asked, loop=self.client.loop)
+        studies = _Studies(self.client, jobs, str(lock))
         try:
-            while not running.is_empty():
-                if not running.has_ready():
-                    time.sleep(_TICK / 10)
-                    yield None
-                    continue
-                for future in running.next_batch(block=False):
-                    job = by_key.pop(future.key)
-                    outcome = _outcome(future, job, lost)
-                    if outcome is None:
-                        running.add(self._begin(job, lock, by_key))
-                        continue
-                    if outcome.state == "no room":
-                        self.client.cancel(list(running.futures))
-                    yield outcome
-                    if outcome.state == "no room":
+            with SchedulerWatch(self.client) as watch:
+                while studies.left:
+                    watch.check(len(jobs) - studies.left, len(jobs))
+                    studies.begin()
+                    outcomes = studies.ended()
+                    yield from outcomes
+                    if any(outcome.state == "no room" for outcome in outcomes):
                         return
+                    if not outcomes:
+                        time.sleep(_LOOK)
+                        yield None
         finally:
-            self.client.cancel(list(running.futures))
-
-    def _begin(self, job: Job, lock: Path, by_key: dict[str, Job]) -> Any:
-        """Hand a job to the scheduler."""
-        future = self.client.submit(run_on_worker, job, str(lock), key=f"lumencut-study-{job.id}-{_token()}")
-        by_key[future.key] = job
-        return future
+            briefly(studies.cancel)
 
 
-def _token() -> str:
-    return os.urandom(4).hex()
+class _Studies:
+    """The studies that have not ended: those that wait, and those that the scheduler has."""
 
+    def __init__(self, client: Any, jobs: Sequence[Job], lock: str) -> None:
+        self._client, self._lock = client, lock
+        # The last one is the next.
+        self._waiting = list(reversed(jobs))
+        self._asked: dict[Any, Job] = {}
+        self._lost: Counter[str] = Counter()
 
-def _outcome(future: Any, job: Job, lost: dict[str, int]) -> Outcome | None:
-    """How a study ended; None where it is to be begun again, as its worker was lost."""
-    if future.status == "finished":
-        outcome: Outcome = future.result()
+    @property
+    def left(self) -> int:
+        """How many they are."""
+        return len(self._waiting) + len(self._asked)
+
+    def begin(self) -> None:
+        """Hand those that wait to the scheduler."""
+        if self._waiting:
+            self._client.sync(self._submit)
+
+    async def _submit(self) -> None:
+        # Within the loop of dask, so that no loss of the connection comes between: dask would forget them.
+        while self._waiting and self._client.status == "running":
+            job = self._waiting[-1]
+            key = f"lumencut-study-{job.id}-{os.urandom(4).hex()}"
+            future = self._client.submit(run_on_worker, job, self._lock, key=key)
+            self._asked[future] = self._waiting.pop()
+
+    def ended(self) -> list[Outcome]:
+        """Tell how those ended that have ended since."""
+        ended = [future for future in self._asked if future.status in _ENDED]
+        return [outcome for future in ended if (outcome := self._outcome(future)) is not None]
+
+    def _outcome(self, future: Any) -> Outcome | None:
+        """How a study ended; None where it is begun again, or dask cannot say it yet."""
+        try:
+            outcome: Outcome | None = future.result(_ANSWER)
+        except (Exception, asyncio.CancelledError) as error:
+            if isinstance(error, OSError) and future.status not in ("error", "cancelled"):
+                # Its worker was lost with the result, or the scheduler: dask or the watch finds out.
+                return None
+            outcome = self._after(self._asked[future], error)
+        del self._asked[future]
         return outcome
-    lost[job.id] = lost.get(job.id, 0) + 1
-    if lost[job.id] <= _LOST_WORKERS:
-        return None
-    reason = f"its worker was lost {lost[job.id]} times" if future.cancelled() else repr(future.exception())
-    return Outcome(job.id, "failed", reason, 0.0)
+
+    def _after(self, job: Job, error: BaseException) -> Outcome | None:
+        """Let a study be begun again, as its worker was lost, unless that happened too often."""
+        # The connection may come back; that is no fault of the study.
+        self._lost[job.id] += getattr(error, "reason", "") != "scheduler-connection-lost"
+        if self._lost[job.id] <= _LOST_WORKERS:
+            self._waiting.append(job)
+            return None
+        count = self._lost[job.id]
+        is_cancelled = isinstance(error, (asyncio.CancelledError, concurrent.futures.CancelledError))
+        reason = f"its worker was lost {count} times" if is_cancelled else repr(error)
+        return Outcome(job.id, "failed", reason, 0.0)
+
+    def cancel(self) -> None:
+        """Take back those that the scheduler has."""
+        if self._asked:
+            self._client.cancel(list(self._asked))
 
 
 def run_on_worker(job: Job, lock: str) -> Outcome:
@@ -105,7 +150,7 @@ def run_on_worker(job: Job, lock: str) -> Outcome:
     try:
         while (outcome := child.outcome()) is None:
             time.sleep(0.05)
-            if time.monotonic() - looked > _LOOK:
+            if time.monotonic() - looked > _LOOK_FOR_BATCH:
                 looked = time.monotonic()
                 if not os.path.exists(lock):
                     return Outcome(job.id, "failed", "the batch was ended", 0.0)
@@ -128,12 +173,18 @@ def dask_cluster(address: str) -> Iterator[Cluster]:
     """
     distributed = _package("distributed", "dask.distributed")
     try:
-        client = distributed.Client(address, timeout=10, set_as_default=False)
+        # It waits for ever where something accepts the connection and says nothing.
+        client = within(
+            _CONNECTING + _ANSWER,
+            lambda: distributed.Client(address, timeout=_CONNECTING, set_as_default=False),
+        )
     except (OSError, ValueError) as error:
-        found = str(error) or type(error).__name__
+        found = str(error) or "no answer"
         raise SettingsError(f"dask {address}", found, "the address of a scheduler that answers") from error
-    with client:
+    try:
         yield Cluster(client)
+    finally:
+        briefly(client.close)
 
 
 @contextmanager

@@ -1,0 +1,118 @@
+"""Whether the scheduler of a cluster still answers; dask itself may wait for ever for one that is gone."""
+
+from __future__ import annotations
+
+import asyncio
+import concurrent.futures
+import logging
+import threading
+import time
+from collections.abc import Callable
+from contextlib import suppress
+from typing import Any, TypeVar
+
+from lumencut.errors import FileError
+
+Answer = TypeVar("Answer")
+
+_log = logging.getLogger("lumencut")
+
+#: How often the scheduler is asked, and how long its answer may take (s).
+_EVERY, _ANSWER = 1.0, 5.0
+#: How long it may fail to answer before it is given up (s); a new one at its address has time to start.
+_PATIENCE = 12.0
+#: How long nobody works before that is said (s).
+_IDLE = 30.0
+#: How long dask may take to tidy up (s).
+_GRACE = 2.0
+
+
+class SchedulerWatch:
+    """Asks a scheduler again and again whether it is there, as long as its context is open.
+
+    Parameters
+    ----------
+    client : distributed.Client
+        The way to the scheduler.
+    """
+
+    def __init__(self, client: Any) -> None:
+        self._client = client
+        self._address = str(getattr(client.scheduler, "address", "scheduler"))
+        self._is_over = False
+        self._silent_since: float | None = None
+        self._idle_since: float | None = None
+
+    def __enter__(self) -> SchedulerWatch:
+        self._client.loop.add_callback(self._ask_on)
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._is_over = True
+
+    def check(self, done: int, count: int) -> None:
+        """Raise an error where the scheduler is gone, after `done` of `count` studies.
+
+        Raises
+        ------
+        FileError
+            Where it does not answer any more.
+        """
+        silent = self._silent_since
+        is_given_up = self._client.status in ("closing", "closed")
+        if is_given_up or (silent is not None and time.monotonic() - silent > _PATIENCE):
+            found = f"no answer, after {done} of {count} studies"
+            mend = "start it, and run the command again: it goes on"
+            raise FileError(f"dask {self._address}", found, "a scheduler that answers", mend)
+
+    async def _ask_on(self) -> None:
+        while not self._is_over:
+            workers = await self._workers()
+            self._silent_since = None if workers is not None else self._silent_since or time.monotonic()
+            self._note_idle(workers)
+            await asyncio.sleep(_EVERY)
+
+    async def _workers(self) -> int | None:
+        """Ask how many workers there are; None without an answer."""
+        # Whatever goes wrong in dask here means that there is no answer.
+        with suppress(Exception):
+            found = len(await asyncio.wait_for(self._client.scheduler.ncores(), _ANSWER))
+            if self._client.status == "running":
+                return found
+        return None
+
+    def _note_idle(self, workers: int | None) -> None:
+        """Say once that no worker is there, each time that it is so for a while."""
+        if workers != 0:
+            self._idle_since = None
+        elif self._idle_since is None:
+            self._idle_since = time.monotonic()
+        elif time.monotonic() - self._idle_since > _IDLE:
+            self._idle_since = float("inf")
+            _log.warning("dask %s: it has no workers; the batch waits until some come", self._address)
+
+
+def within(seconds: float, act: Callable[[], Answer]) -> Answer:
+    """Return what dask answers, which may take for ever.
+
+    Raises
+    ------
+    TimeoutError
+        Where it takes longer; dask may go on in a thread that does not keep the program from ending.
+    """
+    answer: concurrent.futures.Future[Answer] = concurrent.futures.Future()
+
+    def work() -> None:
+        try:
+            answer.set_result(act())
+        except BaseException as error:
+            answer.set_exception(error)
+
+    threading.Thread(target=work, name="lumencut dask", daemon=True).start()
+    return answer.result(seconds)
+
+
+def briefly(act: Callable[[], object]) -> None:
+    """Let dask tidy up, and go on without it where it fails or takes too long."""
+    with suppress(Exception):
+        within(_GRACE, act)
