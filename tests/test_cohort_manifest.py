@@ -283,7 +283,8 @@ def test_the_check_and_the_batch_agree_on_sizes_and_lines(tmp_path):
         head = f"NDims = 3\nDimSize = {size}\nElementSpacing = 1 1 1\nElementType = MET_SHORT\n"
         (tmp_path / f"{name}.mhd").write_text(f"{head}ElementDataFile = {name}.raw\n", "utf-8")
         head = f"NRRD0004\ntype: short\ndimension: 3\nspace: LPS\nsizes: {size}\n"
-        head += "encoding: raw\nendian: little\nspace directions: (1,0,0) (0,1,0) (0,0,1)\nspace origin: (0,0,0)\n"
+        head += "encoding: raw\nendian: little\nspace directions: (1,0,0) (0,1,0) (0,0,1)\n"
+        head += "space origin: (0,0,0)\n"
         (tmp_path / f"{name}.nhdr").write_text(f"{head}data file: {name}.raw\n", "utf-8")
     write_lines(tmp_path / "in.vtk")
     write_lines(tmp_path / "out.vtk", bent_line() + 5000)
