@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
-from lumencut._checks import number
+from lumencut._checks import flag, number
 from lumencut._files import WRITABLE, checked_path, move, private_folder, replace_whole
 from lumencut._moving_pictures import Apng, MovingPicture, WebP
 from lumencut._wording import a
@@ -45,6 +45,8 @@ def writer_for(
     without it none can be written.
     """
     checked = checked_path(path, WRITABLE)
+    for name, value in {"annotate": annotate, "vessel_names": vessel_names}.items():
+        flag(SettingsError, name, value)
     if vessel_names and not annotate:
         raise SettingsError("vessel_names", "True without annotate", "annotate=True beside it")
     labels = {"annotate": annotate, "vessel_names": vessel_names}

@@ -51,6 +51,9 @@ def flight(
     CameraError
         For what is no camera, cameras of different sizes, or fewer than two frames.
     """
+    from lumencut.renderer import check_renderer
+
+    check_renderer(renderer)
     for view in flight_views(start, end, frames):
         yield renderer.render(view, settings)
 

@@ -147,8 +147,9 @@ class Frame(KeepsReadOnly):
 
     def has(self, name: str) -> bool:
         """Tell whether the view has the image of this name, such as ``"depth"`` or ``"context"``."""
-        stored = "depth" if name == "position" else name
-        return isinstance(name, str) and name in _IMAGES and getattr(self, f"_{stored}") is not None
+        if not isinstance(name, str) or name not in _IMAGES:
+            return False
+        return getattr(self, "_depth" if name == "position" else f"_{name}") is not None
 
     def _present(self, name: str, array: Any) -> Any:
         if array is not None:

@@ -6,6 +6,8 @@ import os
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
+from lumencut._files import WRITABLE, checked_path
+from lumencut.errors import MeasuringError
 from lumencut.profile_sections import Sections
 from lumencut.stenosis import Stenosis
 
@@ -62,7 +64,9 @@ class ProfileOutputs:
         """
         from lumencut.profile_files import save, save_object
 
-        if os.fspath(path).lower().endswith(".dcm"):
+        if not (isinstance(stenoses, Sequence) and all(isinstance(one, Stenosis) for one in stenoses)):
+            raise MeasuringError("stenoses", f"{stenoses!r:.80}", "a list of Stenosis")
+        if checked_path(path, WRITABLE).suffix.lower() == ".dcm":
             save_object(self, path, study, stenoses, anonymous=anonymous, other_patient=other_patient)
             return
         dicom = {"study": study, "anonymous": anonymous, "other_patient": other_patient}

@@ -321,6 +321,12 @@ class Renderer:
         return () if self._tree is None else vessel_ends(self._tree)
 
 
+def check_renderer(renderer: Any) -> None:
+    """Refuse what is no renderer."""
+    if not isinstance(renderer, Renderer):
+        raise SettingsError("renderer", type(renderer).__name__, "a Renderer")
+
+
 def render(
     volume: Any,
     tree: VesselTree | None = None,

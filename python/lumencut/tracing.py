@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import operator
 from collections.abc import Callable, Iterable, Sequence
 from contextlib import suppress
 from types import NoneType
@@ -253,7 +254,7 @@ def _place(subject: str, point: Any) -> _Points:
 
 def _index(subject: str, index: SupportsIndex, count: int) -> int:
     try:
-        return range(count)[index]
+        return range(count)[operator.index(index)]
     except (IndexError, TypeError) as error:
         expected = f"a whole number from 0 to {count - 1}" if count else "nothing: there is none yet"
         raise TracingError(subject, f"{index!r}", expected) from error

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Iterator
+from types import NoneType
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 import numpy as np
@@ -60,9 +61,13 @@ def turntable(
     CameraError
         For an axis that is no direction, or a number of frames below 1.
     """
-    if camera is None:
-        from lumencut.camera import Camera
+    from lumencut.camera import Camera
+    from lumencut.renderer import check_renderer
 
+    check_renderer(renderer)
+    if not isinstance(camera, (Camera, NoneType)):
+        raise CameraError("camera", type(camera).__name__, "a Camera or None")
+    if camera is None:
         camera = fitted_turn(Camera.anterior(renderer.scene), renderer.scene, degrees, axis)
     for view in _views(camera, frames, degrees, axis):
         yield renderer.render(view, settings)

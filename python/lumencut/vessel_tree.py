@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import operator
 from collections.abc import Callable, Iterable, Iterator
 from typing import Any, SupportsIndex, overload
 
@@ -298,7 +299,7 @@ class VesselTree(Value):
                 found.update(all_named(self._vessels, vessel))
                 continue
             try:
-                found.add(range(len(self))[vessel])
+                found.add(range(len(self))[operator.index(vessel)])
             except (IndexError, TypeError) as error:
                 expected = f"an id from 0 to {len(self) - 1}, or a name"
                 raise VesselTreeError(

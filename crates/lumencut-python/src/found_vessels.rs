@@ -12,8 +12,8 @@ use pyo3::prelude::*;
 
 use crate::errors::to_python;
 use crate::pool;
-use crate::renderer::{SHARES, Watched, interruptible};
 use crate::volume::VolumeArgument;
+use crate::watching::{SHARES, Watched, interruptible};
 
 /// Points (n, 3), radii (n,), confidence (n,), and why the vessel is doubtful, empty where it is not.
 type FoundArrays<'py> =

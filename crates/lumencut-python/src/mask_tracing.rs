@@ -16,9 +16,9 @@ use pyo3::types::PyDict;
 
 use crate::errors::to_python;
 use crate::pool;
-use crate::renderer::{SHARES, Watched, interruptible};
 use crate::tree::points_of;
 use crate::volume::VolumeArgument;
+use crate::watching::{SHARES, Watched, interruptible};
 
 /// Points (n, 3), radii (n,), confidence (n,) or none (0,), the label, and whether it bridges a gap.
 type TracedArrays<'py> =

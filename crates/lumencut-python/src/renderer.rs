@@ -1,8 +1,7 @@
 //! The renderer: runs without the GIL, and stops at Ctrl-C.
 
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, Mutex, PoisonError, mpsc};
-use std::time::{Duration, Instant};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Instant;
 
 use glam::DVec3;
 use lumencut::backend::Backend;
@@ -34,12 +33,7 @@ use crate::pool;
 use crate::settings::Checked;
 use crate::tree::{VesselArrays, tree};
 use crate::volume::VolumeArgument;
-
-/// How often a rendering asks Python for signals such as Ctrl-C.
-const SIGNAL_PERIOD: Duration = Duration::from_millis(50);
-
-/// Into how many parts a rendering is divided for whoever is told how far it is.
-pub const SHARES: u32 = 1000;
+use crate::watching::{SHARES, Watched, interruptible};
 
 /// Renders views of one tree, or of a volume alone; every view is of the same volume. Renderers of the same volume with
 /// other trees share what computes and what is known of the volume.
@@ -296,65 +290,6 @@ fn image_set(names: &[String]) -> PyResult<ImageSet> {
 /// Warns where a GPU was given up.
 fn say_that_the_cpu_goes_on(py: Python<'_>, given_up: Option<Error>) -> PyResult<()> {
     given_up.map_or(Ok(()), |error| warn(py, "DeviceWarning", &format!("{error}; the CPU goes on")))
-}
-
-/// How far long work is, and the function of Python that is told so.
-pub struct Watched<'a> {
-    pub progress: &'a Progress,
-    pub told: &'a Py<PyAny>,
-}
-
-impl Watched<'_> {
-    /// Tells how much is done, of `SHARES` parts.
-    pub fn tell(&self, py: Python<'_>, done: u32) -> PyResult<()> {
-        self.told.call1(py, (done, SHARES)).map(drop)
-    }
-
-    /// Tells it while the work goes on.
-    fn tell_so_far(&self, py: Python<'_>) -> PyResult<()> {
-        // A share of 0 to 1: at most `SHARES`.
-        self.tell(py, (self.progress.share() * f64::from(SHARES)) as u32)
-    }
-}
-
-/// Runs `work` on a thread of its own without the GIL while this one listens for signals, and tells how far it is.
-pub fn interruptible<T: Send>(
-    py: Python<'_>,
-    watched: Option<&Watched<'_>>,
-    work: impl FnOnce(Stop<'_>) -> PyResult<T> + Send,
-) -> PyResult<T> {
-    let stopped = AtomicBool::new(false);
-    let stop = || stopped.load(Ordering::Relaxed);
-    py.detach(|| {
-        let (done, finished) = mpsc::sync_channel(1);
-        std::thread::scope(|scope| {
-            let stop = &stop;
-            let worker = scope.spawn(move || {
-                let result = work(stop);
-                // The receiver outlives this thread: sending cannot fail.
-                let _ = done.send(());
-                result
-            });
-            let mut signal = Ok(());
-            while !worker.is_finished() && signal.is_ok() {
-                if finished.recv_timeout(SIGNAL_PERIOD).is_err() {
-                    signal = Python::attach(|py| {
-                        py.check_signals()?;
-                        watched.map_or(Ok(()), |watched| watched.tell_so_far(py))
-                    });
-                } else {
-                    break;
-                }
-            }
-            stopped.store(signal.is_err(), Ordering::Relaxed);
-            let result = worker.join();
-            signal?;
-            match result {
-                Ok(result) => result,
-                Err(panic) => std::panic::resume_unwind(panic),
-            }
-        })
-    })
 }
 
 /// The buffers that a frame has as arrays, moved and not copied.

@@ -6,10 +6,10 @@ use pyo3::prelude::*;
 
 use crate::errors::to_python;
 use crate::pool;
-use crate::renderer::interruptible;
 use crate::tree::{VesselArrays, vessel as vessel_of};
 use crate::volume::VolumeArgument;
 use crate::wall_request::wall_request;
+use crate::watching::interruptible;
 
 /// The point spread of a scan, and the level of the walls in it.
 #[pyclass(frozen, module = "lumencut._lumencut")]

@@ -13,9 +13,9 @@ use pyo3::prelude::*;
 
 use crate::errors::to_python;
 use crate::pool;
-use crate::renderer::{SHARES, Watched, interruptible};
 use crate::tree::points_of;
 use crate::volume::VolumeArgument;
+use crate::watching::{SHARES, Watched, interruptible};
 
 /// Points (n, 3), radii (n,), confidence (n,), and which points were bridged (n,).
 type TracedArrays<'py> = (

@@ -1,4 +1,8 @@
-//! Long work that tells a function of Python how far it is.
+//! Long work without the GIL: it hears Ctrl-C, and tells a function of Python how far it is.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc;
+use std::time::Duration;
 
 use lumencut::progress::Progress;
 use lumencut::stop::Stop;
@@ -6,7 +10,71 @@ use pyo3::prelude::*;
 
 use crate::errors::to_python;
 use crate::pool;
-use crate::renderer::{SHARES, Watched, interruptible};
+
+/// How often a rendering asks Python for signals such as Ctrl-C.
+const SIGNAL_PERIOD: Duration = Duration::from_millis(50);
+
+/// Into how many parts a rendering is divided for whoever is told how far it is.
+pub const SHARES: u32 = 1000;
+
+/// How far long work is, and the function of Python that is told so.
+pub struct Watched<'a> {
+    pub progress: &'a Progress,
+    pub told: &'a Py<PyAny>,
+}
+
+impl Watched<'_> {
+    /// Tells how much is done, of `SHARES` parts.
+    pub fn tell(&self, py: Python<'_>, done: u32) -> PyResult<()> {
+        self.told.call1(py, (done, SHARES)).map(drop)
+    }
+
+    /// Tells it while the work goes on.
+    fn tell_so_far(&self, py: Python<'_>) -> PyResult<()> {
+        // A share of 0 to 1: at most `SHARES`.
+        self.tell(py, (self.progress.share() * f64::from(SHARES)) as u32)
+    }
+}
+
+/// Runs `work` on a thread of its own without the GIL while this one listens for signals, and tells how far it is.
+pub fn interruptible<T: Send>(
+    py: Python<'_>,
+    watched: Option<&Watched<'_>>,
+    work: impl FnOnce(Stop<'_>) -> PyResult<T> + Send,
+) -> PyResult<T> {
+    let stopped = AtomicBool::new(false);
+    let stop = || stopped.load(Ordering::Relaxed);
+    py.detach(|| {
+        let (done, finished) = mpsc::sync_channel(1);
+        std::thread::scope(|scope| {
+            let stop = &stop;
+            let worker = scope.spawn(move || {
+                let result = work(stop);
+                // The receiver outlives this thread: sending cannot fail.
+                let _ = done.send(());
+                result
+            });
+            let mut signal = Ok(());
+            while !worker.is_finished() && signal.is_ok() {
+                if finished.recv_timeout(SIGNAL_PERIOD).is_err() {
+                    signal = Python::attach(|py| {
+                        py.check_signals()?;
+                        watched.map_or(Ok(()), |watched| watched.tell_so_far(py))
+                    });
+                } else {
+                    break;
+                }
+            }
+            stopped.store(signal.is_err(), Ordering::Relaxed);
+            let result = worker.join();
+            signal?;
+            match result {
+                Ok(result) => result,
+                Err(panic) => std::panic::resume_unwind(panic),
+            }
+        })
+    })
+}
 
 /// Runs what the core computes on the threads of this process, as [`interruptible`] does.
 pub fn computed<T: Send>(

@@ -109,3 +109,27 @@ pub(super) fn checked_size(subject: &str, size: [f64; 2]) -> Result<[usize; 2]> 
     // Whole numbers within the limits.
     Ok(size.map(|side| side as usize))
 }
+
+#[cfg(test)]
+mod tests {
+    use std::sync::atomic::{AtomicUsize, Ordering};
+
+    use super::*;
+    use crate::stop::NEVER;
+
+    #[test]
+    fn images_are_written_row_by_row_until_the_caller_asks_to_stop() {
+        let image = by_rows([3, 4], 0, NEVER, |row, pixels| pixels.fill(row)).unwrap();
+        assert_eq!(image, [0, 0, 0, 1, 1, 1, 2, 2, 2, 3, 3, 3]);
+        let asked = AtomicUsize::new(0);
+        let soon = || asked.fetch_add(1, Ordering::Relaxed) > 5;
+        let written = AtomicUsize::new(0);
+        let count = |_: usize, _: &mut [DVec3], _: &mut [Vec3]| {
+            written.fetch_add(1, Ordering::Relaxed);
+        };
+        let error = curved_by_rows([3, 1000], &soon, count).unwrap_err();
+        assert_eq!(error.kind, ErrorKind::Interrupted);
+        // Both lists were filled first, which asks twice.
+        assert_eq!(written.into_inner(), 4);
+    }
+}

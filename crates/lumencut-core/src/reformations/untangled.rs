@@ -19,7 +19,7 @@ use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
 use self::growth::Growth;
-use self::pieces::{Piece, pieces_of};
+use self::pieces::{Piece, pieces_of, vessels_of};
 use self::room::{extent, roots, size_of};
 use self::sheet::{Place, Sheet, placed};
 use self::strip::Strip;
@@ -296,9 +296,6 @@ impl Untangled {
     }
 
     /// The segment that each pixel shows, found at the first call.
-    ///
-    /// # Errors
-    /// [`crate::error::ErrorKind::Interrupted`].
     fn segments(&self, stop: Stop) -> Result<&[u32]> {
         // Made outside the lock: a thread of the pool that waited for its part could wait for itself.
         if let Some(known) = self.segments.get() {
@@ -396,14 +393,6 @@ impl Layout for Untangled {
     fn pixel_from_world(&self, point: DVec3) -> DVec2 {
         self.sheet.place_of(point).map_or(DVec2::NAN, |place| self.pixel(self.sheet.seen(&place)))
     }
-}
-
-/// The vessels of pieces, each once.
-fn vessels_of(pieces: &[Piece], numbers: &[usize]) -> Vec<usize> {
-    let mut vessels: Vec<usize> = numbers.iter().map(|n| pieces[*n].vessel).collect();
-    vessels.sort_unstable();
-    vessels.dedup();
-    vessels
 }
 
 #[cfg(test)]

@@ -139,3 +139,11 @@ impl Stations<'_> {
         if known > 0.0 { known } else { self.unknown_radius }
     }
 }
+
+/// The vessels of pieces, each once.
+pub(super) fn vessels_of(pieces: &[Piece], numbers: &[usize]) -> Vec<usize> {
+    let mut vessels: Vec<usize> = numbers.iter().map(|n| pieces[*n].vessel).collect();
+    vessels.sort_unstable();
+    vessels.dedup();
+    vessels
+}
