@@ -118,7 +118,7 @@ pub fn readings(points: &[DVec3], candidates: &[Place], volume: &Extent) -> Vec<
     let reading = |place: &Place| {
         let across = bare * place.unit.in_mm();
         let is_of_body = place.unit == Unit::Millimetre || (SMALLEST..=LARGEST).contains(&across);
-        let is_plausible = is_of_body && across >= FEW_VOXELS * volume.smallest_side();
+        let is_plausible = is_of_body && across >= (FEW_VOXELS * volume.smallest_side()).min(SMALLEST);
         let scale = place.scale();
         let inside = volume.count(points.iter().map(|p| *p * scale));
         Reading { place: *place, inside, across, is_plausible }
@@ -174,6 +174,10 @@ mod tests {
         // Shorter than three voxels in mm.
         assert_eq!(counted(&[DVec3::ZERO, DVec3::X * 2.4]), [0, 0, 2, 1, 1]);
         assert_eq!(counted(&[]), [0; 5]);
+        // Of large voxels few are as long as a vessel.
+        let coarse = Extent::new([3; 3], DAffine3::from_scale(DVec3::splat(60.0)));
+        let found = readings(&[DVec3::ZERO, DVec3::X * 9.0], &places(&[Space::Lps], &Unit::ALL), &coarse);
+        assert_eq!(found.iter().map(Reading::fits).collect::<Vec<_>>(), [0, 2, 2, 1, 0]);
     }
 
     #[test]
