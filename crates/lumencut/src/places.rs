@@ -13,8 +13,10 @@ use crate::text::rounded;
 pub const SMALLEST: f64 = 8.0;
 /// See [`SMALLEST`].
 pub const LARGEST: f64 = 2500.0;
-/// A line that is shorter than this many voxels shows nothing.
+/// A line that is shorter than this many voxels shows nothing, where it is shorter than [`SHORTEST`] too.
 const FEW_VOXELS: f64 = 3.0;
+/// A line of this length (mm) is one, however large the voxels are.
+const SHORTEST: f64 = 1.0;
 /// Digits of a length in words.
 const DIGITS: usize = 3;
 /// A place is as good as another if it brings at least this part of the other's points into the volume.
@@ -118,7 +120,7 @@ pub fn readings(points: &[DVec3], candidates: &[Place], volume: &Extent) -> Vec<
     let reading = |place: &Place| {
         let across = bare * place.unit.in_mm();
         let is_of_body = place.unit == Unit::Millimetre || (SMALLEST..=LARGEST).contains(&across);
-        let is_plausible = is_of_body && across >= FEW_VOXELS * volume.smallest_side();
+        let is_plausible = is_of_body && across >= (FEW_VOXELS * volume.smallest_side()).min(SHORTEST);
         let scale = place.scale();
         let inside = volume.count(points.iter().map(|p| *p * scale));
         Reading { place: *place, inside, across, is_plausible }
@@ -171,8 +173,8 @@ mod tests {
         };
         // 4 units: a short piece in mm, 40 mm in cm, 400 mm in dm, of which one end leaves the volume; 4 m.
         assert_eq!(counted(&[DVec3::ZERO, DVec3::X * 4.0]), [0, 2, 2, 1, 0]);
-        // Shorter than three voxels in mm.
-        assert_eq!(counted(&[DVec3::ZERO, DVec3::X * 2.4]), [0, 0, 2, 1, 1]);
+        // Shorter than three voxels and than 1 mm.
+        assert_eq!(counted(&[DVec3::ZERO, DVec3::X * 0.9]), [0, 0, 2, 2, 1]);
         assert_eq!(counted(&[]), [0; 5]);
     }
 
