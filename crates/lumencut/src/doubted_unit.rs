@@ -5,7 +5,7 @@ use std::cmp::Reverse;
 use glam::DVec3;
 use lumencut_io::Unit;
 
-use crate::placement::Judge;
+use crate::lumen_points::Judge;
 use crate::places::{LARGEST, Place, Reading, SMALLEST, across, mm, places, readings};
 
 /// A unit that may be wrong.

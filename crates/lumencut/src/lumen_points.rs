@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use glam::DVec3;
 use lumencut_core::volume::Volume;
 
+use crate::extent::Extent;
 use crate::places::Place;
 use crate::windows::sample;
 use lumencut_core::math::statistics::median;
@@ -38,6 +39,15 @@ pub struct LumenCount {
     pub like_lumen: usize,
     /// How many were looked at.
     pub of: usize,
+}
+
+/// What the volume can say.
+#[derive(Clone, Copy)]
+pub struct Judge<'a> {
+    /// The space that it fills.
+    pub extent: Extent,
+    /// How many points look like lumen in it where they are read in a place.
+    pub lumen: &'a dyn Fn(Place) -> LumenCount,
 }
 
 impl LumenCount {

@@ -8,8 +8,7 @@ use lumencut_io::{Result, Space, Unit};
 
 use crate::choice::{Choice, Chosen};
 use crate::doubted_unit::{Doubt, doubted_unit};
-use crate::extent::Extent;
-use crate::lumen_points::LumenCount;
+pub use crate::lumen_points::Judge;
 use crate::places::{Place, Statement, places, readings};
 
 /// What is known of the coordinates of a file before the volume is asked.
@@ -87,15 +86,6 @@ pub struct Placement {
     pub also: Vec<Unit>,
     /// What speaks against the unit that the file states, or that was assumed.
     pub doubt: Option<Doubt>,
-}
-
-/// What the volume can say.
-#[derive(Clone, Copy)]
-pub struct Judge<'a> {
-    /// The space that it fills.
-    pub extent: Extent,
-    /// How many points look like lumen in it where they are read in a place.
-    pub lumen: &'a dyn Fn(Place) -> LumenCount,
 }
 
 /// Decides how the points of a file, as they stand in it, are to be understood; without a volume by what is usual.

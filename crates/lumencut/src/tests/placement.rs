@@ -1,6 +1,8 @@
 use glam::DAffine3;
 
 use super::*;
+use crate::extent::Extent;
+use crate::lumen_points::LumenCount;
 use crate::misplaced::{Misplaced, better_place, fits_nowhere};
 use crate::places::{SMALLEST, across};
 use lumencut_io::Mend;
