@@ -63,7 +63,7 @@ GROUPS: dict[str, tuple[str, tuple[str, ...]]] = {
         (
             *("LumencutError", "Mend", "VolumeError", "VesselTreeError", "CameraError", "SettingsError"),
             *("DeviceError", "TracingError", "MeasuringError", "FormatError", "SeriesError", "FileError"),
-            *("PacsError", "MissingPackageError", "DeviceWarning", "SpaceWarning"),
+            *("PacsError", "MissingPackageError", "DeviceWarning", "LineWarning", "SpaceWarning"),
         ),
     ),
 }
