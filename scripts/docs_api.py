@@ -63,7 +63,8 @@ GROUPS: dict[str, tuple[str, tuple[str, ...]]] = {
         (
             *("LumencutError", "Mend", "VolumeError", "VesselTreeError", "CameraError", "SettingsError"),
             *("DeviceError", "TracingError", "MeasuringError", "FormatError", "SeriesError", "FileError"),
-            *("PacsError", "MissingPackageError", "DeviceWarning", "SpaceWarning", "StudyWarning"),
+            *("PacsError", "MissingPackageError"),
+            *("DeviceWarning", "LineWarning", "SpaceWarning", "StudyWarning"),
         ),
     ),
 }
