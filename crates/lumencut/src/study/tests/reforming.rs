@@ -1,3 +1,5 @@
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use super::*;
 use crate::study::tests::opened;
 
@@ -85,12 +87,17 @@ fn names_stand_where_vessels_end_and_where_they_open_into_the_one_that_is_shown(
 fn a_window_alone_changes_the_picture_and_nothing_is_laid_out_again() {
     let mut study = opened("y_junction");
     let asked = all_kinds(0)[0];
-    let first = study.reformed(asked, PANE, (WINDOW, &go)).expect("a picture");
-    let brighter = study.reformed(asked, PANE, ([0.0, 900.0], &|| true)).expect("a picture kept");
+    let asks = AtomicUsize::new(0);
+    let counting = || asks.fetch_add(1, Ordering::Relaxed) == usize::MAX;
+    let first = study.reformed(asked, PANE, (WINDOW, &counting)).expect("a picture");
+    let laid_out = asks.swap(0, Ordering::Relaxed);
+    let brighter = study.reformed(asked, PANE, ([0.0, 900.0], &counting)).expect("a picture kept");
+    let kept = asks.load(Ordering::Relaxed);
+    assert!(kept < laid_out, "the picture alone asks whether to stop: {kept} of {laid_out}");
     assert_eq!(brighter.size, first.size);
     assert_ne!(brighter.bytes, first.bytes);
     // The tree stays as it is turned in a pane of another size.
-    let wide = study.reformed(asked, [480, 360], (WINDOW, &|| true)).expect("the same layout");
+    let wide = study.reformed(asked, [480, 360], (WINDOW, &go)).expect("the same layout");
     assert!((wide.pixel_spacing - first.pixel_spacing / 2.0).abs() < 0.01 * first.pixel_spacing);
     // Another side is laid out anew, which can be stopped.
     let side = serde_json::json!({"direction": [1.0, 0.0, 0.0], "up": [0.0, 0.0, 1.0]});

@@ -1,3 +1,5 @@
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use glam::DVec3;
 
 use super::*;
@@ -48,10 +50,15 @@ fn a_roll_measures_the_lumen_once_and_has_no_angle_of_its_own() {
     let rolled = CprMessage { roll: Some(Followed::Narrowest), ..PLAIN };
     let stopped = study.straightened(rolled, (WINDOW, &|| true)).expect_err("a stop");
     assert_eq!(stopped.kind, "interrupted");
-    let first = study.straightened(rolled, (WINDOW, &go)).expect("a CPR");
+    let asks = AtomicUsize::new(0);
+    let counting = || asks.fetch_add(1, Ordering::Relaxed) == usize::MAX;
+    let first = study.straightened(rolled, (WINDOW, &counting)).expect("a CPR");
+    let measured = asks.swap(0, Ordering::Relaxed);
     let turned = CprMessage { angle: 1.0, ..rolled };
-    let again = study.straightened(turned, (WINDOW, &|| true)).expect("the same CPR");
+    let again = study.straightened(turned, (WINDOW, &counting)).expect("the same CPR");
     assert_eq!(first, again);
+    let kept = asks.load(Ordering::Relaxed);
+    assert!(kept < measured, "the picture alone asks whether to stop: {kept} of {measured}");
     let [width, height] = first.size;
     let place = [width as f64 / 2.0 + 3.0, height as f64 / 3.0];
     let pick = study.pick_straightened(place).expect("a pick");
