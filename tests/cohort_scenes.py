@@ -35,7 +35,7 @@ RECIPE = "[pictures]\nviews = []\n[measure]\nstep = 2.0\n"
 #: The studies that cannot be done, with what is told of each.
 BAD = {
     "crashing": "crashed: SIGABRT",
-    "greedy": "more than the free memory holds",
+    "greedy": "found voxels that need",
     "hanging": "took longer than",
     "corrupt": "corrupt.nii.gz",
     "missing": "no such file",

@@ -57,7 +57,7 @@ def read_soundly(content: bytes, name: str) -> int:
     """Number of vessels; 0 for a FormatError."""
     try:
         file = _lumencut.CenterlineFile(content, name)
-        vessels, space = file.vessels(1.0)[0], file.space
+        vessels, space = file.vessels(1.0, reorder=False)[0], file.space
     except FormatError:
         return 0
     assert space in (None, "lps", "ras")

@@ -88,7 +88,7 @@ def write_legacy(path: Path, data, *, binary: bool, version: int) -> Path:
 
 
 def assert_is_helices(path: Path, dtype: type, tolerance: float = 0.0) -> None:
-    vessels, _ = _lumencut.CenterlineFile(path.read_bytes(), path.name).vessels(1.0)
+    vessels, _ = _lumencut.CenterlineFile(path.read_bytes(), path.name).vessels(1.0, reorder=False)
     assert len(vessels) == len(LINES)
     for (points, radius, name), line, expected in zip(vessels, LINES, RADII, strict=True):
         np.testing.assert_allclose(points, line.astype(dtype).astype(np.float64), rtol=0, atol=tolerance)

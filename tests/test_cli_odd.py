@@ -112,7 +112,8 @@ def test_a_doubtful_space_is_told_once_and_can_be_answered(tmp_path, command):
     if command == "info":
         words.append(write_volume(tmp_path / "again.nii"))
     else:
-        words += ["-o", tmp_path / "view.png", "--size", "16x16"]
+        # The unit is stated, so that the space alone is doubtful.
+        words += ["-o", tmp_path / "view.png", "--size", "16x16", "--unit", "mm"]
     words += ["--frames", "2"] if command == "turntable" else []
     result = invoke(*words)
     assert result.exit_code == 0
