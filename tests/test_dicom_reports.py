@@ -251,7 +251,7 @@ def test_what_cannot_be_reported_is_refused(tmp_path):
     frameless = lumencut.read_volume(write_series(tmp_path / "series", none))
     with pytest.raises(FormatError, match="without a FrameOfReferenceUID"):
         lumencut.measure(frameless, LINE[0]).save(path)
-    with pytest.raises(MeasuringError, match="found str; expected Stenosis"):
+    with pytest.raises(MeasuringError, match="expected a list of Stenosis"):
         profile().save(path, stenoses=["50 %"])
     longer = phantom.stenosis()
     other = lumencut.measure(longer.volume, longer.tree[0])
