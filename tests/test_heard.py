@@ -56,7 +56,7 @@ CALLS = {
 
 @pytest.mark.parametrize("name", CALLS)
 def test_a_signal_is_heard_in_the_midst_of_a_call(name):
-    # Signals that come while nobody looks are handled once, after the call: one that looks handles several.
+    # Signals that come while nobody looks are handled once, after the call, and perhaps once before it.
     prepare, call = CALLS[name]
     given, heard = prepare(), []
     before = signal.signal(signal.SIGALRM, lambda number, frame: heard.append(number))
@@ -66,7 +66,7 @@ def test_a_signal_is_heard_in_the_midst_of_a_call(name):
             signal.setitimer(signal.ITIMER_REAL, 0.001, 0.001)
             call(given)
             signal.setitimer(signal.ITIMER_REAL, 0)
-            if len(heard) > 4:
+            if len(heard) > 2:
                 return
     finally:
         signal.setitimer(signal.ITIMER_REAL, 0)

@@ -100,10 +100,14 @@ class ProfileOutputs:
         ------
         MissingPackageError
             Without matplotlib.
+        MeasuringError
+            For what is no axes.
         """
         from lumencut.profile_plot import draw, new_axes
         from lumencut.profile_sections import marks
 
+        if axes is not None and not callable(getattr(axes, "fill_between", None)):
+            raise MeasuringError("axes", f"{axes!r:.80}", "axes of matplotlib, or None")
         drawn = new_axes() if axes is None else axes
         draw(drawn, self, marks(self))
         return drawn
