@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import importlib
+import sys
 from typing import Any, TypeVar
 
 #: Where the classes live that public values hold and that are not public themselves.
 _PARTS = {
     "Angle": "profile",
+    "Box": "dicom_objects.extents",
     "CArm": "profile",
     "FrameSource": "frame_source",
     "Origin": "dicom_objects.study",
@@ -26,17 +28,20 @@ def by_name(kind: _Kind) -> _Kind:
     """
 
     def reduced(self: Any, protocol: Any) -> Any:
-        import lumencut
-
         # What makes an object, the class and its arguments; then the state.
         whole: Any = object.__reduce_ex__(self, max(protocol, 2))
         make, arguments, *state = whole
         if type(self) is not kind:
             return (make, arguments, *state)
-        return (lumencut._restored, (kind.__name__, *arguments[1:]), *state)
+        return (restored(), (kind.__name__, *arguments[1:]), *state)
 
     setattr(kind, "__reduce_ex__", reduced)  # noqa: B010 - to a class of any kind
     return kind
+
+
+def restored() -> Any:
+    """Return the function that pickles name, which stands in the package itself."""
+    return vars(sys.modules["lumencut"])["_restored"]
 
 
 def part(name: str) -> type:

@@ -5,6 +5,8 @@ from __future__ import annotations
 from enum import IntFlag
 from typing import Any
 
+from lumencut._pickles import restored
+
 
 class Flag(IntFlag):
     """What there is to know of a section; sections keep their numbers whatever is set.
@@ -15,9 +17,7 @@ class Flag(IntFlag):
 
     def __reduce_ex__(self, protocol: Any) -> Any:
         """Return what is pickled: the name of the class and the bits."""
-        import lumencut
-
-        return lumencut._restored, ("Flag", int(self))
+        return restored(), ("Flag", int(self))
 
     #: The diameter is below 1.5 times the width (FWHM) of the point spread.
     AT_LIMIT = 1

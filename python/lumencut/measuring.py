@@ -147,9 +147,11 @@ class CrossSection:
     def pixel_from_world(self, points: npt.ArrayLike) -> npt.NDArray[np.float64]:
         """Return column and row of points (n, 3) (mm, LPS), shape (n, 2); the first pixel is at (0, 0).
 
-        Points beside the plane are projected to it.
+        One point (3,) is taken as (1, 3). Points beside the plane are projected to it.
         """
-        checked = numbers(MeasuringError, "points of the cross-section", points, (-1, 3))
+        is_one = np.asarray(points, dtype=object).shape == (3,)
+        several = [points] if is_one else points
+        checked = numbers(MeasuringError, "points of the cross-section", several, (-1, 3))
         away = checked - self.position[0, 0]
         last = (self.position[0, -1] - self.position[0, 0], self.position[-1, 0] - self.position[0, 0])
         steps = [axis / max(len(self.value) - 1, 1) for axis in last]

@@ -9,10 +9,13 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from lumencut._pickles import by_name
+
 #: An extent of less than this part of the other one is that of a slice or of a few, which show no length.
 _THIN = 0.2
 
 
+@by_name
 @dataclass(frozen=True)
 class Box:
     """A box along the axes of the patient.
