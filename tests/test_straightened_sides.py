@@ -15,6 +15,9 @@ from ramp_scenes import ramp_volumes
 from test_cli_dicom import run
 
 #: Directions (LPS) of straight vessels, with the letters of i, j and k of the straightened volume.
+#: The scan of the ramps lies elsewhere than the study that its results are written into.
+pytestmark = pytest.mark.filterwarnings("ignore::lumencut.errors.StudyWarning")
+
 ALONG = {
     "downwards": ((0, 0, -1), "LPI"),
     "upwards": ((0, 0, 1), "RPS"),

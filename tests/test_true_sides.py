@@ -22,6 +22,9 @@ from lumencut.turntables import turntable
 from ramp_scenes import letters_of, oblique, ramp_volumes
 
 #: All is black, so that labels can be read off pictures.
+#: The scan of the ramps lies elsewhere than the study that its results are written into.
+pytestmark = pytest.mark.filterwarnings("ignore::lumencut.errors.StudyWarning")
+
 BARE = Settings(context=None, silhouettes=False, window=Window(1000, 10))
 #: Views by the angles of a C-arm (degrees) and a turn of the picture.
 VIEWS = [
