@@ -27,7 +27,7 @@ from lumencut.dicomweb.client import Client
 from lumencut.dicomweb.pulling import pull_instances
 from lumencut.dicomweb.queries import find_instances, find_series
 from lumencut.pacs_zip.archive import pacs_zip
-from pacs_requests import dropped, members
+from pacs_requests import dropped, encoded, header, members
 from pacs_requests import sent as sent_as
 
 PLUGIN = "/usr/share/orthanc/plugins/libOrthancDicomWeb.so"
@@ -225,7 +225,9 @@ def test_from_a_scan_to_pictures_and_numbers_beside_it_in_three_commands(stored,
 
 def test_what_the_viewer_saves_for_a_pacs_is_read_back_from_it(orthanc, tmp_path):
     unpacked, got = tmp_path / "unpacked", tmp_path / "got"
-    sent = members(pacs_zip(sent_as(dropped()), None), unpacked)
+    # The server has a study of this UID already, of another patient.
+    own = header().replace(b"1.2.826.0.1.3680043.10.1000.1", b"1.2.826.0.1.3680043.10.1000.7")
+    sent = members(pacs_zip(sent_as(dropped(header=encoded(own))), None), unpacked)
     assert len(sent) == 5
     pushed = run("push", unpacked, orthanc.base, "--yes", "--new-study")
     assert pushed.exit_code == 0, pushed.output
