@@ -218,7 +218,8 @@ def test_a_cohort_takes_cropped_segmentations_and_checks_them_before(tmp_path):
     assert checked.exit_code != 0
     assert "0.4 mm beside those of the volume" in checked.output
     refused = [line for line in checked.output.splitlines() if "beside those of the volume" in line]
-    assert refused and not any("p1: " in line for line in refused)
+    assert refused
+    assert not any("p1: " in line for line in refused)
     table.write_text("id,volume,mask,label\np1,ct.nii.gz,good.seg.nrrd,aorta\n")
     done = CliRunner().invoke(main, ["batch", str(table), "-o", str(tmp_path / "out"), "--jobs", "1"])
     assert done.exit_code == 0, done.output
