@@ -18,7 +18,7 @@ from view_serving import SCRIPT, SERVED, made_file, serving, split, write_page
 from volume_samples import coded, oblique, write_stack
 
 SENT_ALIKE = ["int8", "uint8", "int16", "uint16", "int32", "uint32", "float32", "float64"]
-AS_WRITTEN = {"coordinates": None, "unit": None, "series": None, "phase": None}
+AS_WRITTEN = {"coordinates": None, "unit": None, "reorder": False, "series": None, "phase": None}
 AS_WRITTEN |= {"fill_gaps": False, "resample_slices": False}
 SCAN = ("series_number", "series_description", "phase", "slice_thickness_mm", "kernel")
 
