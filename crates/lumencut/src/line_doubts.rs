@@ -1,4 +1,4 @@
-//! What is doubtful about centerlines, whoever made them: points in another order than along the vessel, points far from all
+//! What is doubtful about centerlines: points in another order than along the vessel, points far from all
 //! others, missing parts, and two lines of one vessel.
 //!
 //! Lines in order give no doubt, however tortuous they are, where their points are nearer to their neighbours than to other

@@ -6,27 +6,27 @@ use lumencut_core::math::statistics::{median, quantile};
 use super::nearby::Nearby;
 use super::shortest_tree::ShortestTree;
 
-/// A step is long that is so many times as long as the usual one.
+/// A step is long at this many times the usual one.
 pub(super) const LONG_STEP: f64 = 20.0;
 /// A step is long only beyond this part of the extent of the line.
 const LONG_PART: f64 = 0.05;
-/// A line is too long that is so many times as long as a short path through its points.
+/// A line is too long at this many times the length of a short path through its points.
 const TOO_LONG: f64 = 2.0;
 /// Beside an order that is found without doubt a line is too long already by this factor.
 const LONGER_THAN_FOUND: f64 = 1.2;
-/// Steps are regular where the longest is at most so many times the usual one, and long ones so many times short ones.
+/// Steps are regular where the longest is at most this many times the usual one, and long ones this many times short ones.
 const REGULAR: f64 = 3.0;
-/// A point away from both its neighbours, so many times the usual step, stands out of the line.
+/// A point stands out of the line at this many usual steps from both its neighbours.
 const SPIKE: f64 = 5.0;
-/// In an order without doubt no step is so many times as long as the usual one.
+/// In an order without doubt no step is this many times the usual one.
 const LONGEST_FOUND: f64 = 5.0;
 /// Points of another stretch of the line make an order doubtful up to this distance, in longest steps.
 const CLEARANCE: f64 = 1.5;
-/// A stretch is another one where the way to it is so many times as long as the straight distance.
+/// A stretch is another one where the way to it is this many times the straight distance.
 const OTHER_STRETCH: f64 = 4.0;
-/// Where so many points are near one, no order is without doubt.
+/// Where this many points are near one, no order is without doubt.
 const MOST_NEAR: usize = 256;
-/// Lines of fewer points do not tell what step is usual.
+/// Lines of fewer points do not show what step is usual.
 const FEWEST_POINTS: usize = 5;
 /// Of fewer points none stands out.
 const FEWEST_WITH_SPIKE: usize = 8;

@@ -12,15 +12,15 @@ use super::nearby::Nearby;
 const NEAR: f64 = 0.5;
 /// And where it is known, nearer than this part of the smaller radius.
 const NEAR_PART: f64 = 0.5;
-/// Lines are looked at every so many mm.
+/// Lines are looked at in steps of this length (mm).
 const STEP: f64 = 1.0;
 /// Spots in a chord of a stretch.
 const CHORD: usize = 5;
-/// And at so many places at most, in all.
+/// And at this many places at most, in all.
 const MOST_PLACES: f64 = 200_000.0;
 /// A stretch side by side is at least so long (mm) …
 const SHORTEST: f64 = 10.0;
-/// … and so many radii, as lines that meet part slowly.
+/// … and this many radii, as lines that meet part slowly.
 const SHORTEST_RADII: f64 = 6.0;
 
 /// A place on a vessel.
