@@ -268,7 +268,8 @@ def test_nrrd_and_dicom_that_lie_about_their_size(tmp_path, sound):
     path = tmp_path / "x.nrrd"
     for kind in ("raw.nrrd", "gzip.nrrd", "bzip2.nrrd", "ascii.nrrd"):
         path.write_bytes(sound[kind][kind].replace(b"sizes: 4 3 5", b"sizes: 40000 30000 50000"))
-        with pytest.raises(FormatError, match=r"as the header says"):
+        # A codec without a bound of its own is refused by the memory that it would need.
+        with pytest.raises(FormatError, match=r"as the header says|voxels that need .* of memory"):
             read_volume(path)
         volume_or_refusal(path)
     path = save(slice_of(coded(), oblique(), 0, Rows=65535, Columns=65535), tmp_path / "x.dcm")

@@ -20,7 +20,7 @@ use crate::devices::Wanted;
 use crate::flight::flight;
 use glam::DVec3;
 use lumencut_core::pipeline::Request;
-use lumencut_io::{Space, Unit};
+use lumencut_io::Space;
 use lumencut_phantom::Phantom;
 use serde_json::{Value as Json, json};
 
