@@ -12,6 +12,9 @@ import lumencut
 from lumencut import FileError, FormatError, Vessel, VesselTree, VesselTreeError, write_centerlines
 from lumencut.centerlines import inspect_centerlines
 
+# Lines of random points are doubtful, as they should be.
+pytestmark = pytest.mark.filterwarnings("ignore::lumencut.errors.LineWarning")
+
 ENDINGS = (".vtp", ".mrk.json")
 OTHER_ENDINGS = (".vtk", ".csv", ".swc")
 

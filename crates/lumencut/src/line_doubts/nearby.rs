@@ -113,6 +113,10 @@ impl<'a> Nearby<'a> {
             }
             for other in self.order[node.from..node.to].iter().copied().filter(|m| piece[*m] != own) {
                 let distance = self.points[other].distance(place);
+                if distance == 0.0 {
+                    // None is nearer; of many points at one place all would be compared with all.
+                    return Some((distance, other));
+                }
                 // Of points at the same distance the first one counts: so the tree has no circle.
                 if distance < best || (distance == best && found.is_none_or(|(_, before)| other < before)) {
                     (best, found) = (distance, Some((distance, other)));

@@ -17,7 +17,9 @@ const STEP: f64 = 1.0;
 /// Spots in a chord of a stretch.
 const CHORD: usize = 5;
 /// And at this many places at most, in all.
-const MOST_PLACES: f64 = 200_000.0;
+const MOST_PLACES: f64 = 30_000.0;
+/// Of this many spots near a place the others are left out: no vessel is so wide, and each would be compared with all.
+const MOST_NEAR: usize = 200;
 /// A stretch side by side is at least so long (mm) …
 const SHORTEST: f64 = 10.0;
 /// … and this many radii, as lines that meet part slowly.
@@ -38,14 +40,15 @@ pub(super) fn side_by_side(lines: &[DoubtedLine]) -> Vec<(usize, usize, f64)> {
     let nearby = Nearby::new(&points);
     let mut runs: BTreeMap<(usize, usize), Runs> = BTreeMap::new();
     for (n, spot) in spots.iter().enumerate() {
-        let mut others = BTreeMap::new();
+        let (mut others, mut count) = (BTreeMap::new(), 0);
         nearby.within(points[n], near(spot.radius, spot.radius).hypot(step), |m| {
             let other = &spots[m];
             let most = near(spot.radius, other.radius);
             if other.vessel != spot.vessel && distance_to_line(points[n], &points, &spots, m) <= most {
                 others.entry(other.vessel).or_insert(smaller(spot.radius, other.radius).unwrap_or(0.0));
             }
-            true
+            count += 1;
+            count < MOST_NEAR
         });
         for (other, radius) in others {
             runs.entry((spot.vessel, other)).or_default().add(n, radius);

@@ -177,6 +177,15 @@ fn many_points_are_looked_at_whatever_their_order() {
     assert_eq!(kinds(&same), [] as [&str; 0]);
 }
 
+#[test]
+fn points_at_one_place_and_radii_beyond_any_vessel_are_looked_at_in_time() {
+    let many = |at: f64| along(100_000, move |n| [at, 0.0, if n < 99_998.0 { 0.0 } else { 1e6 * n }]);
+    assert!(doubts(&many(0.0)).len() <= 1);
+    let long = |at: f64| along(6, move |n| [at, 0.0, 5e4 * n]);
+    let lines = [(long(0.0), Some(1e9)), (long(1.0), Some(1e9)), (long(2.0), None)];
+    assert_eq!(beside(&lines), [""; 0], "lines that are shorter than their radii have no stretch");
+}
+
 fn beside(lines: &[(Vec<DVec3>, Option<f64>)]) -> Vec<String> {
     let radii: Vec<_> = lines.iter().map(|(points, radius)| radius.map(|r| vec![r; points.len()])).collect();
     let looked_at = lines.iter().zip(&radii).map(|((points, _), radius)| DoubtedLine {
