@@ -332,7 +332,8 @@ def test_a_gpu_that_is_given_up_is_a_warning_in_one_line(any_gpu, tmp_path):
     import nibabel
 
     array = np.swapaxes(too_large().array, 0, 2)
-    image = nibabel.Nifti1Image(array, np.eye(4))
+    # As long as a body, so that its size is not doubted.
+    image = nibabel.Nifti1Image(array, np.diag([0.25, 0.25, 0.25, 1.0]))
     image.header.set_xyzt_units("mm")
     nibabel.save(image, tmp_path / "long.nii")
     words = ["render", str(tmp_path / "long.nii"), "-o", str(tmp_path / "out.png"), "--size", "9x9"]
