@@ -19,6 +19,9 @@ needs_shared_data = pytest.mark.skipif(
     not SHARED_DATA.is_dir(), reason="the data folder ../shared/data is not beside the repository"
 )
 
+#: For tests whose lines are odd on purpose or by chance: that they are doubted is right.
+odd_lines = pytest.mark.filterwarnings("ignore::lumencut.errors.LineWarning")
+
 
 @pytest.fixture
 def shared_data() -> Path:

@@ -9,11 +9,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import lumencut
+from conftest import odd_lines
 from lumencut import FileError, FormatError, Vessel, VesselTree, VesselTreeError, write_centerlines
 from lumencut.centerlines import inspect_centerlines
 
-# Lines of random points are doubtful, as they should be.
-pytestmark = pytest.mark.filterwarnings("ignore::lumencut.errors.LineWarning")
+pytestmark = odd_lines
 
 ENDINGS = (".vtp", ".mrk.json")
 OTHER_ENDINGS = (".vtk", ".csv", ".swc")

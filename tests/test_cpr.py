@@ -7,6 +7,7 @@ import contextlib
 import numpy as np
 import pytest
 
+from conftest import odd_lines
 from cpr_scenes import GRIDS, helix, index_volumes, noise, trilinear, vessel, wave
 from lumencut import CameraError, Settings, Slab, Volume, cpr, straightened_volume
 from scenes import lattice, nearly_along_y, of_few_points
@@ -271,7 +272,7 @@ def test_cross_lines_beyond_the_centre_of_curvature_are_folded():
 
 
 # Each limb is one long step beyond a bend of short ones.
-@pytest.mark.filterwarnings("ignore::lumencut.errors.LineWarning")
+@odd_lines
 def test_limbs_that_cross_lines_reach_are_folded_there():
     # A hairpin in the coronal plane, 16 mm wide: the symmetry axis divides what belongs to each limb.
     a = np.linspace(0, np.pi, 200)

@@ -16,7 +16,7 @@ from hypothesis import strategies as st
 import reference
 import reference_images
 import reference_surface
-from conftest import needs_shared_data
+from conftest import needs_shared_data, odd_lines
 from lumencut import Camera, Renderer, Settings, Vessel, VesselTree, Volume, phantom, read_centerlines
 from lumencut._checked_settings import checked
 from scenes import lattice, nearly_along_y, of_few_points, wandering
@@ -277,6 +277,7 @@ tangles = st.lists(
 )
 
 
+@odd_lines
 @settings(max_examples=300, deadline=None)
 @given(tangles, st.sampled_from([(0, 1, 0), (1, 0, 0), (1, 1, 1)]), st.booleans())
 def test_tangles_of_points_with_whole_coordinates(lines, direction, lumen_first):
