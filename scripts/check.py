@@ -47,7 +47,7 @@ SCRIPTS = tuple(
             "fuzz",
         ),
         *("licences", "notices", "page", "render_phantom"),
-        *("settings", "source_files", "toolchain", "types_for_users", "wheel", "window_table"),
+        *("settings", "toolchain", "types_for_users", "wheel", "window_table", "words"),
     )
 )
 TOOLS = ("python", "rust", "targets", "vulkan", "page", "browser", "dicom")

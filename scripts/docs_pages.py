@@ -1,20 +1,20 @@
 """The pages of the documentation's site, as MkDocs takes them: links between them, and scripts as cards.
 
-Every page lies in one folder there, whether it comes from `docs` or from the root of the repository. A line
-that is a list's only link to a script of `examples` becomes a card: the script's own words, its picture
-where it makes one, and its code.
+The site has the folders of `docs`; pages of the repository's root lie next to its index. A list item that is
+only a link to a script of `examples` becomes a card with the script's docstring, picture and code.
 """
 
 from __future__ import annotations
 
 import ast
+import posixpath
 import re
 from dataclasses import dataclass
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-#: Pages of the root beside those of `docs`.
-OF_ROOT = ("METHOD", "BENCHMARKS", "ARCHITECTURE", "CONTRIBUTING", "CHANGELOG", "SECURITY", "CODE_OF_CONDUCT")
+#: Pages of the repository's root.
+OF_ROOT = ("ARCHITECTURE", "CONTRIBUTING", "CHANGELOG", "SECURITY", "CODE_OF_CONDUCT")
 #: Folders of scripts that become cards, and where their pictures lie in the site.
 EXAMPLES, GALLERY = ROOT / "examples", ROOT / "examples/gallery"
 PICTURES = "gallery"
@@ -26,18 +26,19 @@ _FENCE = re.compile(r"(^```.*?^```$)", re.MULTILINE | re.DOTALL)
 
 
 class PageError(Exception):
-    """A page that cannot be made: a link that leads nowhere, a script that says nothing of itself."""
+    """A page with a broken link, or a script without a title and a text."""
 
 
 def page_sources() -> dict[str, Path]:
-    """The pages by their names in the site."""
-    found = {path.name: path for path in sorted((ROOT / "docs").glob("*.md"))}
+    """The pages by their paths in the site, such as `method/tracing.md`."""
+    docs = ROOT / "docs"
+    found = {path.relative_to(docs).as_posix(): path for path in sorted(docs.rglob("*.md"))}
     return found | {f"{name}.md": ROOT / f"{name}.md" for name in OF_ROOT}
 
 
 @dataclass(frozen=True)
 class Script:
-    """A script of the examples: what it is called, what it says of itself, and its code."""
+    """A script of the examples."""
 
     path: Path
     title: str
@@ -81,7 +82,7 @@ def scripts_of(folder: Path) -> list[Script]:
 
 
 def site_page(source: Path) -> tuple[str, dict[str, Path]]:
-    """A page as the site has it, and the files that it links to, by their names in the site."""
+    """The text of a page in the site, and the files that it links to by their paths in the site."""
     files: dict[str, Path] = {}
     # Within code nothing is a link.
     parts = _FENCE.split(source.read_text("utf-8"))
@@ -100,22 +101,26 @@ def _carded(text: str, source: Path) -> str:
 
 
 def _moved(link: re.Match[str], source: Path, files: dict[str, Path]) -> str:
-    """A link as it is in the site."""
+    """The link in the site, relative to the page that holds it."""
     target, _, anchor = link[2].partition("#")
     if _ELSEWHERE.match(link[2]) or target.startswith(f"{PICTURES}/"):
         return link[0]
     path = (source.parent / target).resolve()
     anchor = f"#{anchor}" if anchor else ""
-    pages = {one: name for name, one in page_sources().items()}
-    if path in pages:
-        return f"{link[1]}({pages[path]}{anchor})"
-    if path == ROOT / "README.md":
-        return f"{link[1]}(index.md{anchor})"
-    if not path.is_file() or not path.is_relative_to(ROOT):
-        raise PageError(
-            f"{source.relative_to(ROOT)}: found the link {link[2]}; expected one to a file that is there"
-        )
-    name = path.relative_to(ROOT / "docs" if path.is_relative_to(ROOT / "docs") else ROOT).as_posix()
-    # MkDocs would make a page of it.
-    files[name] = path
-    return f"{link[1]}({name}{anchor})"
+    names = {one: name for name, one in page_sources().items()} | {ROOT / "README.md": "index.md"}
+    name = names.get(path)
+    if name is None:
+        if not path.is_file() or not path.is_relative_to(ROOT):
+            raise PageError(
+                f"{source.relative_to(ROOT)}: found the link {link[2]}; expected one to an existing file"
+            )
+        # Copied: MkDocs links only to its own files, and would make a page of a Markdown file.
+        name = _in_site(path)
+        files[name] = path
+    return f"{link[1]}({posixpath.relpath(name, posixpath.dirname(_in_site(source)) or '.')}{anchor})"
+
+
+def _in_site(path: Path) -> str:
+    """The path of a file of the repository in the site."""
+    docs = ROOT / "docs"
+    return path.relative_to(docs if path.is_relative_to(docs) else ROOT).as_posix()

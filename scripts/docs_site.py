@@ -1,4 +1,4 @@
-"""What is looked for in a built site: requests to other hosts, and links that lead nowhere."""
+"""Checks of a built site: no requests to other hosts, and no broken links."""
 
 from __future__ import annotations
 
@@ -9,18 +9,18 @@ from html.parser import HTMLParser
 from pathlib import Path
 from urllib.parse import unquote, urlsplit
 
-#: What a browser fetches by itself when a page opens; a link that somebody must click is none of them.
+#: Elements that a browser loads without a click.
 _FETCHED = {"img": "src", "script": "src", "iframe": "src", "source": "src", "video": "src", "audio": "src"}
 _OF_CSS = re.compile(r"(?:url\(|@import)\s*['\"]?((?:https?:)?//[^)'\"\s]+)")
 
 
 class SiteError(Exception):
-    """A site that asks other hosts, or whose links lead nowhere."""
+    """A site with requests to other hosts or broken links."""
 
 
 @dataclass
 class Page(HTMLParser):
-    """What a page fetches, where it links to, and what can be linked to in it."""
+    """What a page loads, its links, and its anchors."""
 
     fetched: list[str] = field(default_factory=list)
     links: list[str] = field(default_factory=list)
@@ -30,7 +30,7 @@ class Page(HTMLParser):
         super().__init__()
 
     def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
-        """Note what an element names."""
+        """Record what an element loads, links to or names."""
         named = {name: value for name, value in attrs if value}
         if tag in _FETCHED and (source := named.get(_FETCHED[tag])):
             self.fetched.append(source)
@@ -49,12 +49,12 @@ def read_page(path: Path) -> Page:
 
 
 def check_site(folder: Path) -> None:
-    """Look through all pages and sheets of a site.
+    """Check all pages and style sheets of a site.
 
     Raises
     ------
     SiteError
-        With every fault that was found, a line each.
+        With one line for each fault.
     """
     pages = {path: read_page(path) for path in sorted(folder.rglob("*.html"))}
     if not pages:
@@ -62,7 +62,7 @@ def check_site(folder: Path) -> None:
     faults = [f"{path.relative_to(folder)}: {fault}" for path in pages for fault in _faults(path, pages)]
     for sheet in sorted(folder.rglob("*.css")):
         asked = _OF_CSS.findall(sheet.read_text("utf-8"))
-        faults += [f"{sheet.relative_to(folder)}: asks {address}" for address in asked]
+        faults += [f"{sheet.relative_to(folder)}: requests {address}" for address in asked]
     if faults:
         raise SiteError("\n".join(["the site:", *faults]))
 
@@ -71,22 +71,22 @@ def _faults(path: Path, pages: dict[Path, Page]) -> Iterator[str]:
     page = pages[path]
     for address in page.fetched:
         if urlsplit(address).netloc:
-            yield f"asks {address}"
+            yield f"requests {address}"
         elif not urlsplit(address).scheme and not _leads_to(path, address).exists():
-            yield f"fetches {address}, which is not there"
+            yield f"fetches {address}, which does not exist"
     for link in page.links:
         parts = urlsplit(link)
         if parts.scheme or parts.netloc:
             continue
         target = _leads_to(path, link)
         if not target.exists():
-            yield f"links to {link}, which is not there"
+            yield f"links to {link}, which does not exist"
         elif target in pages and parts.fragment and unquote(parts.fragment) not in pages[target].anchors:
-            yield f"links to {link}, where no such heading is"
+            yield f"links to {link}, which has no such heading"
 
 
 def _leads_to(path: Path, link: str) -> Path:
-    """The file that a link means."""
+    """The file that a link points to."""
     inside = unquote(urlsplit(link).path)
     target = (path.parent / inside).resolve() if inside else path
     return target / "index.html" if target.is_dir() else target

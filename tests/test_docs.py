@@ -1,4 +1,4 @@
-"""The documentation's site: its pages and links, its scripts, and what is refused of a built site."""
+"""The documentation site: pages, links, scripts, and the checks of the built site."""
 
 import re
 import runpy
@@ -34,7 +34,7 @@ def test_every_page_is_in_the_navigation_and_the_other_way_round():
     assert sorted(named) == sorted([*docs_pages.page_sources(), *docs_api.api_pages()])
 
 
-def test_every_public_name_is_told_on_one_page():
+def test_every_public_name_is_on_one_page():
     told = [name for _, names in docs_api.GROUPS.values() for name in names]
     assert len(told) == len(set(told))
     assert set(told) | docs_api.UNTOLD == set(lumencut.__all__)
@@ -68,17 +68,47 @@ def test_every_link_of_a_page_leads_somewhere(name):
 
 @pytest.mark.parametrize("name", docs_pages.page_sources())
 def test_a_part_of_a_list_is_indented_by_four(name):
-    """GitHub takes less for a part of the item above it, the site does not."""
+    """GitHub accepts less indentation, MkDocs does not."""
     text = re.sub(r"^```.*?^```$", "", docs_pages.page_sources()[name].read_text("utf-8"), flags=re.S | re.M)
     assert re.findall(r"^\n {1,3}(?! ).*", text, re.MULTILINE) == []
 
 
 def test_links_are_those_of_the_site(tmp_path):
     text, files = docs_pages.site_page(ROOT / "docs/pictures.md")
-    assert "](METHOD.md)" in text
-    assert "](BENCHMARKS.md#five-criteria)" in text
+    assert "](method/cut-surface.md)" in text
+    assert "](results/accuracy.md)" in text
     assert files["images/csr.webp"] == ROOT / "docs/images/csr.webp"
     assert "](command-line.md)" in docs_pages.site_page(ROOT / "docs/gallery.md")[0]
+    assert "](docs/" not in docs_pages.site_page(ROOT / "ARCHITECTURE.md")[0]
+
+
+def test_links_of_pages_in_subfolders_are_relative(monkeypatch, tmp_path):
+    monkeypatch.setattr(docs_pages, "ROOT", tmp_path)
+    for name in (
+        "README.md",
+        "docs/measuring.md",
+        "docs/method/measuring.md",
+        "docs/images/one.png",
+        "docs/results/speed.md",
+        "scripts/one.py",
+        *(f"{one}.md" for one in docs_pages.OF_ROOT),
+    ):
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / name).touch()
+    page = tmp_path / "docs/method/measuring.md"
+    page.write_text(
+        "[a](../measuring.md#x) [b](../results/speed.md) [c](measuring.md) [d](../../CHANGELOG.md) "
+        "[e](../../README.md) ![f](../images/one.png) [g](../../scripts/one.py)",
+        "utf-8",
+    )
+    text, files = docs_pages.site_page(page)
+    assert text == (
+        "[a](../measuring.md#x) [b](../results/speed.md) [c](measuring.md) [d](../CHANGELOG.md) "
+        "[e](../index.md) ![f](../images/one.png) [g](../scripts/one.py)"
+    )
+    assert set(files) == {"images/one.png", "scripts/one.py"}
+    (tmp_path / "CHANGELOG.md").write_text("[a](docs/method/measuring.md) [b](SECURITY.md)", "utf-8")
+    assert docs_pages.site_page(tmp_path / "CHANGELOG.md")[0] == "[a](method/measuring.md) [b](SECURITY.md)"
 
 
 def test_a_link_that_leads_nowhere_is_refused(monkeypatch, tmp_path):
@@ -131,7 +161,7 @@ def test_every_name_that_a_page_shows_is_public():
 
 @pytest.mark.parametrize("path", [*EXAMPLES, *GALLERY], ids=lambda path: path.stem)
 def test_every_script_is_a_card_of_one_page(path):
-    page = "gallery.md" if path in GALLERY else "how-to.md"
+    page = "gallery.md" if path in GALLERY else "python.md"
     assert (ROOT / "docs" / page).read_text("utf-8").count(f"(../{path.relative_to(ROOT)})") == 1
     text, _ = docs_pages.site_page(ROOT / "docs" / page)
     script = docs_pages.script_of(path)
@@ -198,17 +228,17 @@ def test_a_good_site_passes(built):
 @pytest.mark.parametrize(
     ("parts", "fault"),
     [
-        ({"head": '<script src="https://example.org/a.js"></script>'}, "asks https://example.org/a.js"),
+        ({"head": '<script src="https://example.org/a.js"></script>'}, "requests https://example.org/a.js"),
         ({"head": '<link rel="stylesheet" href="//example.org/a.css">'}, "asks //example.org/a.css"),
-        ({"head": '<link rel="preconnect" href="https://example.org">'}, "asks https://example.org"),
-        ({"css": "a { background: url('https://example.org/a.png') }"}, "asks https://example.org/a.png"),
-        ({"css": "@import 'https://example.org/a.css';"}, "asks https://example.org/a.css"),
-        ({"body": '<img src="absent.webp">'}, "fetches absent.webp, which is not there"),
-        ({"body": '<a href="absent.html">a</a>'}, "links to absent.html, which is not there"),
-        ({"body": '<a href="other.html#absent">a</a>'}, "where no such heading is"),
+        ({"head": '<link rel="preconnect" href="https://example.org">'}, "requests https://example.org"),
+        ({"css": "a { background: url('https://example.org/a.png') }"}, "requests https://example.org/a.png"),
+        ({"css": "@import 'https://example.org/a.css';"}, "requests https://example.org/a.css"),
+        ({"body": '<img src="absent.webp">'}, "fetches absent.webp, which does not exist"),
+        ({"body": '<a href="absent.html">a</a>'}, "links to absent.html, which does not exist"),
+        ({"body": '<a href="other.html#absent">a</a>'}, "which has no such heading"),
     ],
 )
-def test_a_site_that_asks_others_or_leads_nowhere_is_refused(built, parts, fault):
+def test_requests_to_other_hosts_and_broken_links_are_rejected(built, parts, fault):
     with pytest.raises(docs_site.SiteError, match=re.escape(fault)):
         docs_site.check_site(built(**parts))
 
