@@ -129,6 +129,7 @@ def lint_checks() -> list[Check]:
     """Format, lint, types and documentation."""
     return [
         Check("toolchain", (sys.executable, "scripts/toolchain.py", *TOOLS)),
+        Check("words", (sys.executable, "scripts/words.py", "--check")),
         *python_lints(),
         *page_lints(),
         *rust_lints(),

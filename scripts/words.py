@@ -1,0 +1,350 @@
+"""Checks that the words of the repository stay few and plain.
+
+    python3 scripts/words.py --check    # fails with one line per fault
+    python3 scripts/words.py            # prints the counts
+
+It reads all Markdown pages, the comments, and the messages of the Python package, the page and the crates.
+"""
+
+from __future__ import annotations
+
+import argparse
+import ast
+import re
+import subprocess
+import sys
+from collections import Counter
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+
+#: Most words of all pages together, and of each page.
+MOST_WORDS = 45_000
+BUDGETS = {
+    "README.md": 1000,
+    "ARCHITECTURE.md": 2500,
+    "CONTRIBUTING.md": 900,
+    "CHANGELOG.md": 800,
+    "SECURITY.md": 250,
+    "CODE_OF_CONDUCT.md": 200,
+    "examples/README.md": 60,
+    "docs/index.md": 300,
+    "docs/start.md": 800,
+    "docs/gallery.md": 350,
+    "docs/pictures.md": 750,
+    "docs/viewer.md": 3500,
+    "docs/command-line.md": 900,
+    "docs/python.md": 1200,
+    "docs/notebook.md": 800,
+    "docs/reformations.md": 1300,
+    "docs/files.md": 2600,
+    "docs/cohorts.md": 1500,
+    "docs/clinic.md": 2600,
+    "docs/windows.md": 500,
+    "docs/settings.md": 1500,
+    "docs/measuring.md": 2000,
+    "docs/limits.md": 800,
+    "docs/comparison.md": 600,
+    "docs/glossary.md": 1200,
+    "docs/method/cut-surface.md": 3000,
+    "docs/method/surroundings.md": 1500,
+    "docs/method/reformations.md": 1500,
+    "docs/method/tracing.md": 1700,
+    "docs/method/measuring.md": 1500,
+    "docs/method/paper.md": 800,
+    "docs/results/accuracy.md": 3000,
+    "docs/results/speed.md": 2200,
+    "docs/results/laboratory.md": 800,
+}
+#: Most comment lines of all sources.
+MOST_COMMENTS = 16_600
+COMMENTED = ("*.rs", "*.py", "*.ts", "*.tsx", "*.wgsl")
+_COMMENT = re.compile(r"^[ \t]*(?://|#[^\[!]|\*|/\*\*)", re.MULTILINE)
+
+#: Words that stand in for a plainer one: pattern, most uses in all pages, most in all messages.
+DIALECT: dict[str, tuple[str, int, int]] = {
+    "tell, tells, told": (r"tells?|told", 60, 20),
+    "beside": (r"beside", 60, 15),
+    "whoever, whatever": (r"whoever|whatever", 15, 5),
+    "that is none": (r"that is none|which is none", 0, 0),
+    "so many": (r"so many", 5, 5),
+    "anew": (r"anew", 5, 5),
+    "go on, goes on": (r"go(?:es)? on", 5, 5),
+    "hang together": (r"hangs? together", 0, 0),
+    "of its own": (r"of (?:its|their) own", 10, 5),
+    "is had": (r"(?:is|be) had", 0, 0),
+}
+_DIALECT = {name: re.compile(rf"\b(?:{pattern})\b", re.IGNORECASE) for name, (pattern, *_) in DIALECT.items()}
+
+#: Most words of a sentence in a page and in a message.
+LONGEST_SENTENCE, LONGEST_MESSAGE = 30, 25
+#: A sentence or table row of so many words may stand once; prose lines may not share so many first words.
+REPEATED, SAME_START = 8, 7
+#: Pages that repeat sentences of others on purpose.
+SUMMARIES = {"README.md", "docs/index.md"}
+#: Legal texts, which stay as they are; their first words.
+QUOTED = ("Unless you state otherwise, any contribution intentionally submitted",)
+
+_FENCE = re.compile(r"^ *```.*?^ *```$", re.MULTILINE | re.DOTALL)
+_CODE = re.compile(r"`[^`\n]+`")
+_LINK = re.compile(r"!?\[([^\]]*)\]\([^)\s]+\)")
+_END = re.compile(r"(?<=[.!?])[*_)\"]*\s+")
+_PART = re.compile(r"(?<=[;:])\s+|\n\n")
+_ITEM = re.compile(r"^\s*(?:[*+-]|\d+\.)\s+")
+
+
+@dataclass(frozen=True)
+class Fault:
+    """One finding, with its place."""
+
+    place: str
+    text: str
+
+    def __str__(self) -> str:
+        return f"{self.place}: {self.text}"
+
+
+def tracked(*patterns: str) -> list[str]:
+    """The files of the repository that match, also new ones that git does not ignore."""
+    command = ["git", "ls-files", "--cached", "--others", "--exclude-standard", "--", *patterns]
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True)
+    return sorted({name for name in done.stdout.splitlines() if (ROOT / name).is_file()})
+
+
+def pages(left_out: Iterable[str] = ()) -> dict[str, str]:
+    """The text of every page by its path."""
+    without = set(left_out)
+    return {name: (ROOT / name).read_text("utf-8") for name in tracked("*.md") if name not in without}
+
+
+# Text
+
+
+def prose(text: str) -> str:
+    """A page without code blocks; code spans and links count as their words."""
+    return _LINK.sub(r"\1", _CODE.sub("code", _FENCE.sub("", text)))
+
+
+def paragraphs(text: str) -> Iterator[str]:
+    """Paragraphs and list items of a page, each on one line; no headings, tables or HTML."""
+    block: list[str] = []
+    for line in [*prose(text).splitlines(), ""]:
+        ends = not line.strip() or line.lstrip().startswith(("#", "|", "<", "---"))
+        if (ends or _ITEM.match(line)) and block:
+            yield " ".join(block)
+            block = []
+        if not ends:
+            block.append(_ITEM.sub("", line).strip())
+
+
+def sentences(paragraph: str) -> list[str]:
+    """The sentences of a paragraph."""
+    return [one.strip(" *_") for one in _END.split(paragraph) if one.strip(" *_")]
+
+
+def rows(text: str) -> list[str]:
+    """The rows of all tables of a page."""
+    lines = prose(text).splitlines()
+    return [" ".join(line.split()) for line in lines if line.startswith("|") and re.search(r"\w", line)]
+
+
+def words(text: str) -> int:
+    """The number of words."""
+    return sum(1 for word in text.split() if re.search(r"\w", word))
+
+
+# Checks of pages
+
+
+def over_budget(texts: dict[str, str]) -> Iterator[Fault]:
+    """Pages that are too long or have no budget."""
+    counts = {name: len(text.split()) for name, text in texts.items()}
+    for name, count in counts.items():
+        if name not in BUDGETS:
+            yield Fault(name, "found no budget; expected one in BUDGETS of scripts/words.py")
+        elif count > BUDGETS[name]:
+            yield Fault(name, f"found {count} words; expected at most {BUDGETS[name]}")
+    if sum(counts.values()) > MOST_WORDS:
+        yield Fault("all pages", f"found {sum(counts.values())} words; expected at most {MOST_WORDS}")
+
+
+def long_sentences(texts: dict[str, str]) -> Iterator[Fault]:
+    """Sentences of more than `LONGEST_SENTENCE` words."""
+    for name, text in texts.items():
+        for paragraph in paragraphs(text):
+            for one in sentences(paragraph):
+                if words(one) > LONGEST_SENTENCE and not one.startswith(QUOTED):
+                    yield Fault(name, f"{words(one)} words, at most {LONGEST_SENTENCE}: {one}")
+
+
+def repeated(texts: dict[str, str]) -> Iterator[Fault]:
+    """What a bad merge leaves: sentences and rows that stand twice, lines that start alike."""
+    first: dict[str, str] = {}
+    for name, text in texts.items():
+        parts = [one for paragraph in paragraphs(text) for one in sentences(paragraph)]
+        for part in [*parts, *rows(text)]:
+            if words(part) < REPEATED or name in SUMMARIES:
+                continue
+            if part in first:
+                yield Fault(name, f"stands in {first[part]} too: {part}")
+            first[part] = name
+        lines = [line.split() for line in prose(text).splitlines() if not line.startswith("|")]
+        starts = Counter(" ".join(line[:SAME_START]) for line in lines if len(line) >= SAME_START)
+        yield from (Fault(name, f"{n} lines start with: {start}") for start, n in starts.items() if n > 1)
+
+
+def dialect(texts: Iterable[str], place: str, limits: dict[str, int]) -> Iterator[Fault]:
+    """Words of the dialect that are used too often in all texts together."""
+    for name, count in dialect_counts("\n".join(texts)).items():
+        most = limits[name]
+        if count > most:
+            yield Fault(place, f"found {name!r} {count} times; expected at most {most}")
+
+
+def dialect_counts(text: str) -> dict[str, int]:
+    """How often a text uses each of the words."""
+    return {name: len(pattern.findall(text)) for name, pattern in _DIALECT.items()}
+
+
+# Comments and messages
+
+
+def comment_lines() -> int:
+    """The number of comment lines of all sources."""
+    return sum(len(_COMMENT.findall((ROOT / name).read_text("utf-8"))) for name in tracked(*COMMENTED))
+
+
+#: Functions whose arguments users read.
+SPEAKING = ("warn", "warning", "echo", "info")
+
+
+def python_messages(source: str) -> Iterator[str]:
+    """The texts of errors, warnings and help in Python."""
+    for node in ast.walk(ast.parse(source)):
+        if isinstance(node, ast.FunctionDef) and any(
+            "command(" in ast.unparse(d) for d in node.decorator_list
+        ):
+            # Paragraphs that click keeps as they are hold examples.
+            yield re.sub(r"\x08\n.*?(?:\n\n|\Z)", "", ast.get_docstring(node) or "", flags=re.DOTALL)
+        if isinstance(node, ast.Raise) and node.exc is not None:
+            yield from _texts(node.exc)
+        elif isinstance(node, ast.keyword) and node.arg in ("help", "short_help"):
+            yield from _texts(node.value)
+        elif isinstance(node, ast.Call) and getattr(node.func, "attr", "") in SPEAKING:
+            yield from (text for argument in node.args for text in _texts(argument))
+
+
+def _texts(node: ast.AST) -> Iterator[str]:
+    inside: set[int] = set()
+    for one in ast.walk(node):
+        if isinstance(one, ast.JoinedStr):
+            inside |= {id(part) for part in ast.walk(one)} - {id(one)}
+            yield "".join(
+                str(part.value) if isinstance(part, ast.Constant) else "value" for part in one.values
+            )
+        elif isinstance(one, ast.Constant) and isinstance(one.value, str) and id(one) not in inside:
+            yield one.value
+
+
+_TEXT = re.compile(r"'((?:[^'\\\n]|\\.)*)'|\"((?:[^\"\\\n]|\\.)*)\"|`((?:[^`\\]|\\.)*)`|>([^<>{}=;]+)<")
+_COMMENTS = re.compile(r"/\*.*?\*/|(?:^|\s)//[^\n]*", re.DOTALL)
+
+
+def page_messages(source: str) -> Iterator[str]:
+    """The texts of the viewer's page: strings and text between tags, of at least three words."""
+    for found in _TEXT.finditer(_COMMENTS.sub("", source)):
+        text = next(part for part in found.groups() if part is not None)
+        text = " ".join(re.sub(r"\$\{[^}]*\}", "value", text).split())
+        if words(text) >= 3 and re.search(r"[a-z]{3}", text):
+            yield text
+
+
+_RUST_TEXT = re.compile(r'"((?:[^"\\]|\\.)*)"', re.DOTALL)
+
+
+def rust_messages(source: str) -> Iterator[str]:
+    """The strings of a Rust file, without its unit tests, of at least three words."""
+    code = re.sub(r"^\s*//.*$", "", source.partition("#[cfg(test)]\nmod ")[0], flags=re.MULTILINE)
+    for text in _RUST_TEXT.findall(code):
+        text = " ".join(re.sub(r"\{[^}]*\}", "value", text.replace("\\\n", "")).split())
+        if words(text) >= 3 and "<" not in text:
+            yield text
+
+
+def messages() -> dict[str, list[str]]:
+    """All messages by the path of their source."""
+    rust = dict.fromkeys(
+        (name for name in tracked("crates/*/src/*.rs") if "/tests/" not in name), rust_messages
+    )
+    python = dict.fromkeys(tracked("python/lumencut/*.py"), python_messages)
+    page = dict.fromkeys(tracked("web/src/*.ts", "web/src/*.tsx"), page_messages)
+    found = {
+        name: list(read((ROOT / name).read_text("utf-8"))) for name, read in (python | page | rust).items()
+    }
+    return {name: texts for name, texts in found.items() if texts}
+
+
+def long_messages(found: dict[str, list[str]]) -> Iterator[Fault]:
+    """Sentences of more than `LONGEST_MESSAGE` words in messages, where ";" and ":" end one too."""
+    for name, texts in found.items():
+        for one in (one for text in texts for part in _PART.split(text) for one in sentences(part)):
+            if words(one) > LONGEST_MESSAGE:
+                yield Fault(name, f"{words(one)} words, at most {LONGEST_MESSAGE}: {' '.join(one.split())}")
+
+
+# All
+
+
+def faults(left_out: Iterable[str] = ()) -> list[Fault]:
+    """Every fault of the repository; pages in `left_out` are skipped."""
+    texts, said, comments = pages(left_out), messages(), comment_lines()
+    found = [*over_budget(texts), *long_sentences(texts), *repeated(texts)]
+    in_pages = {name: most for name, (_, most, _) in DIALECT.items()}
+    in_messages = {name: most for name, (_, _, most) in DIALECT.items()}
+    found += dialect(map(prose, texts.values()), "all pages", in_pages)
+    found += long_messages(said)
+    found += dialect((text for one in said.values() for text in one), "all messages", in_messages)
+    if comments > MOST_COMMENTS:
+        found.append(
+            Fault("all sources", f"found {comments} comment lines; expected at most {MOST_COMMENTS}")
+        )
+    return found
+
+
+def report() -> str:
+    """The counts as a table."""
+    texts, said = pages(), messages()
+    lines = [f"{len(text.split()):7} of {BUDGETS.get(name, 0):5}  {name}" for name, text in texts.items()]
+    lines.append(f"{sum(len(text.split()) for text in texts.values()):7} of {MOST_WORDS:5}  all pages")
+    lines.append(f"{comment_lines():7} of {MOST_COMMENTS:5}  comment lines")
+    spoken = "\n".join(text for one in said.values() for text in one)
+    in_messages = dialect_counts(spoken)
+    for name, count in dialect_counts("\n".join(map(prose, texts.values()))).items():
+        _, most, most_said = DIALECT[name]
+        lines.append(
+            f"{count:7} of {most:5}  {name!r} in pages; {in_messages[name]} of {most_said} in messages"
+        )
+    return "\n".join(lines)
+
+
+def main() -> int:
+    """Print the counts, or check them."""
+    parser = argparse.ArgumentParser(description="Check that the words of the repository stay few and plain.")
+    parser.add_argument("--check", action="store_true", help="fail with one line per fault")
+    parser.add_argument("--leave-out", nargs="*", default=[], metavar="PAGE", help="pages to skip")
+    given = parser.parse_args()
+    if not given.check:
+        print(report())
+        return 0
+    found = faults(given.leave_out)
+    for fault in found:
+        print(fault)
+    if found:
+        print(f"words: found {len(found)} faults; expected none", file=sys.stderr)
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
