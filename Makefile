@@ -1,18 +1,18 @@
-# Daily commands; `make help` lists them. Everything that is installed goes into .venv and target.
+# Daily commands; `make help` lists them. Everything is installed into .venv and target.
 
 PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
-# Python compiles what it imports; to compile all that is installed takes longer than to install it.
+# --no-compile: compiling everything takes longer than installing it.
 PIP := $(BIN)/python -m pip --disable-pip-version-check install --quiet --no-compile
 RESOLVE := $(BIN)/uv pip compile pyproject.toml --universal --python-version 3.11 --generate-hashes \
 	--no-header --no-annotate --upgrade --quiet --system-certs
 
-# How the extension module is compiled: `release` as users get it, or `checks` as the checks and the demo do, to have it soon.
+# Profile of the extension module: `release` for users, `checks` compiles faster.
 PROFILE := release
-# The demo and the pictures of the documentation take the module that is there, of whatever profile.
+# The demo and the documentation use the existing module, of any profile.
 DEMO_PROFILE = $(or $(patsubst $(VENV)/.lumencut-%,%,$(firstword $(wildcard $(VENV)/.lumencut-*))),checks)
-# What the extension module is built from: it is rebuilt when one of these is newer than the last build.
+# The extension module is rebuilt when one of these is newer than the last build.
 RUST_SOURCES := Cargo.toml Cargo.lock pyproject.toml $(wildcard crates/*/Cargo.toml) \
 	$(wildcard crates/*/build.rs) $(shell find crates/*/src)
 
@@ -23,34 +23,34 @@ RUST_SOURCES := Cargo.toml Cargo.lock pyproject.toml $(wildcard crates/*/Cargo.t
 help: ## List the commands.
 	@sed -n 's/^\([a-z-]*\):.*## /  make \1\t/p' $(MAKEFILE_LIST) | expand -t 22
 
-# The page and the package are compiled beside each other. By `--jobs` make would hand its slots down to both, and each would
-# compile as if the machine had two cores. Neither waits for the other: the pictures are there as soon as the package is.
-demo: toolchain ## Build what is needed and render the demo into ./demo; DEVICE=gpu or cpu says what computes.
+# Page and package are compiled in parallel, 3.5 min on two cores; with `--jobs`, both would take all job slots.
+demo: toolchain ## Build what is needed and render the demo into ./demo; DEVICE=gpu or cpu selects the device.
 	@$(PYTHON) scripts/page.py --if-possible & page=$$!; \
 	$(MAKE_COMMAND) --no-print-directory develop PROFILE=$(DEMO_PROFILE) && \
 	$(BIN)/lumencut demo $(if $(DEVICE),--device $(DEVICE)) demo; pictures=$$?; \
 	if kill -0 $$page 2>/dev/null; then echo "The viewer's page is still being built; \`lumencut view\` needs it."; fi; \
 	wait $$page && exit $$pictures
 
-page: toolchain ## Build the viewer's page into the package where its sources changed; needs Node.
+page: toolchain ## Build the viewer's page into the package if its sources changed; needs Node.
 	@$(PYTHON) scripts/page.py
 
-site: toolchain ## Write the viewer's page into ./site, for any server of files; needs Node.
+site: toolchain ## Write the viewer's page into ./site, for a static file server; needs Node.
 	@$(PYTHON) scripts/page.py --site site
 
-docs: toolchain $(VENV)/.docs ## Build the site of the documentation into ./docs-site, its pictures anew.
+# Takes 34 s on two cores once MkDocs is installed; needs the CT of the demo.
+docs: toolchain $(VENV)/.docs ## Build the documentation site into ./docs-site, including its pictures.
 	@$(MAKE_COMMAND) --no-print-directory develop PROFILE=$(DEMO_PROFILE)
 	@$(BIN)/python scripts/docs.py
 
 test: ## Run every check; the last line is `N passed, N failed`.
 	@$(PYTHON) scripts/check.py
 
-test-long: develop tools page $(VENV)/.docs ## Run what takes minutes by itself: uncertainties in 288 scenes, containers, the site of the documentation, notebooks, long ways through the viewer, and a million damaged files.
+test-long: develop tools page $(VENV)/.docs ## Run the tests that take minutes: uncertainties in 288 scenes, containers, cohorts, the documentation site, notebooks, the viewer, a million damaged files.
 	$(BIN)/python -m pytest --quiet --numprocesses=2 tests/long_calibration.py tests/long_cohort.py tests/long_containers.py tests/long_docs.py tests/long_notebook.py
 	npm run check-long --silent --prefix web
 	@$(PYTHON) scripts/fuzz.py --runs $(or $(RUNS),1000000)
 
-lint: ## Run only format, lint, types and documentation checks.
+lint: ## Run only the checks of format, lint, types, words and documentation.
 	@$(PYTHON) scripts/check.py --lint
 
 format: tools ## Format Rust and Python, and apply the safe fixes of the linter.
@@ -58,16 +58,16 @@ format: tools ## Format Rust and Python, and apply the safe fixes of the linter.
 	$(BIN)/ruff check --fix --quiet
 	$(BIN)/ruff format --quiet
 
-settings: develop ## Write again what repeats the table of settings: the class and docs/settings.md.
+settings: develop ## Write the files that repeat the table of settings: the class and docs/settings.md.
 	$(BIN)/python scripts/settings.py
 
-types: toolchain ## Write again what repeats the table of questions: the types of the page.
+types: toolchain ## Write the file that repeats the table of questions: the types of the page.
 	LUMENCUT_WRITE_TYPES=1 cargo test --quiet --profile checks --package lumencut --lib types_of_the_page
 
-fuzz: toolchain ## Feed the readers of centerlines with made-up files; RUNS=1000000 says how many.
+fuzz: toolchain ## Fuzz the readers of centerlines; RUNS=1000000 sets the number of inputs.
 	@$(PYTHON) scripts/fuzz.py $(if $(RUNS),--runs $(RUNS))
 
-bench: develop tools ## Measure this machine, VTK beside it; prints tables, keeps nothing.
+bench: develop tools ## Measure this machine and VTK; prints tables, keeps nothing.
 	cargo bench --locked --package lumencut-core --bench '*'
 	$(BIN)/python benches/another_tree.py
 	$(BIN)/python benches/context_vs_vtk.py
@@ -77,26 +77,26 @@ bench: develop tools ## Measure this machine, VTK beside it; prints tables, keep
 	$(BIN)/python benches/trace_mask.py
 	$(BIN)/python benches/find_vessels.py
 
-calibration: develop ## See whether the uncertainty of measured diameters holds, in 288 scenes; prints a table.
+calibration: develop ## Check the uncertainty of measured diameters in 288 scenes; prints a table.
 	PYTHONPATH=tests $(BIN)/python tests/calibration.py 24
 
-bench-gpu: toolchain ## Measure the GPU, this machine's CPU beside it; QUICK=--quick for slow ones.
+bench-gpu: toolchain ## Measure GPU and CPU of this machine; QUICK=--quick for slow ones.
 	cargo bench --locked --package lumencut-gpu --bench stages -- $(QUICK)
 
-compare-dicom: develop $(VENV)/.peers ## Have other readers read the DICOM cases too; rewrites the table of docs/dicom.md.
+compare-dicom: develop $(VENV)/.peers ## Read the DICOM cases with other readers too; rewrites the table of docs/dicom.md.
 	$(BIN)/python scripts/compare_dicom.py --update docs/dicom.md
 
-bench-dicom: develop tools ## Measure how fast long DICOM series are read, the decoder alone beside it.
+bench-dicom: develop tools ## Measure the reading of long DICOM series and of the decoder alone.
 	$(BIN)/python benches/read_dicom.py
 
-wheel: page $(VENV)/.wheel ## Build the wheels and the source package into ./dist, and try them out; takes minutes.
+wheel: page $(VENV)/.wheel ## Build the wheels and the source package into ./dist, and try them; takes minutes.
 	@$(PYTHON) scripts/toolchain.py rust targets
 	@$(BIN)/python scripts/wheel.py
 
-licences: toolchain ## Write THIRD-PARTY-LICENSES anew: the licence texts of the linked crates.
+licences: toolchain ## Write THIRD-PARTY-LICENSES: the licence texts of the linked crates.
 	@$(PYTHON) scripts/licences.py
 
-lock: $(VENV)/.python ## Resolve the Python requirements anew into requirements/*.lock.
+lock: $(VENV)/.python ## Resolve the Python requirements again into requirements/*.lock.
 	$(PIP) uv
 	$(RESOLVE) --group build --output-file requirements/runtime.lock
 	$(RESOLVE) --group dev --constraints requirements/runtime.lock --output-file requirements/dev.lock
@@ -116,8 +116,7 @@ tools: $(VENV)/.dev
 toolchain:
 	@$(PYTHON) scripts/toolchain.py rust
 
-# The stamps: an empty environment, what the package needs, what its developers need, what links its wheels,
-# what makes the site of the documentation, what it is compared with, the package itself.
+# Stamps of installed sets: empty environment, package requirements, developer tools, documentation, wheels, other DICOM readers.
 $(VENV)/.python:
 	@$(PYTHON) scripts/toolchain.py python
 	$(PYTHON) -m venv $(VENV)
@@ -143,7 +142,7 @@ $(VENV)/.peers: requirements/peers.lock $(VENV)/.runtime
 	$(PIP) --require-hashes --requirement $<
 	@touch $@
 
-# There is one extension module in .venv, so there is one stamp: that of the profile it was compiled with.
+# .venv holds one extension module, so there is one stamp, named after its profile.
 $(VENV)/.lumencut-$(PROFILE): $(RUST_SOURCES) $(VENV)/.runtime | toolchain
 	PATH="$(abspath $(BIN)):$$PATH" $(PIP) --no-deps --no-build-isolation \
 		--config-settings "maturin.build-args=--profile $(PROFILE)" --editable .

@@ -1,10 +1,8 @@
 """Every check of the repository, cheapest first; it stops at the first red one.
 
-Checks are in lanes that run beside each other: the page is compiled while Rust is checked, for neither
-keeps both cores busy.
-The last line is ``N passed, N failed``: the tests of Rust and Python together, and a red
-check that is no test counts as one that failed.
-Needs nothing but Python itself; the environment is the first check.
+Checks run in parallel lanes: the page is compiled while Rust is checked, since neither keeps both cores busy.
+The last line is ``N passed, N failed``: the tests of all languages; a red check without tests counts as one
+failed test. The script needs only Python itself. On two cores without a GPU it takes about 20 minutes.
 """
 
 from __future__ import annotations
@@ -27,11 +25,11 @@ from toolchain import TARGETS, WASM
 ROOT = Path(__file__).resolve().parent.parent
 BIN = ".venv/bin"
 PORTABLE = ("--workspace", "--exclude", "lumencut-python")
-"""All crates but the extension module, which needs the Python of its target."""
+"""Without the extension module, which needs the Python of its target."""
 COMPILED_ELSEWHERE = {WASM, "aarch64-unknown-linux-gnu"}
-"""The page compiles what browsers load; for ARM stands macOS, as no code is meant for ARM under Linux."""
+"""The page compiles for browsers; macOS covers ARM, as no code is specific to ARM under Linux."""
 CHECKS = ("--locked", "--profile", "checks")
-"""One profile for all, so that what the compilations share is compiled once."""
+"""One profile for all, so shared crates compile once."""
 SCRIPTS = tuple(
     f"scripts/{name}.py"
     for name in (
@@ -53,9 +51,9 @@ SCRIPTS = tuple(
 TOOLS = ("python", "rust", "targets", "vulkan", "page", "browser", "dicom")
 FUZZED = "crates/lumencut-io/fuzz/Cargo.toml"
 FUZZ_RUNS = 110_000
-"""Inputs of libFuzzer, over all formats."""
+"""Inputs of libFuzzer over all formats."""
 MAIN, PAGE, PYTHON, FUZZ = "main", "page", "python", "fuzzing"
-"""The lanes. That of the page and that of Rust have folders of their own for what they compile."""
+"""The lanes. Page and Rust use separate build folders."""
 
 
 @dataclass(frozen=True)
@@ -74,21 +72,21 @@ class Count:
 
 @dataclass(frozen=True)
 class Check:
-    """A command that must succeed; where it runs tests, `count` reads them from its report."""
+    """A command that must succeed; `count` reads the number of tests from its report."""
 
     name: str
     command: tuple[str, ...]
     environment: dict[str, str] = field(default_factory=dict)
     count: Callable[[str], Count] | None = None
     report: str = ""
-    #: Checks of one lane run in their order; what the others print is shown when they are done.
+    #: Checks of a lane run in order; output of lanes other than MAIN is shown at the end of each check.
     lane: str = MAIN
-    #: Names of checks of other lanes that must be green before.
+    #: Checks that must be green before, in any lane.
     needs: tuple[str, ...] = ()
 
 
 def count_rust(text: str) -> Count:
-    """The tests in what ``cargo test`` printed."""
+    """The tests in the output of ``cargo test``."""
     results = re.findall(r"^test result: \w+\. (\d+) passed; (\d+) failed;", text, re.MULTILINE)
     return sum((Count(int(passed), int(failed)) for passed, failed in results), Count())
 
@@ -105,23 +103,23 @@ def count_python(text: str) -> Count:
 
 
 def count_page(text: str) -> Count:
-    """The tests of Vitest and Playwright, which their script counts in its last line."""
+    """The tests of Vitest and Playwright, from the last line of their script."""
     found = re.findall(r"^(\d+) passed, (\d+) failed$", text, re.MULTILINE)
     return Count(*map(int, found[-1])) if found else Count(failed=1)
 
 
 RED_TEST = re.compile(r"^(?:FAILED .*|test \S.* \.\.\. FAILED|---- .* stdout ----)$", re.MULTILINE)
-"""How pytest, the page's script and cargo name a test that failed."""
+"""How pytest, the page's script and cargo name a failed test."""
 MOST_NAMED = 20
 
 
 def red_tests(text: str) -> str:
-    """The tests that failed, as a check printed them: the first of many, and the beginning of long lines."""
+    """The first failed tests that a check printed, long lines cut."""
     return "".join(f"\n   {one[:300]}" for one in RED_TEST.findall(text)[:MOST_NAMED])
 
 
 def last_lines(text: str) -> str:
-    """The end of what a check printed, which mostly says why it failed; nothing where it printed nothing."""
+    """The last lines that a check printed, which usually show why it failed."""
     return "".join(f"\n   {one[:300]}" for one in text.strip().splitlines()[-MOST_NAMED:])
 
 
@@ -139,7 +137,7 @@ def lint_checks() -> list[Check]:
 
 
 def python_lints() -> list[Check]:
-    """What needs the Python tools alone, one after the other."""
+    """Checks that need only the Python tools."""
     tools = Check("tools", ("make", "--no-print-directory", "tools"), lane=PYTHON, needs=("toolchain",))
     commands = {
         "format of Python": ("ruff", "format", "--check"),
@@ -156,7 +154,7 @@ def python_lints() -> list[Check]:
 
 
 def page_lints() -> list[Check]:
-    """The page, which is compiled for browsers, and what is checked of its sources."""
+    """The build of the page and the checks of its sources."""
     return [
         Check(
             "page of the viewer", ("make", "--no-print-directory", "page"), lane=PAGE, needs=("toolchain",)
@@ -167,14 +165,14 @@ def page_lints() -> list[Check]:
 
 
 def rust_lints() -> list[Check]:
-    """Format, lints and documentation of Rust, and what it compiles for."""
+    """Format, lints, documentation and targets of Rust."""
     cargo = ("cargo", "--quiet")
     lock = (*cargo, "update", "--workspace", "--locked", "--manifest-path", FUZZED)
     clippy = (*cargo, "clippy", *CHECKS, "--workspace", "--all-targets", "--", "-D", "warnings")
     targets = (f"--target={one}" for one in TARGETS if one not in COMPILED_ELSEWHERE)
     return [
         Check("format of Rust", ("cargo", "fmt", "--all", "--check")),
-        # Fuzzing comes last and has a lock file of its own: what a crate newly depends on is asked for here.
+        # Fuzzing has its own lock file and comes last: a new dependency would fail there too late.
         Check("lock file of fuzzing", lock),
         Check("licences", (sys.executable, "scripts/licences.py", "--check")),
         Check("lint of Rust", clippy),
@@ -183,14 +181,14 @@ def rust_lints() -> list[Check]:
             (*cargo, "doc", *CHECKS, "--workspace", "--no-deps"),
             {"RUSTDOCFLAGS": "-D warnings"},
         ),
-        # One command for all of them: both cores have work to the end.
+        # One command for all targets keeps both cores busy.
         Check("other platforms", (*cargo, "check", *CHECKS, *PORTABLE, *targets)),
     ]
 
 
 def test_checks(report: str) -> list[Check]:
-    """The tests; pytest writes what it counted to the file `report`."""
-    # Elsewhere the tests of the GPU are left out where there is none; here that would be a hole.
+    """The tests; pytest writes its counts to the file `report`."""
+    # In CI, a missing GPU must not skip its tests.
     environment = {"LUMENCUT_REQUIRE_GPU": "1"} if os.environ.get("CI") else {}
     return [
         Check(
@@ -212,7 +210,7 @@ def test_checks(report: str) -> list[Check]:
             count=count_page,
             needs=("size of the page",),
         ),
-        # It takes what the tests of the page leave idle while they wait for the browser, and no more.
+        # It uses the time in which the tests of the page wait for the browser.
         Check(
             "fuzzing",
             ("nice", "-n", "19", sys.executable, "scripts/fuzz.py", "--runs", str(FUZZ_RUNS)),
@@ -223,9 +221,9 @@ def test_checks(report: str) -> list[Check]:
 
 
 def run(check: Check) -> tuple[int, str]:
-    """The exit status of the command, and what it printed, which only the main lane shows at once."""
+    """Run a command; return its exit status and output."""
     lines = []
-    # A `make` that runs this script would hand its job slots down to commands that cannot use them.
+    # Commands cannot use the job slots of a `make` that runs this script.
     inherited = {name: value for name, value in os.environ.items() if not name.startswith(("MAKE", "MFLAGS"))}
     heading = f"\n== {check.name}: {' '.join(check.command)}\n"
     if check.lane == MAIN:
@@ -251,7 +249,7 @@ def run(check: Check) -> tuple[int, str]:
 
 
 def judge(check: Check) -> tuple[Count, str]:
-    """Run one check: what it counted, and what is wrong (nothing when it is green)."""
+    """Run one check; return its counts and what is wrong, empty if green."""
     try:
         status, text = run(check)
     except OSError as error:
@@ -272,7 +270,7 @@ def judge(check: Check) -> tuple[Count, str]:
 
 
 class Run:
-    """Checks in their lanes, up to the first red one; what is under way then is done to its end."""
+    """Checks in their lanes, up to the first red one; running checks still finish."""
 
     def __init__(self, checks: list[Check]) -> None:
         self.checks = checks
@@ -282,7 +280,7 @@ class Run:
         self.changed = threading.Condition()
 
     def perform(self) -> None:
-        """Run all lanes beside each other."""
+        """Run all lanes in parallel."""
         lanes = [
             threading.Thread(target=self.follow, args=(one,)) for one in {c.lane: None for c in self.checks}
         ]
@@ -292,19 +290,19 @@ class Run:
             lane.join()
 
     def follow(self, lane: str) -> None:
-        """Run the checks of a lane in their order."""
+        """Run the checks of a lane in order."""
         for check in self.checks:
             if check.lane == lane and self.may_begin(check):
                 start = time.monotonic()
                 try:
                     count, wrong = judge(check)
                 except Exception as error:
-                    # The other lanes would wait for it for ever.
+                    # Otherwise the other lanes would wait forever.
                     count, wrong = Count(failed=1), repr(error)
                 self.note(check.name, time.monotonic() - start, count, wrong)
 
     def may_begin(self, check: Check) -> bool:
-        """Wait for what a check needs; not where a check was red before it begins."""
+        """Wait for the needed checks; return False if a check is red."""
         with self.changed:
             self.changed.wait_for(
                 lambda: self.red or {name for name, _ in self.seconds}.issuperset(check.needs)
@@ -312,7 +310,7 @@ class Run:
             return not self.red
 
     def note(self, name: str, seconds: float, count: Count, wrong: str) -> None:
-        """Keep what became of a check."""
+        """Record the result of a check."""
         with self.changed:
             self.total += count
             self.seconds.append((name, seconds))
@@ -321,20 +319,20 @@ class Run:
 
 
 def perform(checks: list[Check]) -> Count:
-    """Run the checks up to the first red one, and tell how long each took."""
+    """Run the checks up to the first red one, and print the seconds of each."""
     start, run = time.monotonic(), Run(checks)
     run.perform()
     print("\n== seconds")
     for name, taken in [*run.seconds, ("all", time.monotonic() - start)]:
         print(f"{taken:8.1f}  {name}")
-    # Last, as logs are often kept from their end.
+    # Last, because logs are often cut at their start.
     for red in run.red:
         print(f"\n== RED: {red}\n")
     return run.total
 
 
 def main() -> int:
-    """Run the checks that the command line asks for and print the count as the last line."""
+    """Run the selected checks and print the count as the last line."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--lint", action="store_true", help="leave the tests out")
     lint_only = parser.parse_args().lint

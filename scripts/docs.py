@@ -1,9 +1,9 @@
-"""Build the site of the documentation into ./docs-site: offline, searchable, with pictures made anew.
+"""Build the documentation site into ./docs-site: offline, searchable, with new pictures.
 
     .venv/bin/python scripts/docs.py
 
-Pages are put together in target/docs, the scripts of the gallery make their pictures there, MkDocs makes
-HTML, and what it made is looked through. Only a whole site takes the place of the one before.
+It collects the pages in target/docs, runs the scripts of the gallery, runs MkDocs and checks the result.
+Only a complete site replaces the previous one.
 """
 
 from __future__ import annotations
@@ -23,14 +23,14 @@ from docs_site import SiteError, check_site
 
 WORK = ROOT / "target/docs"
 PAGES, SITE = WORK / "pages", WORK / "site"
-#: What the pages of the site need beside their text.
+#: Files that the pages of the site load.
 OWN_FILES = ("site.css", "iframe-worker.js")
-#: How long one picture may take (s).
+#: Time limit of one picture (s).
 _PATIENCE = 300
 
 
 def write_pages(folder: Path) -> None:
-    """Write all pages, and copy what they link to."""
+    """Write all pages, and copy the files they link to."""
     for name, source in page_sources().items():
         text, files = site_page(source)
         _write(folder / name, text)
@@ -49,7 +49,7 @@ def _write(path: Path, text: str) -> None:
 
 
 def check_stent() -> None:
-    """Fail at once where the CT that most pictures show cannot be had."""
+    """Fail at once if the CT that most pictures show is not available."""
     from lumencut.demo import stent_scene
     from lumencut.errors import LumencutError
 
@@ -60,7 +60,7 @@ def check_stent() -> None:
 
 
 def draw(script: Script, folder: Path) -> float:
-    """Run a script of the gallery; the seconds that it took."""
+    """Run a script of the gallery and return the seconds it took."""
     start = time.monotonic()
     paths = [str(ROOT / "python"), os.environ.get("PYTHONPATH", "")]
     environment = os.environ | {"PYTHONPATH": os.pathsep.join(filter(None, paths))}
@@ -79,9 +79,7 @@ def draw(script: Script, folder: Path) -> float:
         raise PageError(f"{script.path.name}: {done.stderr.strip().splitlines()[-1]}")
     assert script.picture is not None
     if not (folder / script.picture).is_file():
-        raise PageError(
-            f"{script.path.name}: found no {script.picture} after it ran; expected that it makes one"
-        )
+        raise PageError(f"{script.path.name}: found no {script.picture} after it ran; expected this picture")
     return time.monotonic() - start
 
 
@@ -101,19 +99,19 @@ def build() -> None:
     check_stent()
     write_pages(PAGES)
     draw_all(PAGES / PICTURES)
-    # MkDocs says on stderr what it reads; warnings end it.
+    # With --strict, warnings of MkDocs end the build.
     environment = os.environ | {"NO_MKDOCS_2_WARNING": "true"}
     mkdocs = [sys.executable, "-m", "mkdocs", "build", "--strict", "--quiet"]
     if subprocess.run(mkdocs, cwd=ROOT, env=environment, check=False).returncode:
         raise PageError("MkDocs: found the warnings above; expected none")
-    # It is for a server at the root of a host alone.
+    # It works only at the root of a host.
     (SITE / "404.html").unlink()
     check_site(SITE)
 
 
 def main() -> int:
-    """Build, and put the whole site where it belongs."""
-    parser = argparse.ArgumentParser(description="Build the site of the documentation into ./docs-site.")
+    """Build the site and move it to its place."""
+    parser = argparse.ArgumentParser(description="Build the documentation site into ./docs-site.")
     parser.add_argument("--output", type=Path, default=ROOT / "docs-site", help="where the site goes")
     target: Path = parser.parse_args().output
     start = time.monotonic()

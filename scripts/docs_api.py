@@ -1,4 +1,4 @@
-"""The pages that tell every public name of the Python package, grouped by subject."""
+"""The pages of all public names of the Python package, grouped by subject."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 _CONTENTS = ROOT / "python/lumencut/__init__.py"
 
-#: The groups: the page's name, its title, and the public names on it, in their order.
+#: Page name, title, and the public names on it.
 GROUPS: dict[str, tuple[str, tuple[str, ...]]] = {
     "scenes": (
         "Scans and vessels",
@@ -68,10 +68,10 @@ GROUPS: dict[str, tuple[str, tuple[str, ...]]] = {
         ),
     ),
 }
-#: No part of the method: the version, which needs no page.
+#: Needs no page.
 UNTOLD = {"__version__"}
 
-#: What Sphinx calls a role: a name in a docstring that editors follow.
+#: A Sphinx role: a name in a docstring that editors follow.
 _ROLE = re.compile(r":(?:attr|class|data|func|meth):`~?(?:lumencut\.)?([\w.]+)`")
 #: A line of a table of parameters, whose type is shown as code.
 _TYPED = re.compile(r"^[\w, *]+ : .*$", re.MULTILINE)
@@ -79,14 +79,14 @@ _TYPED = re.compile(r"^[\w, *]+ : .*$", re.MULTILINE)
 
 @cache
 def public_names() -> dict[str, str]:
-    """Every public name of the package, and the module that it lives in; read, not imported."""
+    """Every public name of the package and its module; read from the source, not imported."""
     block = next(node for node in ast.parse(_CONTENTS.read_text("utf-8")).body if isinstance(node, ast.If))
     imports = [node for node in block.body if isinstance(node, ast.ImportFrom)]
     return {alias.name: f"{node.module}" for node in imports for alias in node.names}
 
 
 def api_pages() -> dict[str, str]:
-    """The pages by their names in the site, each a heading and the names that mkdocstrings tells."""
+    """The pages by their paths in the site: a heading, and directives for mkdocstrings."""
     homes = public_names()
     pages = {}
     for page, (title, names) in GROUPS.items():
@@ -96,7 +96,7 @@ def api_pages() -> dict[str, str]:
 
 
 def linked(text: str) -> str:
-    """A docstring with links to the pages of public names in the place of its roles."""
+    """A docstring whose roles are links to the pages of public names."""
     return _ROLE.sub(_link, _TYPED.sub(lambda line: _ROLE.sub(r"\1", line[0]), text))
 
 

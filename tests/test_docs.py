@@ -2,6 +2,7 @@
 
 import re
 import runpy
+import subprocess
 from pathlib import Path
 
 import pytest
@@ -109,6 +110,30 @@ def test_links_of_pages_in_subfolders_are_relative(monkeypatch, tmp_path):
     assert set(files) == {"images/one.png", "scripts/one.py"}
     (tmp_path / "CHANGELOG.md").write_text("[a](docs/method/measuring.md) [b](SECURITY.md)", "utf-8")
     assert docs_pages.site_page(tmp_path / "CHANGELOG.md")[0] == "[a](method/measuring.md) [b](SECURITY.md)"
+
+
+def tracked_sources() -> dict[str, str]:
+    """The text of every source file by its path."""
+    patterns = ("*.rs", "*.py", "*.pyi", "*.ts", "*.tsx", "*.wgsl", "*.toml", "*.json", "Makefile")
+    command = ["git", "ls-files", "--cached", "--others", "--exclude-standard", "--", *patterns]
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True)
+    paths = [name for name in done.stdout.splitlines() if (ROOT / name).is_file()]
+    return {name: (ROOT / name).read_text("utf-8") for name in paths}
+
+
+@pytest.mark.parametrize("page", ["ARCHITECTURE.md", "CONTRIBUTING.md"])
+def test_files_and_names_of_the_code_that_a_page_names_exist(page):
+    text = re.sub(r"^```.*?^```$", "", (ROOT / page).read_text("utf-8"), flags=re.DOTALL | re.MULTILINE)
+    spans = {span for span in re.findall(r"`([^`\n]+)`", text) if "NAME" not in span}
+    sources = tracked_sources()
+    known = set(re.findall(r"\w+", "\n".join(sources.values())))
+    files = {one for span in spans for one in re.findall(r"[\w./-]+\.(?:rs|py|wgsl|tsx?|json|toml)\b", span)}
+    files -= {"x.rs", "x.wgsl", "stages/x.rs", "stages/x.wgsl", "before.json", "after.json"}
+    missing = [one for one in files if not any(f"/{name}".endswith(f"/{one}") for name in sources)]
+    assert missing == []
+    words = {word for span in spans - files for word in re.findall(r"[A-Za-z_]\w{3,}", span)}
+    shown = {"trefoil", "parameters", "DecompressionStream", "open_x", "reference_"}
+    assert sorted(words - known - shown) == []
 
 
 def test_a_link_that_leads_nowhere_is_refused(monkeypatch, tmp_path):
@@ -229,7 +254,7 @@ def test_a_good_site_passes(built):
     ("parts", "fault"),
     [
         ({"head": '<script src="https://example.org/a.js"></script>'}, "requests https://example.org/a.js"),
-        ({"head": '<link rel="stylesheet" href="//example.org/a.css">'}, "asks //example.org/a.css"),
+        ({"head": '<link rel="stylesheet" href="//example.org/a.css">'}, "requests //example.org/a.css"),
         ({"head": '<link rel="preconnect" href="https://example.org">'}, "requests https://example.org"),
         ({"css": "a { background: url('https://example.org/a.png') }"}, "requests https://example.org/a.png"),
         ({"css": "@import 'https://example.org/a.css';"}, "requests https://example.org/a.css"),
