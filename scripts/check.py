@@ -197,6 +197,7 @@ def test_checks(report: str) -> list[Check]:
             environment,
             count=count_rust,
         ),
+        # `--dist loadfile` was not faster as a whole: a long file at the end leaves one worker idle.
         Check(
             "tests of Python",
             (f"{BIN}/python", "-m", "pytest", "--quiet", "--numprocesses=2", f"--junitxml={report}"),
