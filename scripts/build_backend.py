@@ -1,8 +1,8 @@
-"""The build backend of the package: maturin's, which first builds the viewer's page where that is possible.
+"""The build backend of the package: maturin's, after building the viewer's page if possible.
 
-Without Node, Rust's wasm target or the network the package is built all the same; `lumencut view` then says
-how to get the page. A packed source has the page in it and no sources of it, so nothing is built there. An
-editable install serves the page that `make page` builds.
+Without Node, Rust's wasm target or the network, the package has no page; `lumencut view` then explains how to
+get it. A packed source contains the page instead of its sources. An editable install serves the page that
+`make page` builds.
 """
 
 from __future__ import annotations
@@ -38,20 +38,20 @@ def build_wheel(
     config_settings: Mapping[str, Any] | None = None,
     metadata_directory: str | None = None,
 ) -> str:
-    """Build a wheel, with the page in it where that can be."""
+    """Build a wheel, with the page if possible."""
     _build_page()
     return str(maturin.build_wheel(wheel_directory, config_settings, metadata_directory))
 
 
 def build_sdist(sdist_directory: str, config_settings: Mapping[str, Any] | None = None) -> str:
-    """Pack the sources, with the page in them where that can be."""
+    """Pack the sources, with the page if possible."""
     _build_page()
     return str(maturin.build_sdist(sdist_directory, config_settings))
 
 
 def _build_page() -> None:
     if _WEB.is_dir():
-        # A packed source has neither `web/` nor the scripts that build it.
+        # A packed source has neither `web/` nor its build scripts.
         from page import build_if_possible
 
         build_if_possible()

@@ -1,8 +1,8 @@
-"""Whether what a reader made of a DICOM case is right.
+"""Judges what a reader returned for a DICOM case.
 
-Every slice that comes back is looked for among the images that were written (as it is, or mirrored): equal
-pixels say which image it is, and the corners of the two say how far from its place in the body it was put. A
-slice that equals no image was made by the reader: it is right where it agrees with the phantom's formula.
+Every returned slice is searched among the written images (also mirrored): equal pixels identify the image,
+and the corners of both give the error of its position. A slice that equals no image was interpolated by the
+reader: it must agree with the phantom's formula.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ FEWEST = 3
 
 @dataclass(frozen=True)
 class Verdict:
-    """One of the five kinds, and what is to be said."""
+    """One of the five kinds, and the explanation."""
 
     kind: str
     words: str = ""
@@ -39,7 +39,7 @@ class Verdict:
 
 @dataclass(frozen=True)
 class Found:
-    """What one volume of an answer is: the stack it is of, and what is wrong with it."""
+    """The stack that a returned volume shows, and its faults."""
 
     part: str | None
     fault: str = ""
@@ -69,7 +69,7 @@ def judged(case: Case, made: Made, answer: Answer) -> Verdict:
 
 
 def volume_found(volume: Grid, images: Sequence[Image], loss: float) -> Found:
-    """Find out what a volume is."""
+    """Identify a volume."""
     voxels, affine = volume
     if not np.isfinite(voxels).all():
         return Found(None, "values that are no numbers")
@@ -93,7 +93,7 @@ def volume_found(volume: Grid, images: Sequence[Image], loss: float) -> Found:
 
 
 def off(far: float) -> str:
-    """Say how far slices are from their place."""
+    """Describe how far slices are from their places."""
     if far > LOST:
         return "at a made-up place"
     return f"up to {far:.2g} mm off" if far < 10 else f"up to {far:.0f} mm off"
@@ -130,7 +130,7 @@ def placed(
 
 
 def made_up(volume: Grid, images: Sequence[Image]) -> Found:
-    """Judge a volume with slices of the reader's own making by the formula of the phantom."""
+    """Judge a volume with interpolated slices by the formula of the phantom."""
     voxels, affine = volume
     for image in images:
         if image.values.shape == voxels.shape[1:] and np.ptp(voxels[0] + image.values) < 1e-3:
@@ -138,7 +138,7 @@ def made_up(volume: Grid, images: Sequence[Image]) -> Found:
     k, j, i = np.indices(voxels.shape)
     world = np.stack([i, j, k], -1) @ affine[:3, :3].T + affine[:3, 3]
     corners = np.concatenate([corner_points(one) for one in images])
-    # A margin leaves out padding and what is interpolated from half of the neighbours.
+    # The margin excludes padding and values interpolated from half of the neighbours.
     inside = ((world > corners.min(0) + 4) & (world < corners.max(0) - 4)).all(-1)
     inside &= voxels != voxels.min()
     if not inside.any():

@@ -1,6 +1,6 @@
-"""Readers of DICOM: others, each used as its documentation says and with its default settings, and Lumencut.
+"""Lumencut and other DICOM readers, each used as documented, with default settings.
 
-Lumencut alone is told what a case asks for: the others have no such option, or choose by themselves.
+Only Lumencut gets the options of a case: the others have none, or choose themselves.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ Grid = tuple[npt.NDArray[Any], npt.NDArray[np.float64]]
 
 @dataclass
 class Answer:
-    """What a reader made of a folder: volumes, and what it said."""
+    """What a reader returned for a folder: volumes and messages."""
 
     volumes: list[Grid] = field(default_factory=list)
     errors: list[str] = field(default_factory=list)
@@ -39,7 +39,7 @@ class Answer:
 
 @contextlib.contextmanager
 def heard(answer: Answer) -> Iterator[None]:
-    """Listen to warnings, and to what compiled code prints to the error stream."""
+    """Capture warnings and the stderr of compiled code."""
     with tempfile.TemporaryFile() as spoken, warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         kept = os.dup(2)
@@ -56,12 +56,12 @@ def heard(answer: Answer) -> Iterator[None]:
 
 
 def about_code(category: type[Warning]) -> bool:
-    """Whether a warning speaks to programmers, not of the files."""
+    """Whether a warning is about code, not about the files."""
     return issubclass(category, (DeprecationWarning, FutureWarning, PendingDeprecationWarning))
 
 
 def attempt(answer: Answer, read: Callable[[], Grid | None]) -> None:
-    """Read one volume; whatever is raised is an answer too."""
+    """Read one volume; an exception is an answer too."""
     try:
         volume = read()
     except Exception as error:
@@ -98,7 +98,7 @@ def simpleitk(path: Path, case: Case) -> Answer:
             finder = SimpleITK.ImageSeriesReader
             for uid in finder.GetGDCMSeriesIDs(str(path)):
                 names = finder.GetGDCMSeriesFileNames(str(path), uid)
-                # A series of one file, such as a multi-frame one, is no matter of the series reader.
+                # A series of one file, such as a multi-frame one, needs the image reader.
                 for one in [names] if len(names) > 1 and not multiframe(names) else map(Path, names):
                     attempt(answer, lambda one=one: read(one))  # type: ignore[misc]
     return answer
@@ -126,7 +126,7 @@ def highdicom(path: Path, case: Case) -> Answer:
         # Its indices run (slice, row, column).
         return volume.array, volume.affine[:, [2, 1, 0, 3]]
 
-    # It can show MONOCHROME1 inverted; here the values are asked for.
+    # No inversion of MONOCHROME1: the values count.
     plain = {"apply_presentation_lut": False}
     with heard(answer):
         for file in sorted(path.rglob("*")) if path.is_dir() else [path]:

@@ -1,4 +1,4 @@
-"""How MkDocs reads the docstrings: their roles become links."""
+"""An extension for MkDocs: roles in docstrings become links."""
 
 from __future__ import annotations
 
@@ -8,15 +8,15 @@ from typing import Any
 
 from griffe import Extension, Object
 
-# MkDocs loads this file by its path.
+# MkDocs loads this file by path.
 sys.path.append(str(Path(__file__).resolve().parent))
 from docs_api import linked
 
 
 class Roles(Extension):
-    """Changes every docstring as it is read."""
+    """Changes every docstring on loading."""
 
     def on_object(self, *, obj: Object, **_: Any) -> None:
-        """Put links in the place of roles."""
+        """Replace roles by links."""
         if obj.docstring:
             obj.docstring.value = linked(obj.docstring.value)

@@ -1,4 +1,4 @@
-"""How far the arrays of two folders of frames differ: in how many frames and pixels, and by how much."""
+"""Compares the arrays of two folders of frames: frames and pixels that differ, and by how much."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ LIMITS = {**LIMITS_OF_TESTS, "position": LIMITS_OF_TESTS["depth"]}
 
 @dataclass
 class Tally:
-    """What was found of one kind of array in all frames."""
+    """Counts of one kind of array over all frames."""
 
     frames: int = 0
     different_frames: int = 0
@@ -32,7 +32,7 @@ class Tally:
     """How many pixels differ by more than each tolerance."""
 
     def add(self, name: str, one: npt.NDArray[Any], other: npt.NDArray[Any]) -> list[str]:
-        """Count one pair of arrays, and say what is beyond the limits in it."""
+        """Count one pair of arrays, and describe what exceeds the limits."""
         pixels, result = one.shape[0] * one.shape[1], compare(other, one)
         self.frames += 1
         self.different_frames += one.tobytes() != other.tobytes()
@@ -58,7 +58,7 @@ class Tally:
 
 @dataclass
 class Differences:
-    """What was found in all frames."""
+    """Counts over all frames."""
 
     frames: int = 0
     different_frames: int = 0
@@ -86,7 +86,7 @@ class Differences:
             self.worse[frame] = worse
 
     def show(self) -> None:
-        """Print the counts as a table, and each frame that is beyond the limits."""
+        """Print the counts as a table, and each frame that exceeds the limits."""
         print(f"frames that differ: {self.different_frames} of {self.frames}\n")
         print("| array | frames that differ | pixels that differ | largest difference | pixels beyond |")
         print("| --- | --- | --- | --- | --- |")
@@ -98,7 +98,7 @@ class Differences:
 
 
 def difference(first: Path, second: Path) -> int:
-    """Compare two folders of arrays; the exit status is 1 where frames are too far apart or in one alone."""
+    """Compare two folders of arrays; the exit status is 1 if frames exceed the limits or are in one only."""
     one, other = ({path.name: path for path in sorted(folder.glob("*.npz"))} for folder in (first, second))
     found = Differences()
     for name in dict.fromkeys([*one, *other]):

@@ -1,4 +1,4 @@
-"""Hashes of the arrays of frames, and what is not the same in two files of them."""
+"""Hashes of the arrays of frames, and the differences between two files of hashes."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def hashed(arrays: Arrays) -> Hashes:
 
 
 def unequal(one: Hashes, other: Hashes) -> dict[str, str]:
-    """For each array that is not the same in both, what is not, in words."""
+    """For each array that differs, the difference in words."""
     names = dict.fromkeys([*one, *other])
     return {
         name: _change(one.get(name), other.get(name)) for name in names if one.get(name) != other.get(name)
@@ -47,7 +47,7 @@ def _change(one: Mapping[str, Any] | None, other: Mapping[str, Any] | None) -> s
 
 
 def compare_kind(kind: str, one: dict[str, Hashes], other: dict[str, Hashes]) -> bool:
-    """Print how many of the scenes or frames are equal, and each difference; whether all are."""
+    """Print the number of equal scenes or frames and each difference; return whether all are equal."""
     arrays, different_arrays, different = 0, 0, {}
     names = dict.fromkeys([*one, *other])
     for name in names:
@@ -66,10 +66,10 @@ def compare_kind(kind: str, one: dict[str, Hashes], other: dict[str, Hashes]) ->
 
 
 def compare(first: Path, second: Path) -> int:
-    """Compare two files of hashes; the exit status is 1 where anything is not equal."""
+    """Compare two files of hashes; the exit status is 1 if anything differs."""
     one, other = (json.loads(path.read_text("utf-8")) for path in (first, second))
     if one["device"] != other["device"]:
         print(f"devices: {one['device']} and {other['device']}")
-    # Where a scene differs, so may its frames, though they are rendered alike.
+    # If a scene differs, its frames may differ although rendering is the same.
     same = [compare_kind(kind, one[kind], other[kind]) for kind in ("scenes", "frames")]
     return 0 if all(same) else 1

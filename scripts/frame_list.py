@@ -1,4 +1,4 @@
-"""The list of frames by which two states of the code are compared: every setting, many views and scenes."""
+"""The frames that compare two states of the code: every setting, many views and scenes."""
 
 from __future__ import annotations
 
@@ -111,7 +111,7 @@ def of_workload() -> Iterator[Entry]:
 
 
 def of_mixed_stages() -> Iterator[Entry]:
-    """Frames of which the GPU makes some stages and the CPU the others."""
+    """Frames whose stages are split between GPU and CPU."""
     behind, view = {"opacity": SEE_THROUGH}, View(size=(71, 52))
     for stages in ("distance", "depth", "distance,depth", "surface,silhouette", "context,composite"):
         what = f"on the CPU {stages}"
@@ -119,7 +119,7 @@ def of_mixed_stages() -> Iterator[Entry]:
 
 
 def of_phantoms() -> Iterator[Entry]:
-    """Scenes whose answers are known."""
+    """Scenes with known answers."""
     for scene in (*SMALL, *(f"stenosis {percent}" for percent in STENOSES)):
         for view in (View("anterior", (90, 100)), View("left", (77, 64)), View(size=(81, 80))):
             yield Entry(scene, view.direction, view=view)
@@ -176,7 +176,7 @@ def of_trees() -> Iterator[Entry]:
 
 
 def of_real_data() -> Iterator[Entry]:
-    """Angiographies of patients, where they are there."""
+    """Angiographies of patients, if their files exist."""
     several: dict[str, Values] = {
         "default": {},
         "no context": {"context": None, "silhouettes": False, "depth_filter": False},
@@ -194,7 +194,7 @@ def of_real_data() -> Iterator[Entry]:
 
 
 def of_the_cpu() -> Iterator[Entry]:
-    """More and larger frames, by the CPU alone: a GPU of software would take minutes."""
+    """More and larger frames, on the CPU only: a software GPU would take minutes."""
     for scene in ("aorta", "trefoil", "tree lattice", "tree nearly along y", "tree many vessels", "stent"):
         shows: Literal["all", "cut surface"] = "cut surface" if scene.startswith("tree") else "all"
         for n in range(12):
@@ -209,6 +209,6 @@ def of_the_cpu() -> Iterator[Entry]:
 
 
 def entries() -> list[Entry]:
-    """The whole list, in the order in which it is rendered."""
+    """The whole list, in rendering order."""
     groups = (of_workload, of_mixed_stages, of_phantoms, of_volumes, of_trees, of_real_data, of_the_cpu)
     return [entry for group in groups for entry in group()]

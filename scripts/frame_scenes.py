@@ -1,4 +1,4 @@
-"""The scenes of the list of frames: volumes and vessel trees, made anew in the same way each time."""
+"""The scenes of the list of frames: volumes and vessel trees, reproducible on every run."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ GRIDS = {
 
 @dataclass(frozen=True)
 class Scene:
-    """What a renderer is made of."""
+    """The arguments of a renderer."""
 
     volume: Volume | None
     tree: VesselTree | None
@@ -201,5 +201,5 @@ SCENES = _makers()
 
 @cache
 def scene(name: str) -> Scene | None:
-    """The scene of this name, or None where its files are not there."""
+    """The scene of this name, or None if its files do not exist."""
     return SCENES[name]()

@@ -1,7 +1,6 @@
 """The settings of the list of frames: every setting at several values.
 
-Only what is varied is named and the others are left at their defaults, so that a setting that a later version
-adds changes nothing here.
+Only varied settings are named, so settings added later change nothing here.
 """
 
 from __future__ import annotations
@@ -97,7 +96,7 @@ def picture_settings() -> Iterator[tuple[str, Values]]:
             rules: Values = {"silhouette_rule": rule, "level_choice": choice}
             yield f"silhouette_rule {rule}, level_choice {choice}", rules
         yield f"silhouette_rule {rule}, unfiltered", {"silhouette_rule": rule, "depth_filter": False}
-    # It acts under this rule alone.
+    # It acts only under this rule.
     yield from each("silhouette_slope", (0.001, 1, 8, 100, 1e6), silhouette_rule="gradient")
     yield from each("silhouette_reach", (None, 0, 1, 5, 40))
     yield from each("silhouette_reach", (8,), silhouette_rule="gradient")

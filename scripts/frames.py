@@ -1,9 +1,9 @@
-"""Whether two states of the code render the same frames.
+"""Checks whether two states of the code render the same frames.
 
-``frames.py write`` renders a fixed list of frames and writes their hashes. Run it in both states, each with
-a Python that has that state of Lumencut; then ``frames.py compare`` names the frames that are not equal to
-the bit. Where frames may differ a little, as on a GPU, write their arrays too: ``frames.py difference``
-counts the pixels that differ, and fails where frames are farther apart than the tests of the GPU allow.
+``frames.py write`` renders a fixed list of frames and writes their hashes. Run it with a Python of each state;
+then ``frames.py compare`` names the frames that differ in any bit. On a GPU frames may differ slightly:
+write their arrays too; ``frames.py difference`` counts the pixels that differ and applies the limits of the
+GPU tests.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ DeviceName = Literal["cpu", "gpu"]
 
 
 class Renderers:
-    """The renderers of one device: each is made once and used for all frames of its scene, as in a viewer."""
+    """The renderers of one device, one per scene, as in a viewer."""
 
     def __init__(self, device: DeviceName) -> None:
         self._device = device
@@ -76,7 +76,7 @@ def chosen(device: DeviceName, part: str) -> list[tuple[Entry, Scene]]:
 
 
 def rendered(listed: list[tuple[Entry, Scene]], renderers: Renderers) -> Iterator[tuple[str, Arrays]]:
-    """The arrays of the frames, one frame after the other, with progress on stderr."""
+    """The arrays of each frame, with progress on stderr."""
     start = time.monotonic()
     for count, (entry, made) in enumerate(listed, 1):
         frame = renderers.frame(entry, made)
@@ -98,7 +98,7 @@ def input_of(made: Scene) -> Arrays:
 
 
 def write(file: Path, device: DeviceName, folder: Path | None, part: str) -> int:
-    """Write the hashes of all frames and, where a folder for them is given, their arrays."""
+    """Write the hashes of all frames and, if a folder is given, their arrays."""
     if folder is not None:
         folder.mkdir(parents=True, exist_ok=True)
         if any(folder.iterdir()):
@@ -119,7 +119,7 @@ def write(file: Path, device: DeviceName, folder: Path | None, part: str) -> int
 
 
 def main() -> int:
-    """Do what the command line asks for; the exit status is 1 where frames differ."""
+    """Run the chosen command; the exit status is 1 if frames differ."""
     kept = argparse.RawDescriptionHelpFormatter
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=kept)
     commands = parser.add_subparsers(dest="command", required=True)

@@ -1,8 +1,8 @@
-"""Feed the readers of centerlines with inputs that a fuzzer makes up, as many as the command line asks for.
+"""Fuzzes the readers of centerlines.
 
-Builds the targets of crates/lumencut-io/fuzz with the stable compiler: the coverage that
-libFuzzer follows is a pass of LLVM that needs no sanitizer. `cargo fuzz` runs the same targets.
-What the fuzzer learns is kept in the target folder and goes on from there the next time.
+Builds the targets of crates/lumencut-io/fuzz with the stable compiler: the coverage of libFuzzer is an LLVM
+pass that needs no sanitizer. `cargo fuzz` runs the same targets. The corpus is kept in the target folder for
+the next run.
 """
 
 from __future__ import annotations
@@ -21,9 +21,9 @@ ROOT = Path(__file__).resolve().parent.parent
 CRATE = ROOT / "crates/lumencut-io/fuzz"
 TARGET = Path(os.environ.get("CARGO_TARGET_DIR") or ROOT / "target").resolve() / "fuzz"
 NAMES = sorted(path.stem for path in (CRATE / "fuzz_targets").glob("*.rs"))
-#: Inputs per target where the command line names no number.
+#: Default number of inputs per target.
 RUNS = 20_000
-#: Counters for libFuzzer at every edge, and calls at every comparison.
+#: Counters at every edge, calls at every comparison.
 COVERAGE = (
     "--cfg=fuzzing",
     "-Cpasses=sancov-module",
@@ -32,14 +32,14 @@ COVERAGE = (
     "-Cllvm-args=-sanitizer-coverage-pc-table",
     "-Cllvm-args=-sanitizer-coverage-trace-compares",
 )
-#: The targets count memory and the time that they compute themselves; this bounds the whole process, and ends
-#: one that hangs. It must be patient: beside other work an input of no time was once told as two seconds.
+#: The targets limit memory and time themselves; this ends a process that hangs. Generous, because a busy
+#: machine once took two seconds for a trivial input.
 LIMITS = ("-timeout=60", "-rss_limit_mb=1024", "-max_len=65536")
 
 
 @dataclass(frozen=True)
 class Outcome:
-    """What the fuzzer told of one target."""
+    """The output of the fuzzer for one target."""
 
     name: str
     status: int
@@ -47,7 +47,7 @@ class Outcome:
     text: str
 
     def stated(self, pattern: str) -> str:
-        """The last number that the text states in this way, 0 where it states none."""
+        """The last number of this form in the text, or 0."""
         numbers: list[str] = re.findall(rf"{pattern} *(\d+)", self.text)
         return numbers[-1] if numbers else "0"
 
@@ -58,7 +58,7 @@ class Outcome:
 
     @property
     def found(self) -> str:
-        """The file of the input that failed, nothing where none did."""
+        """The file of the failing input, or nothing."""
         return "".join(re.findall(r"Test unit written to (.*)", self.text)[-1:])
 
     def __str__(self) -> str:
@@ -73,7 +73,7 @@ def build() -> Path:
     """Build the targets; returns the folder where they are."""
     told = subprocess.run(("rustc", "-vV"), cwd=ROOT, check=True, capture_output=True, text=True).stdout
     host: str = re.findall(r"^host: (.*)$", told, re.MULTILINE)[0]
-    # With a target named, the flags are left out of what runs while building.
+    # With a named target, build scripts and macros are compiled without the flags.
     command = ("cargo", "build", "--quiet", "--locked", "--release", "--bins", "--target", host)
     environment = os.environ | {"RUSTFLAGS": " ".join(COVERAGE), "CARGO_TARGET_DIR": str(TARGET)}
     subprocess.run(command, cwd=CRATE, check=True, env=environment)
@@ -102,7 +102,7 @@ def fuzz(program: Path, runs: int) -> Outcome:
 
 
 def told_wrong(outcome: Outcome) -> str:
-    """What is wrong with a target, with the input to look at; nothing where all went well."""
+    """The fault of a target with the failing input, or nothing."""
     if outcome.status == 0 and outcome.inputs:
         return ""
     lines = re.findall(r"^.*panicked at .*\n.*$|^.*ERROR: .*$", outcome.text, re.MULTILINE)
@@ -111,7 +111,7 @@ def told_wrong(outcome: Outcome) -> str:
 
 
 def main() -> int:
-    """Fuzz the targets that the command line names; the status is 1 where an input fails."""
+    """Fuzz the named targets; the status is 1 if an input fails."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
     parser.add_argument("targets", nargs="*", metavar="TARGET", help=f"of {', '.join(NAMES)}; all by default")
     parser.add_argument("--runs", type=int, help=f"inputs in all, {RUNS} per target by default")

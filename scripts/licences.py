@@ -1,9 +1,8 @@
-"""Write THIRD-PARTY-LICENSES: the licence texts of the crates that are linked into the extension module.
+"""Write THIRD-PARTY-LICENSES: the licence texts of the crates linked into the extension module.
 
-The texts are those that the crates themselves ship; a text that several crates share stands once.
-A crate that ships none is named in `WITHOUT_TEXT` and gets the standard text of its licence.
-With --check nothing is written: the file must be what the locked crates make of it.
-Needs nothing but Python itself and cargo, which downloads the crates.
+The texts come from the crates; shared texts appear once. A crate without a text is listed in `WITHOUT_TEXT`
+and gets the standard text of its licence. With --check the file must match the locked crates.
+Needs only Python itself and cargo, which downloads the crates.
 """
 
 from __future__ import annotations
@@ -20,16 +19,16 @@ from typing import Any
 
 ROOT = Path(__file__).resolve().parent.parent
 LISTING = ROOT / "THIRD-PARTY-LICENSES"
-#: The crate whose dependencies end up in the extension module.
+#: The crate of the extension module.
 PACKAGE = "lumencut-python"
-#: The platforms that the package may be compiled for; what any of them links is listed.
+#: All platforms of the package; the list covers the crates of each.
 TARGETS = (
     "x86_64-unknown-linux-gnu",
     "aarch64-unknown-linux-gnu",
     "x86_64-pc-windows-gnu",
     "aarch64-apple-darwin",
 )
-#: Crates that ship no licence text, so that theirs is the standard text.
+#: Crates without a licence text; they get the standard text.
 WITHOUT_TEXT = frozenset(
     {
         "block2",
@@ -76,7 +75,7 @@ class Crate:
 
 
 def standard_text(licence: str, holders: str) -> str:
-    """The standard text of the first licence of an SPDX expression that this repository has a text of."""
+    """The standard text of the first licence in an SPDX expression with a text in this repository."""
     choices = re.split(r" OR |/", licence)
     if "Apache-2.0" in choices:
         return (ROOT / "LICENSE-APACHE").read_text("utf-8")
@@ -109,7 +108,7 @@ def crate_of(package: dict[str, Any]) -> Crate:
 
 
 def linked(metadata: dict[str, Any], root: str) -> list[dict[str, Any]]:
-    """The packages of others that are compiled into `root`: what only builds or tests is left out."""
+    """The foreign packages compiled into `root`, without build and test dependencies."""
     packages = {package["id"]: package for package in metadata["packages"]}
     needs = {node["id"]: node["deps"] for node in metadata["resolve"]["nodes"]}
     wanted = [key for key, package in packages.items() if package["name"] == root]
@@ -144,7 +143,7 @@ def linked_crates(targets: Sequence[str], root: str = PACKAGE) -> list[Crate]:
 
 
 def listing(crates: Iterable[Crate], heading: str = HEADING) -> str:
-    """The file: the crates, and each text once with the names of the crates that it is of."""
+    """The file: the crates, then each text once with its crates."""
     table, texts = [], dict[str, tuple[str, list[str]]]()
     for crate in crates:
         remark = " (ships no licence text)" if crate.is_standard else ""
@@ -161,7 +160,7 @@ def listing(crates: Iterable[Crate], heading: str = HEADING) -> str:
 
 
 def main() -> None:
-    """Write the file, or compare it; stop where a crate has no text or the file is stale."""
+    """Write or compare the file; fail if a crate has no text or the file is stale."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
     parser.add_argument("--check", action="store_true", help="write nothing; fail where the file is stale")
     check = parser.parse_args().check

@@ -1,7 +1,7 @@
-"""Write the notices of the viewer's page: the licence texts of the npm packages and crates that are in it.
+"""Write the notices of the viewer's page: the licence texts of its npm packages and crates.
 
-The packages are those that `web/package-lock.json` names as needed at run time, with the texts that they
-ship; the crates are those that the WebAssembly links. Run by `make page` after `npm ci`.
+Packages are the run-time ones of `web/package-lock.json`, crates those that the WebAssembly links.
+`make page` runs it after `npm ci`.
 """
 
 from __future__ import annotations
@@ -15,14 +15,14 @@ from licences import Crate, LicenceError, linked_crates, listing, shipped_texts,
 
 ROOT = Path(__file__).resolve().parent.parent
 WEB = ROOT / "web"
-#: The build of the page takes it over as it is.
+#: The build of the page copies it.
 NOTICES = WEB / "public/THIRD-PARTY-NOTICES.txt"
 #: The crate that becomes the WebAssembly.
 CRATE = "lumencut-wasm"
 TARGET = "wasm32-unknown-unknown"
-#: Packages that ship no licence text, so that theirs is the standard text.
+#: Packages without a licence text; they get the standard text.
 WITHOUT_TEXT: frozenset[str] = frozenset({"@cornerstonejs/codec-openjpeg"})
-#: Packages that hold a compiled library, whose licence they do not ship, and texts in `web/licences` for it.
+#: Packages with a compiled library whose licence they do not ship, and its text in `web/licences`.
 COMPILED = {
     "@cornerstonejs/codec-charls": ("charls",),
     "@cornerstonejs/codec-libjpeg-turbo-8bit": ("isc", "libjpeg-turbo"),
@@ -45,7 +45,7 @@ def packages(web: Path) -> list[Crate]:
 
 
 def needed(locked: dict[str, dict[str, Any]]) -> Iterator[tuple[str, dict[str, Any]]]:
-    """The places of packages in a lock file that are no tools; the page itself is in the empty place."""
+    """The paths of run-time packages in a lock file; the empty path is the page itself."""
     for place, told in locked.items():
         if place and not (told.get("dev") or told.get("devOptional") or told.get("link")):
             yield place, told
@@ -74,7 +74,7 @@ def crates() -> list[Crate]:
 
 
 def write() -> None:
-    """Write the file; where nothing changed it stays as old as it is."""
+    """Write the file, unless nothing changed."""
     text = listing([*packages(WEB), *crates()], HEADING)
     if not NOTICES.is_file() or NOTICES.read_text("utf-8") != text:
         NOTICES.parent.mkdir(parents=True, exist_ok=True)

@@ -1,12 +1,11 @@
-"""Build the viewer's page and put it where the package serves it from, or write it as a site of its own.
+"""Build the viewer's page into the package, or write it as a separate site.
 
 The page is built from `web/` by Node 20 or newer, and its WebAssembly by Rust:
 
     npm ci --prefix web && npm run build --prefix web
 
-Nothing is built again as long as no source is newer than the page. With --if-possible a missing tool is told
-and is no error; with --site FOLDER the built page is copied for any server of files. Needs nothing but Python
-itself beside these tools.
+It builds only if a source is newer than the page. With --if-possible a missing tool is reported but is no
+error; with --site FOLDER the page is copied for a static file server. Needs only Python and these tools.
 """
 
 from __future__ import annotations
@@ -28,19 +27,19 @@ ROOT = Path(__file__).resolve().parent.parent
 WEB = ROOT / "web"
 #: Where the package serves the page from.
 PAGE = ROOT / "python/lumencut/viewer/page"
-#: What the build writes, or what is installed for it; none of it is a source.
+#: Written by the build or installed for it; not sources.
 _NO_SOURCES = {"node_modules", "dist", "test-results", "playwright-report", ".vite"}
-#: Addresses that would leave the folder of the page.
+#: Addresses that leave the folder of the page.
 _ABSOLUTE = re.compile(r"""(?:src|href)\s*=\s*["']?(?:/|[a-z]+:)""", re.IGNORECASE)
 _LICENCES = ("LICENSE-MIT", "LICENSE-APACHE")
 
 
 class PageError(Exception):
-    """A page that cannot be built, or is not what it should be."""
+    """A page that cannot be built or is invalid."""
 
 
 def sources() -> Iterator[Path]:
-    """What the page is built from."""
+    """The sources of the page."""
     of_crates = (ROOT.glob(f"crates/*/{pattern}") for pattern in ("src/**/*", "Cargo.toml", "build.rs"))
     for path in (*WEB.rglob("*"), *chain.from_iterable(of_crates)):
         inner = path.relative_to(ROOT).parts[1:]
@@ -50,20 +49,20 @@ def sources() -> Iterator[Path]:
 
 
 def is_current() -> bool:
-    """Tell whether there is a page that no source is newer than."""
+    """Whether the page is newer than all its sources."""
     index = PAGE / "index.html"
     return index.is_file() and all(path.stat().st_mtime <= index.stat().st_mtime for path in sources())
 
 
 def missing() -> str:
-    """What the build lacks here, in words; nothing where it can be done."""
+    """What the build lacks on this machine, or nothing."""
     if not (WEB / "package-lock.json").is_file():
         return f"no sources of the page in {WEB}"
     return missing_of_node() or missing_of_wasm()
 
 
 def build() -> None:
-    """Build the page, and put it in the place of the one before."""
+    """Build the page and replace the previous one."""
     npm("ci", "--no-audit", "--no-fund")
     notices.write()
     npm("run", "build")
@@ -71,8 +70,8 @@ def build() -> None:
 
 
 def npm(*words: str) -> None:
-    """Run npm in the folder of the page's sources."""
-    # On Windows npm is no program that can be started by its name alone.
+    """Run npm in `web`."""
+    # On Windows npm cannot be started by its bare name.
     program = shutil.which("npm") or "npm"
     subprocess.run((program, *words, "--prefix", str(WEB)), cwd=ROOT, check=True, stdin=subprocess.DEVNULL)
 
@@ -89,7 +88,7 @@ def install(built: Path, place: Path) -> None:
 
 
 def write_site(folder: Path) -> None:
-    """Copy the page as a folder that any server of files can serve, with the licences."""
+    """Copy the page with the licences, for a static file server."""
     found = _ABSOLUTE.search((PAGE / "index.html").read_text("utf-8"))
     if found:
         raise PageError(f"index.html: found {found[0]!r}; expected addresses relative to the page alone")
@@ -100,7 +99,7 @@ def write_site(folder: Path) -> None:
 
 
 def build_if_possible() -> bool:
-    """Build the page where it is out of date and the tools are there; tell whether there is one now."""
+    """Build the page if it is out of date and the tools exist; return whether there is one."""
     if is_current():
         return True
     lacking = missing()
@@ -116,7 +115,7 @@ def build_if_possible() -> bool:
 
 
 def main() -> None:
-    """Build the page, or say why not."""
+    """Build the page, or report why not."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
     parser.add_argument("--if-possible", action="store_true", help="a missing tool is no error")
     parser.add_argument("--site", type=Path, metavar="FOLDER", help="write the page as a site, too")

@@ -1,7 +1,7 @@
 """Render a small phantom with the installed package and save the picture.
 
-`make wheel` runs it in an environment that holds only the package and what that requires. It says where the
-package was found, and stops where the picture does not show the vessels of the phantom.
+`make wheel` runs it in an environment with only the package and its requirements. It prints where the package
+was found, and fails if the picture does not show the vessels of the phantom.
 """
 
 from __future__ import annotations
@@ -14,12 +14,12 @@ import numpy as np
 import lumencut
 from lumencut import Camera, Renderer, phantom
 
-#: The intensity of every lumen of a phantom (HU), and how far a sample may be off at the centerline.
+#: Lumen of the phantoms, and the tolerance of samples at the centerline (HU).
 LUMEN, TOLERANCE = 350.0, 1.0
 
 
 def main() -> None:
-    """Render into the file that the command line names."""
+    """Render into the named file."""
     scene = phantom.y_junction()
     frame = Renderer(scene.volume, scene.tree, "cpu").render(Camera.anterior(scene.tree, size=(256, 256)))
     on_centerline = frame.value[frame.distance < scene.volume.spacing[0] / 2]

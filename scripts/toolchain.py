@@ -1,9 +1,6 @@
-"""Says clearly what of the toolchain is missing.
+"""Reports missing tools: Python, Rust and its targets, Vulkan, Node, Chromium, DICOM checkers.
 
-That may be Python, Rust, a target that Rust compiles for, Vulkan, Node, Chromium, or what judges DICOM
-files.
-
-Needs nothing but Python itself: it runs before there is an environment.
+Needs only Python itself, since it runs before the environment exists.
 """
 
 from __future__ import annotations
@@ -19,11 +16,11 @@ from collections.abc import Sequence
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-#: What the viewer's WebAssembly is compiled for.
+#: The target of the viewer's WebAssembly.
 WASM = "wasm32-unknown-unknown"
 #: The oldest Node that builds the viewer's page.
 NODE = 20
-#: The targets besides this machine's own that everything but the extension module must compile for.
+#: Further targets for which everything except the extension module must compile.
 TARGETS = (
     WASM,
     "aarch64-unknown-linux-gnu",
@@ -31,30 +28,30 @@ TARGETS = (
     "aarch64-apple-darwin",
 )
 
-#: What lets the tests of the GPU run without one: the loader of Vulkan, and a driver that is software.
+#: Vulkan's loader and a software driver, for GPU tests without a GPU.
 VULKAN_PACKAGES = ("libvulkan1", "mesa-vulkan-drivers")
-#: What judges the DICOM files that Lumencut writes: command, and the package of Debian that brings it.
+#: Checkers of written DICOM files: command and Debian package.
 DICOM_TOOLS = {
     "dciodvfy": "dicom3tools",
     "dcm2pnm": "dcmtk",
     "Orthanc": "orthanc",
     "pdftotext": "poppler-utils",
 }
-#: Orthanc's plugin for DICOMweb, which is a library, and its package.
+#: Orthanc's DICOMweb plugin (a library) and its package.
 DICOMWEB_PLUGIN, DICOMWEB_PACKAGE = "libOrthancDicomWeb.so", "orthanc-dicomweb"
 #: Where Debian installs the plugins of Orthanc.
 ORTHANC_PLUGINS = Path("/usr/share/orthanc/plugins")
-#: Where drivers of Vulkan are registered.
+#: Where Vulkan drivers are registered.
 DRIVERS = (Path("/usr/share/vulkan/icd.d"), Path("/etc/vulkan/icd.d"))
 
 
 def refuse(found: str, expected: str, mend: str) -> None:
-    """Stop with one line that names the cause and what mends it."""
+    """Stop with one line: the cause and what mends it."""
     sys.exit(f"toolchain: found {found}; expected {expected}; {mend}")
 
 
 def check_python() -> None:
-    """Python is new enough and can make virtual environments."""
+    """Require a Python that is new enough and has venv."""
     if sys.version_info < (3, 11):  # noqa: UP036
         refuse(
             f"Python {sys.version.split()[0]} at {sys.executable}",
@@ -71,7 +68,7 @@ def check_python() -> None:
 
 
 def wanted_rust() -> str:
-    """The oldest Rust that compiles the workspace, as Cargo.toml states it."""
+    """`rust-version` of Cargo.toml."""
     found = re.search(r'^rust-version = "([\d.]+)"', (ROOT / "Cargo.toml").read_text("utf-8"), re.MULTILINE)
     if found is None:
         raise ValueError("Cargo.toml states no rust-version")
@@ -79,7 +76,7 @@ def wanted_rust() -> str:
 
 
 def check_rust() -> None:
-    """Rust is there, new enough, and has a linker."""
+    """Require a new enough Rust with a linker."""
     wanted = wanted_rust()
     install = "install it with rustup (https://rustup.rs)"
     for tool in ("cargo", "rustc"):
@@ -96,7 +93,7 @@ def check_rust() -> None:
 
 
 def add_targets() -> None:
-    """Rust's libraries for every one of `TARGETS` are installed; rustup adds those that are not."""
+    """Require Rust's libraries for `TARGETS`; rustup adds missing ones."""
     sysroot = subprocess.run(
         ["rustc", "--print", "sysroot"], check=True, capture_output=True, text=True, cwd=ROOT
     )
@@ -117,7 +114,7 @@ def add_targets() -> None:
 
 
 def missing_of_node() -> str:
-    """What of Node is missing here, in words; nothing where it can build the viewer's page."""
+    """What Node lacks for building the page, or nothing."""
     node = shutil.which("node")
     if node is None or shutil.which("npm") is None:
         return f"no node or no npm on the PATH (Node {NODE} or newer is needed)"
@@ -129,7 +126,7 @@ def missing_of_node() -> str:
 
 
 def missing_of_wasm() -> str:
-    """What Rust lacks for WebAssembly, in words; nothing where it can compile it."""
+    """What Rust lacks for WebAssembly, or nothing."""
     if shutil.which("rustc") is None:
         return "no rustc on the PATH"
     command = ["rustc", "--print", "sysroot"]
@@ -137,13 +134,13 @@ def missing_of_wasm() -> str:
     libraries = Path(said) / "lib/rustlib"
     if not (libraries / WASM / "lib").is_dir():
         return f"no {WASM} for Rust (rustup target add {WASM})"
-    # Threads of a browser need a standard library of their own, compiled from its source.
+    # Threads in browsers need a standard library compiled from source.
     has_source = (libraries / "src/rust/library/std/Cargo.toml").is_file()
     return "" if has_source else "no source of Rust's standard library (rustup component add rust-src)"
 
 
 def add_page() -> None:
-    """Node is there, and what Rust needs for WebAssembly; rustup adds what it can."""
+    """Require Node and Rust's WebAssembly; rustup adds what it can."""
     if missing := missing_of_node():
         refuse(missing, f"Node {NODE} or newer", "install it, as from nodejs.org or your distribution")
     add_wasm()
@@ -159,7 +156,7 @@ def add_wasm() -> None:
 
 
 def apt_command(packages: Sequence[str]) -> list[str]:
-    """What installs packages of Debian."""
+    """Debian's package manager."""
     return ["apt-get", "install", "--yes", "--no-install-recommends", *packages]
 
 
@@ -169,11 +166,11 @@ def is_apt_allowed() -> bool:
 
 
 def apt_install(packages: Sequence[str]) -> None:
-    """Install packages of Debian, as far as that works; no server that they bring is started."""
+    """Install Debian packages if possible; their servers are not started."""
     install = apt_command(packages)
     # At run level 1 Debian starts no services.
     quiet = os.environ | {"DEBIAN_FRONTEND": "noninteractive", "RUNLEVEL": "1"}
-    # The list of packages may be missing or too old to install from.
+    # The package list may be missing or outdated.
     for command in (install, ["apt-get", "update"], install):
         print(" ".join(command), flush=True)
         done = subprocess.run(command, check=False, env=quiet, stdin=subprocess.DEVNULL).returncode == 0
@@ -182,7 +179,7 @@ def apt_install(packages: Sequence[str]) -> None:
 
 
 def add_browser() -> None:
-    """Chromium is there for the tests of the page; on Debian, root adds it."""
+    """Require Chromium for the tests of the page; on Debian, root installs it."""
     if shutil.which("chromium"):
         return
     packages = ("chromium",)
@@ -195,15 +192,15 @@ def add_browser() -> None:
 
 
 def missing_of_dicom() -> list[str]:
-    """The packages of Debian that judge DICOM files and are not here."""
-    # Debian keeps servers where the PATH of others than root may not lead.
+    """The missing Debian packages that check DICOM files."""
+    # Debian keeps servers in sbin, which may be missing from the PATH of users.
     path = f"{os.environ.get('PATH', '')}{os.pathsep}/usr/sbin"
     packages = [package for tool, package in DICOM_TOOLS.items() if shutil.which(tool, path=path) is None]
     return packages + ([] if (ORTHANC_PLUGINS / DICOMWEB_PLUGIN).exists() else [DICOMWEB_PACKAGE])
 
 
 def add_dicom() -> None:
-    """What judges DICOM files, and the PACS of the tests, are there; on Debian, root adds them."""
+    """Require the DICOM checkers and the PACS of the tests; on Debian, root installs them."""
     missing = missing_of_dicom()
     if not missing:
         return
@@ -218,7 +215,7 @@ def add_dicom() -> None:
 
 
 def missing_of_vulkan() -> str:
-    """What Vulkan lacks here, in words; nothing where a program can use it."""
+    """What Vulkan lacks, or nothing."""
     if ctypes.util.find_library("vulkan") is None:
         return "no loader of Vulkan (libvulkan.so.1)"
     registered = os.environ.get("VK_DRIVER_FILES") or os.environ.get("VK_ICD_FILENAMES")
@@ -228,7 +225,7 @@ def missing_of_vulkan() -> str:
 
 
 def add_vulkan() -> None:
-    """Vulkan is there for the tests of the GPU; on Debian, root adds it."""
+    """Require Vulkan for the GPU tests; on Debian, root installs it."""
     missing = missing_of_vulkan() if sys.platform == "linux" else ""
     if not missing:
         return
@@ -243,7 +240,7 @@ def add_vulkan() -> None:
 
 
 def main() -> None:
-    """Check what the command line asks for."""
+    """Check the named tools."""
     checks = {
         "python": check_python,
         "rust": check_rust,

@@ -1,9 +1,8 @@
-"""See that an editor knows every type: pyright, strict, on the examples, and the types of all public names.
+"""Check with pyright (strict) that editors know every type of the examples and of all public names.
 
     .venv/bin/python scripts/types_for_users.py
 
-Needs Node: pyright is an npm package, which is installed into target/pyright, apart from
-the page's: what builds Lumencut needs none of it.
+Needs Node: pyright is an npm package, installed into target/pyright apart from the page's packages.
 """
 
 from __future__ import annotations
@@ -22,12 +21,12 @@ STATED, FOLDER = ROOT / "scripts/pyright", ROOT / "target/pyright"
 PYRIGHT = FOLDER / "node_modules/.bin/pyright"
 
 
-#: Its widget extends one of anywidget, whose traits no checker knows.
+#: Its widget extends anywidget, whose traits are untyped.
 UNKNOWABLE = {"show"}
 
 
 def install() -> bool:
-    """Install pyright where the locked one is not there; whether it is there then."""
+    """Install the locked pyright if missing; return whether it is installed."""
     lock, done = STATED / "package-lock.json", FOLDER / "package-lock.json"
     if PYRIGHT.exists() and done.read_bytes() == lock.read_bytes():
         return True
@@ -38,7 +37,7 @@ def install() -> bool:
 
 
 def pyright(*words: str, captured: bool = False) -> subprocess.CompletedProcess[str]:
-    """Run pyright with the sources of the package before what is installed."""
+    """Run pyright on the sources of the package rather than the installed one."""
     environment = os.environ | {"PYTHONPATH": str(ROOT / "python")}
     return subprocess.run(
         (PYRIGHT, *words), cwd=ROOT, env=environment, capture_output=captured, text=True, check=False
@@ -46,7 +45,7 @@ def pyright(*words: str, captured: bool = False) -> subprocess.CompletedProcess[
 
 
 def unknown(report: dict[str, Any], names: set[str]) -> Iterator[str]:
-    """The public names whose type no editor can know for sure, of all that pyright reports."""
+    """The public names whose types pyright reports as unknown or ambiguous."""
     symbols = report["typeCompleteness"]["symbols"]
     if not names <= {symbol["name"].partition(".")[2] for symbol in symbols}:
         raise ValueError("found not every public name in the report of pyright; expected all")

@@ -1,9 +1,9 @@
 """Build the packages of a release into dist/ and check them: a wheel for each Linux machine, and the sources.
 
-The wheels run on any Linux with glibc 2.17 or newer; zig, which is a Python package, links them against that
-version. Whatever can run here is tried: the wheel is installed in an empty environment with what it requires,
-and renders a phantom outside the repository; the same is done with a wheel that is built from the sources.
-Elsewhere than on Linux there is one wheel, for this machine. Run by `make wheel`, which installs the tools.
+zig (a Python package) links the wheels against glibc 2.17. The wheel of this machine, and one built from the
+sources, are installed in an empty environment and render a phantom without Rust and Node on the path. Of the
+other wheel, name, machine and glibc versions are checked. On other systems there is one wheel. `make wheel`
+runs it and installs the tools.
 """
 
 from __future__ import annotations
@@ -24,25 +24,25 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 BIN = ROOT / ".venv/bin"
 DIST = ROOT / "dist"
-#: Where the pictures of the trials are kept, to be looked at.
+#: The pictures of the trials.
 PICTURES = ROOT / "target/wheel"
 LOCK = ROOT / "requirements/runtime.lock"
-#: What of the viewer's page must be in a wheel.
+#: Files of the viewer's page that a wheel must contain.
 PAGE = tuple(f"lumencut/viewer/page/{name}" for name in ("index.html", "THIRD-PARTY-NOTICES.txt"))
 LICENCES = ("LICENSE-MIT", "LICENSE-APACHE", "THIRD-PARTY-LICENSES")
-#: The oldest glibc that the wheels run with.
+#: The oldest supported glibc.
 GLIBC = (2, 17)
-#: What the header of an ELF file calls the machines of the wheels.
+#: Machine codes of ELF headers.
 MACHINES = {"x86_64": 62, "aarch64": 183}
 
 
 class PackageError(Exception):
-    """A package that is not what it should be."""
+    """An invalid package."""
 
 
 @dataclass(frozen=True)
 class Environment:
-    """A virtual environment with nothing in it but what the package requires."""
+    """A virtual environment with only the requirements of the package."""
 
     folder: Path
 
@@ -54,8 +54,8 @@ class Environment:
         subprocess.run((program, *command[1:]), cwd=self.folder, env=outside, check=True)
 
     def install(self, wheel: Path) -> None:
-        """Install a wheel in place of the one before, and what it asks for, as it is locked."""
-        # Without the hashes: with them pip would take only what is named beside the wheel.
+        """Replace the installed wheel, with its locked requirements."""
+        # Without hashes: with them pip would require one for the wheel too.
         versions = re.findall(r"^\w.*?(?= \\)", LOCK.read_text("utf-8"), re.MULTILINE)
         locked = self.folder / "locked.txt"
         locked.write_text("\n".join(versions), "utf-8")
@@ -65,18 +65,18 @@ class Environment:
 
 
 def say(line: str) -> None:
-    """Tell what comes next; some of it takes minutes."""
+    """Print the next step; some take minutes."""
     print(f"\n== {line}", flush=True)
 
 
 def maturin(*arguments: str | Path) -> None:
-    """Run maturin with the tools of the environment before all others."""
+    """Run maturin with the tools of the environment first on the path."""
     environment = os.environ | {"PATH": f"{BIN}{os.pathsep}{os.environ['PATH']}"}
     subprocess.run((BIN / "maturin", *arguments), cwd=ROOT, env=environment, check=True)
 
 
 def only(folder: Path, pattern: str) -> Path:
-    """The one file of a folder whose name is like the pattern."""
+    """The only file of a folder that matches the pattern."""
     found = sorted(folder.glob(pattern))
     if len(found) != 1:
         raise PackageError(f"found {[path.name for path in found]}; expected one {pattern}")
@@ -103,7 +103,7 @@ def build_wheels(folder: Path) -> list[Path]:
 
 
 def check_wheel(wheel: Path) -> None:
-    """The wheel is for every Python that it says it is for, and holds the licences and the viewer's page."""
+    """Check that the wheel supports its stated Pythons and contains licences and page."""
     with zipfile.ZipFile(wheel) as archive:
         names = archive.namelist()
         (folder,) = {name.partition("/")[0] for name in names if ".dist-info/" in name}
@@ -124,7 +124,7 @@ def check_wheel(wheel: Path) -> None:
 
 
 def check_portable(wheel: Path, machine: str) -> None:
-    """The wheel states the glibc and machine that its extension module was linked for."""
+    """Check that the wheel states the glibc and machine of its extension module."""
     with zipfile.ZipFile(wheel) as archive:
         (module,) = [name for name in archive.namelist() if name.endswith(".so")]
         binary = archive.read(module)
@@ -148,7 +148,7 @@ def build_from_sources(sources: Path, folder: Path) -> Path:
         "PATH": f"{BIN}{os.pathsep}{os.environ['PATH']}",
         "CARGO_TARGET_DIR": str(ROOT / "target"),
     }
-    # The tools are those of the environment, so that they are the locked ones.
+    # Use the locked tools of the environment.
     pip = (BIN / "python", "-m", "pip", "--disable-pip-version-check", "wheel", "--quiet")
     options = ("--no-deps", "--no-build-isolation", "--wheel-dir", folder, sources)
     subprocess.run((*pip, *options), cwd=folder, env=environment, check=True)
@@ -156,7 +156,7 @@ def build_from_sources(sources: Path, folder: Path) -> Path:
 
 
 def try_out(wheels: Sequence[Path], folder: Path) -> None:
-    """Install each of the wheels in an environment that was empty, and render."""
+    """Install each wheel in an empty environment, and render."""
     PICTURES.mkdir(parents=True, exist_ok=True)
     subprocess.run((sys.executable, "-m", "venv", folder), check=True)
     environment = Environment(folder)
@@ -192,7 +192,7 @@ def package(folder: Path) -> None:
 
 
 def main() -> None:
-    """Make the packages, or say what is wrong with them."""
+    """Make the packages, or report what is wrong."""
     try:
         with tempfile.TemporaryDirectory() as folder:
             package(Path(folder).resolve())

@@ -1,7 +1,7 @@
-"""Print the table of windows of ``BENCHMARKS.md``, and save the pictures to look at.
+"""Print the table of windows of ``docs/results/accuracy.md``, and save its pictures.
 
 ``python scripts/window_table.py FOLDER`` shows every kind of angiography of ``tests/window_scenes.py``, the
-phantoms and, where ``../shared/data`` is, real ones: along their centerlines and alone, by MIP and MIDA.
+phantoms and, if available, real ones: along their centerlines and alone, by MIP and MIDA.
 """
 
 from __future__ import annotations

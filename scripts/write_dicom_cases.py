@@ -1,9 +1,8 @@
-"""Write the DICOM cases of the tests with what Lumencut makes of each, for other hosts of its judge.
+"""Write the DICOM cases of the tests with Lumencut's answers, for other hosts of its judge.
 
-Each case becomes a folder of files and, beside it, a JSON document: the name of the case, the path of what is
-to be read, the headers and wishes as they went into the core, the answer that came out, and of a volume its
-type, its size and the SHA-256 of its voxels as little-endian 32-bit floats (i fastest). Of files that cannot
-be read it has the error.
+Each case becomes a folder of files and a JSON document next to it: name, path, the headers and options given
+to the core, its answer, and for a volume the type, size and SHA-256 of the voxels as little-endian 32-bit
+floats (i fastest). For unreadable files it has the error.
 """
 
 from __future__ import annotations
@@ -29,7 +28,7 @@ from lumencut.volume_files.dicom.judging import headers_document, wanted_documen
 
 
 def document(case: Case, path: Path) -> dict[str, Any]:
-    """What Lumencut makes of a case that was written to a path."""
+    """Lumencut's answer to a case written to a path."""
     found: dict[str, Any] = {"name": case.name}
     try:
         headers = headers_document(read_files(path, []))
@@ -45,16 +44,16 @@ def document(case: Case, path: Path) -> dict[str, Any]:
 
 
 def _trouble(error: FormatError) -> dict[str, Any]:
-    """An error in the parts that the answer of the judge has, by the same names."""
+    """An error with the same keys as the judge's answer."""
     mends = [{"name": mend.name, "values": list(mend.values)} for mend in error.mends]
     return {"found": error.found, "expected": error.expected, "advice": error.advice, "mends": mends}
 
 
 def write(case: Case, place: Path) -> None:
-    """Write a case into the folder `place`, and its document beside it."""
+    """Write a case into the folder `place`, and its document next to it."""
     place.mkdir(parents=True)
     with warnings.catch_warnings():
-        # Some cases are meant to break rules that the writer knows.
+        # Some cases break rules that the writer checks.
         warnings.simplefilter("ignore")
         path = case.write(place).path
     told = document(case, path) | {"path": path.relative_to(place.parent).as_posix()}
