@@ -1,6 +1,6 @@
 """Checks whether two states of the code render the same frames.
 
-``frames.py write`` renders a fixed list of frames and writes their hashes. Run it with a Python of each state;
+``frames.py write`` renders a fixed list of frames and writes their hashes. Run it in each state;
 then ``frames.py compare`` names the frames that differ in any bit. On a GPU frames may differ slightly:
 write their arrays too; ``frames.py difference`` counts the pixels that differ and applies the limits of the
 GPU tests.

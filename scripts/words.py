@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import argparse
 import ast
+import itertools
 import re
 import subprocess
 import sys
@@ -80,8 +81,8 @@ _DIALECT = {name: re.compile(rf"\b(?:{pattern})\b", re.IGNORECASE) for name, (pa
 
 #: Most words of a sentence in a page and in a message.
 LONGEST_SENTENCE, LONGEST_MESSAGE = 30, 25
-#: A sentence or table row of so many words may stand once; prose lines may not share so many first words.
-REPEATED, SAME_START = 8, 7
+#: Fewest words of a sentence or row that must be unique, and of the start that lines of a paragraph may not share.
+REPEATED, SAME_START = 8, 6
 #: Pages that repeat sentences of others on purpose.
 SUMMARIES = {"README.md", "docs/index.md"}
 #: Legal texts, which stay as they are; their first words.
@@ -128,10 +129,11 @@ def prose(text: str) -> str:
 
 
 def paragraphs(text: str) -> Iterator[str]:
-    """Paragraphs and list items of a page, each on one line; no headings, tables or HTML."""
+    """Paragraphs and list items of a page, each on one line; no headings, tables, formulas or HTML."""
     block: list[str] = []
     for line in [*prose(text).splitlines(), ""]:
-        ends = not line.strip() or line.lstrip().startswith(("#", "|", "<", "---"))
+        is_formula = not block and line.startswith("    ") and not _ITEM.match(line)
+        ends = not line.strip() or is_formula or line.lstrip().startswith(("#", "|", "<", "---"))
         if (ends or _ITEM.match(line)) and block:
             yield " ".join(block)
             block = []
@@ -145,14 +147,16 @@ def sentences(paragraph: str) -> list[str]:
 
 
 def rows(text: str) -> list[str]:
-    """The rows of all tables of a page."""
-    lines = prose(text).splitlines()
-    return [" ".join(line.split()) for line in lines if line.startswith("|") and re.search(r"\w", line)]
+    """The rows of all tables of a page, without headings."""
+    lines = [*prose(text).splitlines(), ""]
+    pairs = itertools.pairwise(lines)
+    found = [line for line, after in pairs if line.startswith("|") and not after.startswith("|--")]
+    return [" ".join(line.split()) for line in found if re.search(r"\w", line)]
 
 
 def words(text: str) -> int:
-    """The number of words."""
-    return sum(1 for word in text.split() if re.search(r"\w", word))
+    """The number of words; numbers and signs are none."""
+    return sum(1 for word in text.split() if re.search(r"[^\W\d_]", word))
 
 
 # Checks of pages
@@ -190,9 +194,10 @@ def repeated(texts: dict[str, str]) -> Iterator[Fault]:
             if part in first:
                 yield Fault(name, f"stands in {first[part]} too: {part}")
             first[part] = name
-        lines = [line.split() for line in prose(text).splitlines() if not line.startswith("|")]
-        starts = Counter(" ".join(line[:SAME_START]) for line in lines if len(line) >= SAME_START)
-        yield from (Fault(name, f"{n} lines start with: {start}") for start, n in starts.items() if n > 1)
+        for block in re.split(r"\n\s*\n", _FENCE.sub("", text)):
+            lines = [line.split() for line in block.splitlines() if not line.startswith("|")]
+            starts = Counter(" ".join(line[:SAME_START]) for line in lines if len(line) >= SAME_START)
+            yield from (Fault(name, f"{n} lines start with: {start}") for start, n in starts.items() if n > 1)
 
 
 def dialect(texts: Iterable[str], place: str, limits: dict[str, int]) -> Iterator[Fault]:

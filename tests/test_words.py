@@ -49,6 +49,8 @@ def test_long_sentences_are_found_in_text_and_lists(words):
         f"```\n{LONG}\n```",
         f"| a |\n|---|\n| {LONG} |",
         f"# {LONG}",
+        f"A formula:\n\n    {LONG}\n    {LONG}\n",
+        "It took " + "12 × 34 5.6 " * 20 + "ms.",
         "* one item of a list\n" * 20,
         LONG.replace(" and", ". And"),
         f"See `{LONG.rstrip('.')}` there.",
