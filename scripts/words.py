@@ -81,7 +81,7 @@ _DIALECT = {name: re.compile(rf"\b(?:{pattern})\b", re.IGNORECASE) for name, (pa
 
 #: Most words of a sentence in a page and in a message.
 LONGEST_SENTENCE, LONGEST_MESSAGE = 30, 25
-#: Fewest words of a sentence or row that must be unique, and of the start that lines of a paragraph may not share.
+#: Fewest words of a sentence or row that must be unique, and of a start that lines of one paragraph share.
 REPEATED, SAME_START = 8, 6
 #: Pages that repeat sentences of others on purpose.
 SUMMARIES = {"README.md", "docs/index.md"}

@@ -71,7 +71,7 @@ def test_leftovers_of_a_merge_are_found(words):
     texts = {"a.md": f"Tests use vtk\n{start} one of both\nand others\n{start} none of both\n"}
     assert "2 lines start with: (BSD-3-Clause) and SimpleITK" in said(words.repeated(texts))
     assert said(words.repeated({"a.md": sentence, "README.md": sentence})) == ""
-    assert said(words.repeated({"a.md": "Lumencut is not a medical device.\n" * 2})) == ""
+    assert said(words.repeated({"a.md": "Lumencut is not a medical device.\n\n" * 2})) == ""
 
 
 def test_dialect_is_counted_outside_code_only(words):
