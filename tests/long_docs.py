@@ -23,7 +23,7 @@ def site(tmp_path_factory):
 
 def test_the_site_holds_its_pages_and_pictures(site):
     pages = {path.relative_to(site).as_posix() for path in site.rglob("*.html")}
-    assert {"index.html", "gallery.html", "method/tracing.html", "api/measuring.html"} <= pages
+    assert {"index.html", "gallery.html", "method/cut-surface.html", "api/measuring.html"} <= pages
     made = {path.stem for path in (site / "gallery").glob("*.webp")}
     assert made == {path.stem for path in (ROOT / "examples/gallery").glob("*.py")}
     told = (site / "api/pictures.html").read_text("utf-8")

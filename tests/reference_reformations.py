@@ -61,7 +61,7 @@ class Pieces(NamedTuple):
 
 
 def cr(tree, camera, radius_offset, arc_threshold):
-    """Depth and vessel (H, W) of CR, by the rule that METHOD.md states."""
+    """Depth and vessel (H, W) of CR, by the rule of docs/method/reformations.md."""
     columns, rows = places(camera)
     offset, threshold = (pixels * camera.pixel_spacing for pixels in (radius_offset, arc_threshold))
     line, ways = Lines(tree, camera), all_ways(tree)

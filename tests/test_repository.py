@@ -92,7 +92,7 @@ def test_no_document_has_a_gap_left_to_fill():
 
 def test_the_method_states_the_constant_of_the_silhouettes():
     stage = text("crates/lumencut-core/src/stages/silhouette.rs")
-    section = text("METHOD.md").partition("\n## silhouette\n")[2].partition("\n## ")[0]
+    section = text("docs/method/surroundings.md").partition("\n## silhouette\n")[2].partition("\n## ")[0]
     used = re.search(r"\bZONE_BORDER: f32 = ([\d.]+);", stage)[1]
     stated = re.search(r"\bb = ([\d.]+) where a neighbour", section)[1]
     assert float(stated) == float(used)

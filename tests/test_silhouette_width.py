@@ -8,7 +8,7 @@ import pytest
 from lumencut import Camera, Renderer, Settings, Vessel, VesselTree, Volume, Window
 
 SIZE = (80, 72)
-#: Pixel spacings (mm), and how wide lines are there (mm): 1 mm, but 0.5 to 1.5 pixels; see METHOD.md.
+#: Pixel spacings and widths of lines there (mm): 1 mm, but 0.5 to 1.5 pixels (docs/method/surroundings.md).
 WIDTHS = [(0.4, 0.6), (0.8, 1.0), (1.0, 1.0), (1.6, 1.0), (3.0, 1.5)]
 #: How far widths may differ (pixels): rounding to 8 bits, in each of the few pixels across two lines.
 ROUNDING = 0.02

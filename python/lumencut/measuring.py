@@ -39,8 +39,8 @@ def measure(
 
     An ellipse, blurred as the scanner blurs, is fitted to the voxels around each section: its position and
     shape, and the levels of lumen and background. The levels of narrow sections come from wider ones around
-    them. So the diameter has no bias by the blur, as it has at half of the maximum. METHOD.md, "Measuring",
-    has it all.
+    them. So the diameter has no bias by the blur, as it has at half of the maximum. docs/method/measuring.md
+    describes the method.
 
     A lumen diameter is not that of the vessel: thrombus and plaque are not lumen.
 

@@ -28,7 +28,7 @@ def trace_from(
     All vessels of the scan are found as :func:`lumencut.find_vessels` does, and the seed chooses among them:
     the part that has the vessel nearest to it, up to 1.5 radii or a voxel away. So every seed in one part
     gives the same vessels to the bit. Around a seed that lies in none of them fainter vessels are looked for.
-    METHOD.md, "Finding all vessels".
+    docs/method/tracing.md describes the method.
 
     Parameters
     ----------

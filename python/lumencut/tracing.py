@@ -40,7 +40,7 @@ def trace(
     first point to that of its last one. A minimal path leads from point to point, where lumen is cheap by its
     likeness to the values at the points and by how much lumen is around it; it is then moved to the middle of
     cross-sections and smoothed over about 1 mm. The outline is that of Tang et al. 2012, Metz et al. 2009 and
-    Manniesing et al. 2010; METHOD.md, "Tracing from clicks", says where it differs.
+    Manniesing et al. 2010; docs/method/tracing.md describes the differences.
 
     Parameters
     ----------

@@ -95,8 +95,8 @@ def cr(
     What lies in front is brought back within a disc around it. Of all stretches of the tree whose disc holds
     a pixel, the foremost one is shown there, by its point nearest in the image. A larger offset keeps more of
     the surroundings of the vessels in front, and cuts off more of those behind. Mistelbauer et al.,
-    "Centerline Reformations of Complex Vascular Structures", IEEE PacificVis 2012; METHOD.md tells what of it
-    had to be decided.
+    "Centerline Reformations of Complex Vascular Structures", IEEE PacificVis 2012; the rule is in
+    docs/method/reformations.md.
 
     Parameters
     ----------

@@ -35,7 +35,8 @@ def untangled(
     Each vessel keeps the direction in which the camera sees it, but has its true length, however much of it
     runs along the view. Where branches would lie before one another they turn about the place where they
     branch off, by as little as sets them apart. Kanitsar et al. 2003 (doi:10.1109/VISUAL.2003.1250353) show
-    trees so, of which only the abstract could be read: layout and search are ours, see METHOD.md.
+    trees so, of which only the abstract could be read: layout and search are ours
+    (docs/method/reformations.md).
 
     Parameters
     ----------

@@ -24,8 +24,8 @@ def find_vessels(
 
     Tubes that are brighter than what is around them are found at all widths and followed along their middle,
     each with levels of its own. Those that are bone, organ or noise are left out or told apart as doubtful,
-    the others are joined where they meet, and what hangs together is a part. METHOD.md, "Finding all
-    vessels".
+    the others are joined where they meet, and what hangs together is a part. docs/method/tracing.md
+    describes the steps.
 
     Parameters
     ----------

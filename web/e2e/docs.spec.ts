@@ -4,7 +4,7 @@ import { pathToFileURL } from 'node:url';
 import { expect, type Page, test } from '@playwright/test';
 
 const SITE = process.env.LUMENCUT_DOCS_SITE ?? '';
-const PAGES = ['index', 'gallery', 'start', 'python', 'api/pictures', 'method/tracing', 'comparison'];
+const PAGES = ['index', 'gallery', 'start', 'python', 'api/pictures', 'method/cut-surface', 'comparison'];
 const at = (name: string) => pathToFileURL(join(SITE, `${name}.html`)).href;
 
 /** What a page asks of others, and what it complains of. */

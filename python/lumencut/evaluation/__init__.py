@@ -80,7 +80,7 @@ def evaluate(
     -------
     Evaluation
         Its ``table`` has a row for each method with these numbers, in the order of the five criteria of the
-        questionnaire in section 5 of the paper; METHOD.md, `evaluate`, defines each. A number is None where
+        questionnaire in section 5 of the paper; docs/method/measuring.md defines each. A number is None where
         there is nothing that it could be of.
 
         Lumen: lumen_within_0.05_mm_percent, lumen_within_0.5_mm_percent, lumen_within_2_mm_percent

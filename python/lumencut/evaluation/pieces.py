@@ -1,4 +1,4 @@
-"""The local surfaces of all vessels, restricted to their lumens: the pieces of METHOD.md, `projection`.
+"""The local surfaces of all vessels, restricted to their lumens: the pieces of docs/method/cut-surface.md.
 
 A piece covers a pixel here when it covers it there and the distance to the centerline is no more than the
 radius. Both neighbours at a border compute the same number, so that no pixel falls between them.
