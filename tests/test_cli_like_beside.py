@@ -81,7 +81,7 @@ def test_each_of_several_views_can_be_rendered_again_by_itself(scene):
 def test_like_takes_one_view_at_most(scene):
     first, _ = scene.render(*SIZE, "--rotate", "20", output="first.png")
     _, told = scene.render("--like", first, "--view", "left", "--view", "right", output="two.png", code=2)
-    assert "--view is given 2 times beside --like" in told
+    assert "--view is given 2 times with --like" in told
     assert scene.written() == ["first.png"]
     scene.render("--like", first, "--view", "left", output="see {view}.png")
     assert scene.written() == ["first.png", "see left.png"]
@@ -91,7 +91,7 @@ def test_like_takes_one_view_at_most(scene):
 def test_the_view_of_a_picture_has_no_name(scene):
     first, _ = scene.render(*SIZE, output="first.png")
     _, told = scene.render("--like", first, output="{view}.png", code=2)
-    assert "give --view beside --like, or another name" in told
+    assert "give --view with --like, or another name" in told
     assert scene.written() == ["first.png"]
 
 
