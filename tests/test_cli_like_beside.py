@@ -114,7 +114,7 @@ def test_another_number_of_vessels_is_told(scene):
     other, told = scene.render("--like", first, output="again.png")
     assert told == (
         f"lumencut: warning: {first} shows 1 vessel, the new picture 2; "
-        "--vessel and --exclude choose vessels, beside --like too\n"
+        "--vessel and --exclude choose vessels, also with --like\n"
     )
     assert scene.render("--like", first, "--exclude", "LAD", "--zoom-to", "LCX", output="third.png")[1] == ""
     assert scene.render("--like", other, "--vessel", "LAD", output="third.png")[1] == ""

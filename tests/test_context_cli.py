@@ -131,7 +131,7 @@ def test_a_volume_that_is_wholly_transparent_is_a_warning_of_its_own(volume, tmp
     transfer = ["--context-transfer", "5000:ffffff:0,6000:ffffff:1"]
     result = invoke("render", volume, "-o", tmp_path / "out.png", "--context", "dvr", *transfer)
     assert result.exit_code == 0
-    assert "shows the volume: all of it in view is transparent" in result.stderr
+    assert "shows the volume: everything in view is transparent" in result.stderr
     assert "--context-transfer" in result.stderr
 
 

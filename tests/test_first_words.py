@@ -147,7 +147,7 @@ def test_the_doctor_misses_the_page_an_extra_and_a_package(tmp_path, monkeypatch
     assert said.exit_code == 1
     assert "extra plot" in said.stdout
     assert "without matplotlib; pip install 'lumencut[plot]'" in said.stdout
-    assert said.stdout.splitlines()[-1] == "2 problems, told below"
+    assert said.stdout.splitlines()[-1] == "2 problems, listed below"
     package, absent = said.stderr.splitlines()
     assert "found no tqdm; expected all; pip install lumencut" in package
     assert "the viewer's page: found none in this installation" in absent

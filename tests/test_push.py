@@ -39,7 +39,7 @@ def test_objects_are_sent_in_batches_and_found_again(pacs, scan):
     done = run(scan, pacs.base, "--yes", "--new-study")
     assert done.exit_code == 0, done.output
     assert "40 of 40 objects are in" in done.output
-    assert "cannot be taken back" in done.output
+    assert "cannot be removed" in done.output
     assert pacs.batches == [32, 8]
     assert set(pacs.held.values()) == {path.read_bytes() for path in scan.iterdir()}
 
@@ -81,7 +81,7 @@ def test_the_first_push_to_an_address_is_asked_for(pacs, scan, monkeypatch):
     monkeypatch.setattr("click.testing._NamedTextIOWrapper.isatty", lambda self: True)
     no = run(scan, pacs.base, "--new-study", input="n\n")
     assert no.exit_code == 1
-    assert "cannot be taken back" in no.output
+    assert "cannot be removed" in no.output
     assert not pacs.batches
     assert run(scan, pacs.base, "--new-study", input="y\n").exit_code == 0
     again = run(scan, pacs.base)
