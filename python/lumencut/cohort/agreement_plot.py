@@ -43,6 +43,6 @@ def write_plot(found: Sequence[Agreement], path: Path) -> None:
             axes.axhline(limit, color="black", linestyle="--")
         axes.set_title(f"{one.quantity}, {count} {one.over} of {len(set(one.studies))} studies")
         axes.set_xlabel("mean of both")
-        axes.set_ylabel("second less first")
+        axes.set_ylabel("second minus first")
     kind = path.suffix.lower().removeprefix(".")
     replace_whole(path, lambda whole: figure.savefig(whole, format=kind, dpi=150))
