@@ -6,7 +6,7 @@ import importlib
 import sys
 from typing import Any, TypeVar
 
-#: Where the classes live that public values hold and that are not public themselves.
+#: Modules of the non-public classes that public values hold.
 _PARTS = {
     "Angle": "profile",
     "Box": "dicom_objects.extents",

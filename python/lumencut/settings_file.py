@@ -64,7 +64,7 @@ def settings_text(settings: Any) -> str:
 
 
 def write_settings(settings: Any, path: str | os.PathLike[str]) -> None:
-    """Write settings as a file, which appears only once it is whole."""
+    """Write settings as a file, which appears only when complete."""
     text = settings_text(settings)
     replace_whole(checked_path(path, WRITABLE), lambda place: place.write_text(text, "utf-8"))
 

@@ -52,11 +52,11 @@ def mpcpr(
     tree : VesselTree
         Its centerlines.
     camera : Camera, optional
-        The view; from the front, fitted to the tree, where not given.
+        The view; from the front, fitted to the tree by default.
     settings : Settings, optional
-        The knobs; their defaults, with windows from the data, where not given. Those that make the cut
+        The settings; by default with windows from the data. Those that make the cut
         surface of CSR do nothing but for ``centerline_smoothing``, ``silhouette_rule``, and
-        ``unknown_radius``, which tells silhouettes what is lumen. There is no depth filter, silhouettes are
+        ``unknown_radius``, which defines the lumen for silhouettes. There is no depth filter, silhouettes are
         drawn everywhere, and a focus and chosen vessels are refused.
     device : {"auto", "cpu", "gpu"}, default "auto"
         What shows the volume, as for :class:`Renderer`; where the pixels look the CPU finds.
@@ -66,7 +66,7 @@ def mpcpr(
     Frame
         Its images are those of every frame, each (H, W). In rows that no vessel crosses there is nothing:
         ``vessel`` is -1, ``depth``, ``position`` and ``value`` are NaN, and the picture shows the context, or
-        else the background. ``folded`` tells where several points of one vessel share the row, of which the
+        else the background. ``folded`` shows where several points of one vessel share the row, of which the
         nearest along the row is shown.
 
     Raises
@@ -95,8 +95,8 @@ def cr(
     What lies in front is brought back within a disc around it. Of all stretches of the tree whose disc holds
     a pixel, the foremost one is shown there, by its point nearest in the image. A larger offset keeps more of
     the surroundings of the vessels in front, and cuts off more of those behind. Mistelbauer et al.,
-    "Centerline Reformations of Complex Vascular Structures", IEEE PacificVis 2012; METHOD.md tells what of it
-    had to be decided.
+    "Centerline Reformations of Complex Vascular Structures", IEEE PacificVis 2012. Where the text
+    left a choice, docs/method/reformations.md states ours.
 
     Parameters
     ----------
@@ -106,8 +106,8 @@ def cr(
         How much larger than the vessel its disc is (pixels), 0 or more.
     arc_threshold : float, default 150
         Up to how far from each other along the tree, through its junctions, two places belong to one stretch
-        (pixels of arc length), 0 or more. Within a stretch the nearer one in the image is shown, whatever the
-        depth.
+        (pixels of arc length), 0 or more. Within a stretch the nearer one in the image is shown, regardless
+        of the depth.
 
     Returns
     -------

@@ -152,7 +152,7 @@ def measure(output: tuple[Path, ...], **chosen: Any) -> None:
     measured = _measured(voxels, tree, vessels, chosen)
     for one in measured:
         say(f"{one.name}: {_described(one.profile)}")
-        for line in one.told:
+        for line in one.lines:
             say(f"  {line}")
     write_outputs(voxels, tree, measured, output, chosen)
     if study is not None:

@@ -109,7 +109,7 @@ def _write_plot(path: Path, measured: Sequence[MeasuredVessel]) -> None:
 
 def _title(one: MeasuredVessel) -> str:
     name = f"vessel {one.name}, {one.profile.arc_length[-1]:.1f} mm"
-    lines = [] if one.stenosis is None else one.told
+    lines = [] if one.stenosis is None else one.lines
     return "\n".join([name, *lines])
 
 

@@ -128,5 +128,5 @@ def _tree(lines: CenterlineFile | CenterlineFiles, volume: Volume, chosen: dict[
     from lumencut.centerline_file import CenterlineFile
 
     if isinstance(lines, CenterlineFile):
-        return lines.beside(volume, chosen["coordinates"], chosen["unit"], reorder=chosen["reorder"])[0]
+        return lines.within(volume, chosen["coordinates"], chosen["unit"], reorder=chosen["reorder"])[0]
     return lines.tree(chosen["coordinates"], chosen["unit"], volume, reorder=chosen["reorder"])

@@ -117,7 +117,7 @@ def places_of(study: Study, volume: Volume | None = None) -> _Points:
         For invalid text.
     """
     if not study.given_as_text:
-        return CenterlineFile(study.given).beside(volume, are_lines=False)[0].points
+        return CenterlineFile(study.given).within(volume, are_lines=False)[0].points
     try:
         written = [place for place in study.given.split(";") if place.strip()]
         return np.array([[float(x) for x in place.split(",")] for place in written]).reshape(-1, 3)

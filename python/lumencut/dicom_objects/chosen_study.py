@@ -41,7 +41,7 @@ def chosen_study(origin: Origin, study: Any, *, anonymous: bool, other_patient: 
     origin : Origin
         Where it comes from.
     study : Volume, Study, path-like or None
-        A volume that was read from DICOM, or a folder, file or zip archive of DICOM, in the place of what the
+        A volume that was read from DICOM, or a folder, file or zip archive of DICOM, instead of what the
         origin tells.
     anonymous : bool
         Leave patient and study out. The new study's UID depends on the scan's voxels: all objects made from
@@ -113,7 +113,7 @@ def _given(study: Any) -> tuple[Study | None, str]:
 
 
 def _checked(study: Study | None, subject: str) -> Study:
-    """Refuse a study that no object can be told to belong to."""
+    """Reject a study that no object can be told to belong to."""
     if study is None:
         raise FormatError(subject, "a scan that was not read from DICOM", "a study to belong to", _MEND)
     if study.study_count > 1:

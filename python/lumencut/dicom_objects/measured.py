@@ -87,14 +87,14 @@ def measured(
     stenoses : sequence of Stenosis
         What was graded on it.
     vessel : Vessel, optional
-        The vessel as it is to be called, in the place of the one that was measured.
+        The vessel as it is to be called, instead of the one that was measured.
     marks : sequence of Mark, default ()
         What a reader marked counts where nothing is graded; what is suggested never does.
 
     Raises
     ------
     MeasuringError
-        For what is no stenosis, or one of a place beyond the vessel.
+        For anything that is not a stenosis, or one of a place beyond the vessel.
     """
     for one in stenoses:
         if not isinstance(one, Stenosis):

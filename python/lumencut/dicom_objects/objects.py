@@ -165,7 +165,7 @@ def sealed(data: Any, *content: bytes) -> Any:
 
 
 def write(data: Any, target: Target, encode: Callable[[Any], None] | None = None) -> None:
-    """Write an object; a file appears only once it is whole.
+    """Write an object; a file appears only when complete.
 
     Parameters
     ----------

@@ -30,7 +30,7 @@ _GREY_FRAMES = f"{_CAPTURE}.2"
 _COLOUR_FRAMES = f"{_CAPTURE}.4"
 #: The longest element, in bytes.
 _LARGEST = 2**32 - 2**16
-#: What stands in the place of pixels that are stored already.
+#: What stands instead of pixels that are stored already.
 _NO_IMAGE = np.empty((0, 0, 4), np.uint8)
 #: Parts of the body without a face; where none is stated, there may be one.
 _FACELESS = ("CHEST", "ABDOMEN", "PELVIS", "AORTA", "LEG", "EXTREMITY", "HEART", "ARM", "KNEE", "FOOT", "HIP")
@@ -94,7 +94,7 @@ def write_picture(
     number : int, default 1
         Its place in the series.
     compress : bool, default False
-        Write the pixels as JPEG 2000, lossless, in the place of bare numbers.
+        Write the pixels as JPEG 2000, lossless, instead of bare numbers.
     """
     kind = Kind(_CAPTURE, picture.method, 9001)
     data = _described(picture, study, kind, number)
@@ -120,7 +120,7 @@ def write_turning(
     study : Study
         Where they belong.
     grey : bool
-        Write grey bytes in the place of colours: some programs read such frames alone.
+        Write grey bytes instead of colours: some programs read such frames alone.
     compress : bool
         Write the pixels as JPEG 2000, lossless.
     """
@@ -223,7 +223,7 @@ def _set_bytes(data: Any, pixels: bytes, size: tuple[int, ...]) -> None:
 
 
 def _set_timing(data: Any, count: int, fps: float) -> None:
-    """Say how fast frames follow each other, and that they begin anew at the end."""
+    """Say how fast frames follow each other, and that they begin again at the end."""
     data.NumberOfFrames = count
     data.FrameIncrementPointer = 0x00181063
     data.FrameTime = f"{1000 / fps:.10g}"

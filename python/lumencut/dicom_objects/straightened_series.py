@@ -26,7 +26,7 @@ def write_straightened(
     *,
     is_whole: bool,
 ) -> None:
-    """Write one image for each section across the vessel into a new folder, which appears once it is whole.
+    """Write one image for each section across the vessel into a new folder, which appears when complete.
 
     Parameters
     ----------

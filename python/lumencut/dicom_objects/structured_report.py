@@ -26,7 +26,7 @@ _REPORT = "1.2.840.10008.5.1.4.1.1.88.34"
 
 
 def check_highdicom() -> None:
-    """Refuse to make a structured report without highdicom.
+    """Reject to make a structured report without highdicom.
 
     Raises
     ------

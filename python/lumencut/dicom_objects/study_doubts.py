@@ -21,7 +21,7 @@ def patient_of(study: Study) -> Patient:
 
 
 def check_one_patient(study: Study, subject: str) -> None:
-    """Refuse a study whose series name several patients."""
+    """Reject a study whose series name several patients."""
     first, others = patient_of(study), [Patient.in_header(header) for header in study.further]
     for other in others:
         if first.differs_from(other):
@@ -30,7 +30,7 @@ def check_one_patient(study: Study, subject: str) -> None:
 
 
 def check_same_patient(scan: Study, study: Study, subject: str) -> None:
-    """Refuse a study of another patient than that of the scan."""
+    """Reject a study of another patient than that of the scan."""
     own, its = patient_of(scan), patient_of(study)
     if own.differs_from(its):
         words = "choose a study of the patient of the scan"
@@ -61,7 +61,7 @@ def _against_header(scan: Study, study: Study) -> Iterator[str]:
 
 
 def is_other_study(scan: Study, study: Study) -> bool:
-    """Tell whether both state a StudyInstanceUID and these differ."""
+    """Return whether both state a StudyInstanceUID and these differ."""
     own, its = scan.text("StudyInstanceUID"), study.text("StudyInstanceUID")
     return bool(own and its) and own != its
 

@@ -160,7 +160,7 @@ def changed(settings: Settings) -> str:
 
 
 def _rounded(value: Any) -> Any:
-    """A value of JSON whose numbers have six digits: enough to make it anew, and short."""
+    """A value of JSON whose numbers have six digits: enough to make it again, and short."""
     if isinstance(value, dict):
         return {name: _rounded(one) for name, one in value.items()}
     if isinstance(value, (list, tuple)):

@@ -38,14 +38,14 @@ def show(
 
     Parameters
     ----------
-    volume : Volume, or whatever else :func:`lumencut.render` takes as one
+    volume : Volume, or anything :func:`lumencut.render` takes as one
         The angiography.
     tree : VesselTree, optional
-        Its centerlines; the context alone is shown where not given.
+        Its centerlines; the context alone is shown by default.
     camera : Camera, optional
-        The first view; from the front, fitted to the tree or else the volume, where not given.
+        The first view; from the front, fitted to the tree or else the volume by default.
     settings : Settings, optional
-        The knobs; their defaults where not given, and a MIP where vessels are traced.
+        The settings; defaults if omitted, and a MIP where vessels are traced.
     size : (int, int), default (512, 512)
         Width and height of the picture (pixels, at most 4096), where no camera is given.
     trace : bool, default False

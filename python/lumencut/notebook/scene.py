@@ -45,7 +45,7 @@ class Scene:
 
     Parameters
     ----------
-    volume : Volume, or whatever else :func:`lumencut.render` takes as one
+    volume : Volume, or anything :func:`lumencut.render` takes as one
         The angiography.
     tree : VesselTree or None
         Its centerlines.

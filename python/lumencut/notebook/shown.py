@@ -199,7 +199,7 @@ class Shown:
         """Return the pictures beside the view (H, W, 4), by name; none where no vessel is picked."""
         return {} if self.linked is None else self.linked.pictures(self.settings)
 
-    def told(self) -> dict[str, Any]:
+    def state(self) -> dict[str, Any]:
         """Return what the page draws over the pictures, and says below them."""
         marks = {} if self.linked is None or self.picked is None else self.linked.marks(np.array(self.picked))
         return {

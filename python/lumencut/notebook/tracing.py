@@ -66,7 +66,7 @@ class ClickedVessels:
             self._ended.add(current)
 
     def undo(self) -> None:
-        """Take the last point away, and go on with its vessel."""
+        """Take the last point away, and continue with its vessel."""
         points = self._tracer.points
         last = next((vessel for vessel in reversed(range(len(points))) if len(points[vessel])), None)
         if last is not None:

@@ -85,7 +85,7 @@ class VesselWidget(anywidget.AnyWidget):
             "settings": view.settings,
             "tree": view.scene.tree,
             "picture": self._picture(self._view),
-            "_shown": self._view.told(),
+            "_shown": self._view.state(),
         }
         self._at_rest = self._key(self._view)
         super().__init__(**first)
@@ -113,7 +113,7 @@ class VesselWidget(anywidget.AnyWidget):
 
         Parameters
         ----------
-        volume : Volume, or whatever else :func:`lumencut.render` takes as one
+        volume : Volume, or anything :func:`lumencut.render` takes as one
             The angiography.
         tree : VesselTree, optional
             Its centerlines.
@@ -121,7 +121,7 @@ class VesselWidget(anywidget.AnyWidget):
         Raises
         ------
         VolumeError, VesselTreeError, SettingsError
-            As :func:`lumencut.show`; the widget goes on showing what it showed.
+            As :func:`lumencut.show`; the widget continues showing what it showed.
         """
         with self._lock:
             other = self._view.with_volume(volume, tree)
@@ -196,7 +196,7 @@ class VesselWidget(anywidget.AnyWidget):
         view = self._view
         self.camera, self.settings, self.tree = view.camera, view.settings, view.scene.tree
         self.vessel, self.picked = view.vessel, view.picked
-        self._shown = view.told()
+        self._shown = view.state()
 
     def _key(self, view: Shown) -> tuple[Scene, Camera, Settings]:
         """What the picture of the turning view depends on."""

@@ -51,7 +51,7 @@ def pacs_zip(content: bytes, served: Volume | None) -> bytes:
     Raises
     ------
     FormatError
-        For a request that is none, and where there is no study to belong to.
+        For a request that is invalid, and where there is no study to belong to.
     MissingPackageError
         Without highdicom or matplotlib, where there are findings.
     """
@@ -70,7 +70,7 @@ def pacs_zip(content: bytes, served: Volume | None) -> bytes:
 
 
 def _check_findings(request: Given) -> None:
-    """Refuse findings that no report can be made of."""
+    """Reject findings that no report can be made of."""
     check_highdicom()
     check_matplotlib()
     if not request.object("stated").flag("spacing"):

@@ -147,12 +147,12 @@ def checked(value: _T, name: str, expected: str, is_so: Callable[[Any], bool]) -
 
 
 def is_text(value: Any) -> bool:
-    """Tell whether a value of JSON is a text."""
+    """Return whether a value of JSON is a text."""
     return isinstance(value, str)
 
 
 def is_number(value: Any) -> bool:
-    """Tell whether a value of JSON is a finite number."""
+    """Return whether a value of JSON is a finite number."""
     return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
 
 

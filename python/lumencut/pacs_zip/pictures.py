@@ -49,7 +49,7 @@ def big_view(view: Given, stated: Given, origin: Origin) -> Picture:
     Raises
     ------
     FormatError
-        For what is no view.
+        For anything that is not a view.
     """
     image = view.picture("picture")
     height, width = image.shape[:2]

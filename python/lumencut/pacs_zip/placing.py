@@ -15,7 +15,7 @@ from lumencut.pacs_zip.given import Given, checked, read_json, refused
 from lumencut.volume import Volume
 from lumencut.volume_files.dicom.study import study_in
 
-#: Where the objects are put: the scan's own study, one without a patient, that of another file.
+#: If the objects are put: the scan's own study, one without a patient, that of another file.
 _CHOICES = ("scan", "anonymous", "like")
 _FILE = "the DICOM file"
 #: What the page shows of a file, and the attributes that hold it.

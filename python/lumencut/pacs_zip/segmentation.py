@@ -66,7 +66,7 @@ def segmentation_mask(content: bytes, served: Volume | None) -> bytes:
     Raises
     ------
     FormatError
-        For what is no segmentation, such as an RT Structure Set, and for segments that overlap.
+        For anything that is not a segmentation, such as an RT Structure Set, and for segments that overlap.
     VolumeError
         For a segmentation in another frame of reference, or on another grid.
     """

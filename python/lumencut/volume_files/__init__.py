@@ -146,11 +146,11 @@ def read_volume(
         For a PACS that cannot be reached, refuses, or does not give all of a series.
     """
     callback(FormatError, "progress", progress)
-    told = progress if progress is not None else _untold
-    file = _open(path, _wanted(series, phase, fill_gaps, resample_slices, segments), told)
-    volume = file.volume(told)
+    counted = progress if progress is not None else _silent
+    file = _open(path, _wanted(series, phase, fill_gaps, resample_slices, segments), counted)
+    volume = file.volume(counted)
     if not file.format.startswith("DICOM"):
-        told(volume.size[2], volume.size[2])
+        counted(volume.size[2], volume.size[2])
     log_oddities(file)
     return volume
 
@@ -166,8 +166,8 @@ def open_volume(
     progress: Progress | None = None,
 ) -> VolumeFile:
     """Read the headers that `read_volume` reads, and leave the voxels on disk; parameters are the same."""
-    told = progress if progress is not None else _untold
-    return _open(path, _wanted(series, phase, fill_gaps, resample_slices, segments), told)
+    counted = progress if progress is not None else _silent
+    return _open(path, _wanted(series, phase, fill_gaps, resample_slices, segments), counted)
 
 
 def log_oddities(file: VolumeFile) -> None:
@@ -209,9 +209,9 @@ def inspect_volume(
         Format, grid, values and oddities.
     """
     callback(FormatError, "progress", progress)
-    told = progress if progress is not None else _untold
-    file = _open(path, _wanted(series, phase, fill_gaps, resample_slices), told)
-    return _report(file, _values(file, told) if values else None)
+    counted = progress if progress is not None else _silent
+    file = _open(path, _wanted(series, phase, fill_gaps, resample_slices), counted)
+    return _report(file, _values(file, counted) if values else None)
 
 
 def inspected_volume(
@@ -225,9 +225,9 @@ def inspected_volume(
 ) -> tuple[VolumeReport, Volume]:
     """Give what `inspect_volume` tells of a file, and the volume; parameters and errors are the same."""
     callback(FormatError, "progress", progress)
-    told = progress if progress is not None else _untold
-    file = _open(path, _wanted(series, phase, fill_gaps, resample_slices), told)
-    volume = _values(file, told)
+    counted = progress if progress is not None else _silent
+    file = _open(path, _wanted(series, phase, fill_gaps, resample_slices), counted)
+    volume = _values(file, counted)
     report = _report(file, volume)
     if volume is None:
         # No label map shows segments that overlap; the grid is known all the same.
@@ -235,10 +235,10 @@ def inspected_volume(
     return report, volume
 
 
-def _values(file: VolumeFile, told: Progress) -> Volume | None:
+def _values(file: VolumeFile, counted: Progress) -> Volume | None:
     """The volume; none, and a note, for segments that overlap."""
     try:
-        return file.volume(told)
+        return file.volume(counted)
     except OverlapError as error:
         file.notes.append(f"{error.found}; {error.mend}")
         return None
@@ -286,7 +286,7 @@ def list_series(path: str | os.PathLike[str]) -> list[SeriesReport]:
     return list_dicom_series(_existing(path))
 
 
-def _untold(done: int, total: int) -> None:
+def _silent(done: int, total: int) -> None:
     """Report progress to nobody."""
 
 
@@ -339,16 +339,16 @@ def _open(given: str | os.PathLike[str], wanted: Wanted, progress: Progress) -> 
         return _fetched(given, wanted, progress)
     path = _existing(given)
     notes: list[str] = []
-    with heeding(progress) as told, refusing(path, "volume", notes):
+    with heeding(progress) as counted, refusing(path, "volume", notes):
         if path.is_dir() or _is_archive(path):
-            return open_dicom(path, wanted, told).checked()
+            return open_dicom(path, wanted, counted).checked()
         head = head_bytes(path, 352)
         if not head:
             raise FormatError(str(path), "an empty file", _KNOWN, "copy or export it again")
         if head.startswith(b"NRRD"):
             file = open_nrrd(path, wanted.segments)
         elif is_dicom(head):
-            file = open_dicom(path, wanted, told)
+            file = open_dicom(path, wanted, counted)
         elif _is_metaimage(path, head):
             file = open_metaimage(path)
         elif nifti_kind(head) is not None or _has_nifti_name(path):
@@ -365,9 +365,9 @@ def _fetched(given: str | os.PathLike[str], wanted: Wanted, progress: Progress) 
     """A volume of a PACS, whose files lie in a folder of their own as long as it is held."""
     from lumencut.dicomweb.source import fetched
 
-    with heeding(progress) as told:
-        folder = fetched(given, wanted.series, told)
-        file = opened(Path(given), wanted, lambda notes: read_files(folder.path, notes, told)).checked()
+    with heeding(progress) as counted:
+        folder = fetched(given, wanted.series, counted)
+        file = opened(Path(given), wanted, lambda notes: read_files(folder.path, notes, counted)).checked()
     return replace(file, holds=folder)
 
 

@@ -12,7 +12,7 @@ _LABEL = re.compile(r"<Label\b[^>]*?\bKey=\"(-?\d{1,9})\"[^>]*>(?:<!\[CDATA\[)?(
 
 
 def has_extensions(head: bytes, length: int) -> bool:
-    """Tell whether extensions follow a header of this length; four bytes behind it say so."""
+    """Return whether extensions follow a header of this length; four bytes behind it say so."""
     return len(head) >= length + 4 and head[length] != 0
 
 

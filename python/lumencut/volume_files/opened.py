@@ -80,8 +80,8 @@ class VolumeFile:
 
         `filled` is told of voxels that others may look at while the rest is read. Not every reader has such.
         """
-        with heeding(progress) as told_on, refusing(self.path, self.format, self.notes):
-            voxels = self.load(told_on, filled)
+        with heeding(progress) as report, refusing(self.path, self.format, self.notes):
+            voxels = self.load(report, filled)
         volume = _placed(self, voxels)
         volume._frame_of_reference, volume._is_segmentation = self.frame_of_reference, self.is_segmentation
         volume._label_names = self.label_names
@@ -90,7 +90,7 @@ class VolumeFile:
         return volume
 
     def checked(self) -> VolumeFile:
-        """Refuse a grid that no volume can have before any voxel is read, and note a doubtful size."""
+        """Reject a grid that no volume can have before any voxel is read, and note a doubtful size."""
         _placed(self, np.zeros((1, 1, 1), np.uint8))
         doubt = _lumencut.doubted_size(self.size, self.world_from_index[:3].tolist())
         if doubt and doubt not in self.notes:
@@ -126,7 +126,7 @@ def heeding(progress: Progress) -> Iterator[Progress]:
     """Give a progress function whose own errors pass through everything that refuses files."""
     raised: list[Exception] = []
 
-    def told_on(done: int, total: int) -> None:
+    def report(done: int, total: int) -> None:
         try:
             progress(done, total)
         except Exception as error:
@@ -134,7 +134,7 @@ def heeding(progress: Progress) -> Iterator[Progress]:
             raise
 
     try:
-        yield told_on
+        yield report
     except Exception:
         if raised:
             raise raised[0] from None
@@ -166,11 +166,11 @@ def refusing(subject: object, kind: str, notes: list[str]) -> Iterator[None]:
         if isinstance(error, OSError) and error.errno is not None:
             found = error.strerror or type(error).__name__
             raise FileError(str(error.filename or subject), found, "a readable file") from None
-        raise FormatError(str(subject), told(error), f"a sound {kind} file") from None
+        raise FormatError(str(subject), impersonal(error), f"a sound {kind} file") from None
     finally:
         _reading.reset(before)
     for warning in caught:
-        if (text := told(warning)) not in notes:
+        if (text := impersonal(warning)) not in notes:
             notes.append(text)
 
 
@@ -194,7 +194,7 @@ class _Hearing:
                 self._usual, self._catcher = warnings.showwarning, warnings.catch_warnings()
                 self._catcher.__enter__()
                 warnings.simplefilter("always")
-                warnings.showwarning = self._told
+                warnings.showwarning = self._received
             self._readers += 1
 
     def end(self) -> None:
@@ -204,7 +204,7 @@ class _Hearing:
                 self._catcher.__exit__(None, None, None)
                 warnings.showwarning = self._usual
 
-    def _told(self, message: Warning | str, category: type[Warning], *where: Any, **more: Any) -> None:
+    def _received(self, message: Warning | str, category: type[Warning], *where: Any, **more: Any) -> None:
         caught = _caught.get()
         if caught is None:
             self._usual(message, category, *where, **more)
@@ -232,7 +232,7 @@ _VALUE = re.compile(r"""[^ -~]|[\d"'`:=<>^(\[{\\]""")
 _LONG_ENOUGH = 3
 
 
-def told(message: BaseException | str) -> str:
+def impersonal(message: BaseException | str) -> str:
     """What a foreign error or warning says before it quotes a value, which may be a patient's name.
 
     Values follow a colon, a quotation mark or a bracket; whatever has digits is one.

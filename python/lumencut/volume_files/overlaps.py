@@ -29,7 +29,7 @@ def put(
 
 
 def refuse_overlaps(subject: object, names: Mapping[int, str], overlaps: Overlaps) -> None:
-    """Refuse segments that share voxels.
+    """Reject segments that share voxels.
 
     Raises
     ------

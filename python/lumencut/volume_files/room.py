@@ -19,7 +19,7 @@ _MEND = "crop or resample it, free memory, or raise the limit of memory where on
 
 
 def require_memory(subject: object, needed: int) -> None:
-    """Refuse what needs more memory than is available.
+    """Reject what needs more memory than is available.
 
     Parameters
     ----------

@@ -35,7 +35,7 @@ class Segment:
 
 
 def has_segments(lines: Iterable[bytes]) -> bool:
-    """Tell whether a header describes segments."""
+    """Return whether a header describes segments."""
     return any(_FIELD.fullmatch(decoded(line).strip()) for line in lines)
 
 

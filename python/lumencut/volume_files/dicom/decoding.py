@@ -88,7 +88,7 @@ def _jpeg_of_12_bits(frame: bytes, options: dict[str, Any]) -> npt.NDArray[Any]:
 
 
 def _require_codestream(subject: str, frame: bytes, options: dict[str, Any]) -> None:
-    """Refuse a codestream of another size than the header's before its decoder sets memory aside."""
+    """Reject a codestream of another size than the header's before its decoder sets memory aside."""
     start = frame.find(_SIZ_MARKER)
     fields = frame[start + 8 : start + 42]
     if start < 0 or len(fields) < 34:

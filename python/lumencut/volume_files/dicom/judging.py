@@ -16,7 +16,7 @@ import numpy as np
 
 from lumencut._lumencut import describe_dicom, judge_dicom
 from lumencut.errors import FormatError, SeriesError
-from lumencut.mends import told
+from lumencut.mends import advised
 from lumencut.scan_details import ScanDetails
 from lumencut.series_report import SeriesReport
 from lumencut.volume_files.dicom.comparing import same_values
@@ -118,7 +118,7 @@ def _answer(path: Path, files: Sequence[File], answer: str) -> Record:
 def _error(path: Path, files: Sequence[File], error: Record) -> FormatError:
     subject = str(path if error["file"] is None else files[error["file"]].source)
     mends = [(mend["name"], mend["values"]) for mend in error["mends"]]
-    words = subject, error["found"], error["expected"], told(error["advice"], mends)
+    words = subject, error["found"], error["expected"], advised(error["advice"], mends)
     if error["kind"] != "series":
         return FormatError(*words)
     several = SeriesError(*words)

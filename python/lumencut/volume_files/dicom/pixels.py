@@ -86,7 +86,7 @@ class PixelReader:
 
 
 def check_pixels(images: Iterable[Image]) -> bool:
-    """Tell whether the sizes of files prove that each image has all of its pixels.
+    """Return whether the sizes of files prove that each image has all of its pixels.
 
     Raises
     ------

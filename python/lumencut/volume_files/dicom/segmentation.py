@@ -114,7 +114,7 @@ def open_segmentation(path: Path, image: Image, segments: Collection[int] | None
 
 
 def _check(subject: str, image: Image, names: dict[int, str], segments: Collection[int] | None) -> None:
-    """Refuse what no frame needs to be looked at for."""
+    """Reject what no frame needs to be looked at for."""
     known = ", ".join(f"{number} {name}" for number, name in names.items())
     for number in segments or ():
         if number not in names:

@@ -10,7 +10,7 @@ import numpy as np
 
 from lumencut.errors import FormatError
 from lumencut.volume_files.dicom.decoding import decode_frame
-from lumencut.volume_files.opened import told
+from lumencut.volume_files.opened import impersonal
 
 _MEMORY = 4 << 30
 """Far above what one slice needs, far below what a damaged one may ask for."""
@@ -40,6 +40,6 @@ def main() -> None:
             data = pixels.tobytes()
             head: dict[str, object] = {"shape": pixels.shape, "dtype": pixels.dtype.str, "length": len(data)}
         except Exception as error:
-            data, head = b"", {"error": error.found if isinstance(error, FormatError) else told(error)}
+            data, head = b"", {"error": error.found if isinstance(error, FormatError) else impersonal(error)}
         answers.write(json.dumps(head).encode() + b"\n" + data)
         answers.flush()
