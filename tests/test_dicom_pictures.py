@@ -158,7 +158,7 @@ def test_a_scan_without_a_study_is_refused_unless_one_is_named(tmp_path):
     for study in (series(), str(series()), scan()):
         assert save(frame, path, study=study).PatientName == "Doe^Jane"
     assert save(frame, path, anonymous=True).Modality == "OT"
-    with pytest.raises(SettingsError, match="a study beside anonymous"):
+    with pytest.raises(SettingsError, match="a study with anonymous"):
         frame.save(path, study=scan(), anonymous=True)
     with pytest.raises(SettingsError, match="found int"):
         frame.save(path, study=5)

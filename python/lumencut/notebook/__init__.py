@@ -29,7 +29,7 @@ def show(
 ) -> VesselWidget:
     """Return a view of an angiography for a notebook, which is turned with the mouse as in the viewer.
 
-    The pictures come from the kernel: nothing else is asked, and the volume stays where it is. Drags turn
+    The kernel makes the pictures; no other server is contacted, and the volume stays there. Drags turn
     (left), pan (middle, or Shift) and change the window (right, or Ctrl); the wheel zooms. A click, or a
     double click, puts the cross-hair there and picks the vessel. docs/notebook.md lists all of it.
 
@@ -41,7 +41,7 @@ def show(
     volume : Volume, or anything :func:`lumencut.render` takes as one
         The angiography.
     tree : VesselTree, optional
-        Its centerlines; the context alone is shown by default.
+        Its centerlines; by default the view shows the context alone.
     camera : Camera, optional
         The first view; from the front, fitted to the tree or else the volume by default.
     settings : Settings, optional
@@ -52,9 +52,9 @@ def show(
         Whether clicks set points of vessels, which are traced through them: a click sets a point, a double
         click ends the vessel, Backspace takes the last point away. ``widget.tree`` has the vessels.
     linked : bool, default True
-        Whether the picked vessel is shown straightened beside the view, with the section across it.
+        Whether to show the picked vessel straightened next to the view, with the section across it.
     names : bool, default True
-        Whether the names of the vessels stand in the picture.
+        Whether to write the names of the vessels into the picture.
     device : {"auto", "cpu", "gpu"}, default "auto"
         What computes, as for :class:`lumencut.Renderer`.
     **changes

@@ -11,7 +11,7 @@ import numpy.typing as npt
 from lumencut.errors import FormatError
 
 Overlaps = Counter[tuple[int, int]]
-"""For two segments, by their numbers, how many voxels they share."""
+"""The number of shared voxels for two segments, by their numbers."""
 
 
 class OverlapError(FormatError):

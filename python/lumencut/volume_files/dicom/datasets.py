@@ -64,7 +64,7 @@ def open_datasets(datasets: Sequence[Any]) -> VolumeFile:
     Raises
     ------
     SeriesError
-        For several series of which none is the only angiography.
+        For several series without a single angiography.
     FormatError
         For datasets that are not one regular stack of grey slices.
     """

@@ -28,7 +28,7 @@ PLUGINS = {
 def decode_native(
     syntax: str, stream: BinaryIO | bytes, frame: int, options: dict[str, Any]
 ) -> npt.NDArray[Any]:
-    """Read one frame of pixels that are not compressed; a stream stands at the first of all frames."""
+    """Read one frame of uncompressed pixels from a stream at the first frame."""
     from pydicom.pixels.decoders.base import get_decoder
 
     return np.asarray(get_decoder(syntax).as_array(stream, index=frame, **options)[0])

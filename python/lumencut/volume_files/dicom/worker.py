@@ -29,7 +29,7 @@ def _limit_memory() -> None:
 def main() -> None:
     """Decode until the input ends."""
     _limit_memory()
-    # GDCM may print; nothing but answers may reach the pipe.
+    # GDCM may print; only answers may reach the pipe.
     answers = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)
     for line in sys.stdin.buffer:
