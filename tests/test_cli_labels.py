@@ -197,7 +197,6 @@ def test_turntables_have_labels_on_request(rendered, tmp_path):
         name = f"frame-00{number}.png"
         assert (pixels(bare / name) != pixels(named / name)).any()
         assert not read_recipe(bare / name).annotate
-        # Every picture can be rendered again by itself.
         again, _ = rendered("--like", named / name, output="again.png")
         np.testing.assert_array_equal(pixels(again), pixels(named / name))
     with Image.open(moving) as first:

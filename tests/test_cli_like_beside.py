@@ -150,7 +150,6 @@ def test_a_name_beside_like_is_taken_from_the_new_volume(scene):
     first, _ = scene.render(*SIZE, "--window", "700/210", output="first.png")
     path, _ = scene.render("--like", first, "--window", "full", output="again.png")
     window = read_recipe(path).settings.window
-    # The tube has 40 beside the vessel and 300 in it.
     assert (window.level, window.width) == (170, 260)
 
 

@@ -119,7 +119,6 @@ def test_the_same_input_gives_the_same_uid_and_other_pixels_another(frame, tmp_p
     packed = save(frame, tmp_path / "e.dcm", annotate=True, compress=True)
     assert first.SOPInstanceUID == again.SOPInstanceUID == packed.SOPInstanceUID
     assert len({first.SOPInstanceUID, bare.SOPInstanceUID, turned.SOPInstanceUID}) == 3
-    # Views with the same settings are one series.
     assert first.SeriesInstanceUID == turned.SeriesInstanceUID
     assert first.SOPInstanceUID.startswith("2.25.")
     assert first.SOPInstanceUID.is_valid

@@ -25,7 +25,6 @@ from volume_samples import coded, write_stack
 
 PAGE = Path(__file__).parents[1] / "web/src/core/mends.ts"
 
-#: What can be chosen among.
 VALUES = {"coordinates": ("lps", "ras"), "place": ("lps", "ras"), "unit": ("cm", "dm"), "phase": ("0", "400")}
 VALUES["reading"] = ("lps in cm", "ras in m")
 
