@@ -21,7 +21,6 @@ ROOT = Path(__file__).resolve().parent.parent
 CRATE = ROOT / "crates/lumencut-io/fuzz"
 TARGET = Path(os.environ.get("CARGO_TARGET_DIR") or ROOT / "target").resolve() / "fuzz"
 NAMES = sorted(path.stem for path in (CRATE / "fuzz_targets").glob("*.rs"))
-#: Inputs per target where the command line names no number.
 RUNS = 20_000
 #: Counters for libFuzzer at every edge, and calls at every comparison.
 COVERAGE = (

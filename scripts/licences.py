@@ -20,7 +20,6 @@ from typing import Any
 
 ROOT = Path(__file__).resolve().parent.parent
 LISTING = ROOT / "THIRD-PARTY-LICENSES"
-#: The crate whose dependencies end up in the extension module.
 PACKAGE = "lumencut-python"
 #: The platforms that the package may be compiled for; what any of them links is listed.
 TARGETS = (
@@ -46,7 +45,6 @@ WITHOUT_TEXT = frozenset(
         "spirv",
     }
 )
-#: The names of files with licence texts.
 NAMES = re.compile(r"(un)?licen[cs]e|copying|copyright|notice", re.IGNORECASE)
 HEADING = f"""\
 Licences of third parties

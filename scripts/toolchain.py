@@ -19,9 +19,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-#: What the viewer's WebAssembly is compiled for.
 WASM = "wasm32-unknown-unknown"
-#: The oldest Node that builds the viewer's page.
 NODE = 20
 #: The targets besides this machine's own that everything but the extension module must compile for.
 TARGETS = (
@@ -42,9 +40,7 @@ DICOM_TOOLS = {
 }
 #: Orthanc's plugin for DICOMweb, which is a library, and its package.
 DICOMWEB_PLUGIN, DICOMWEB_PACKAGE = "libOrthancDicomWeb.so", "orthanc-dicomweb"
-#: Where Debian installs the plugins of Orthanc.
 ORTHANC_PLUGINS = Path("/usr/share/orthanc/plugins")
-#: Where drivers of Vulkan are registered.
 DRIVERS = (Path("/usr/share/vulkan/icd.d"), Path("/etc/vulkan/icd.d"))
 
 

@@ -27,7 +27,6 @@ DIST = ROOT / "dist"
 #: Where the pictures of the trials are kept, to be looked at.
 PICTURES = ROOT / "target/wheel"
 LOCK = ROOT / "requirements/runtime.lock"
-#: What of the viewer's page must be in a wheel.
 PAGE = tuple(f"lumencut/viewer/page/{name}" for name in ("index.html", "THIRD-PARTY-NOTICES.txt"))
 LICENCES = ("LICENSE-MIT", "LICENSE-APACHE", "THIRD-PARTY-LICENSES")
 #: The oldest glibc that the wheels run with.

@@ -12,7 +12,6 @@ import numpy.typing as npt
 #: Number of trees with cached values, and of sampled voxels that detect a change of the array.
 _MOST, _LOOKED_AT = 32, 32768
 
-#: A cached value.
 _T = TypeVar("_T")
 
 

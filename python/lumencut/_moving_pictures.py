@@ -48,7 +48,6 @@ class WebP:
         if self._size == (0, 0):
             self._size = picture.size
             self._file.write(self._head(0))
-            # No background, and no end to the repetitions.
             self._file.write(_riff_chunk(b"ANIM", bytes(6)))
         parts = list(_riff_chunks(_encoded(picture, "WEBP", **_WEBP)))
         if any(name == b"ALPH" for name, _ in parts):
@@ -83,7 +82,6 @@ class Apng:
             self._file.write(_SIGNATURE + _png_chunk(b"IHDR", parts[0][1]))
             self._place = self._file.tell()
             self._write_count()
-        # Neither blended with the frame before nor removed after it.
         control = struct.pack(">5I2H2B", self._next(), *picture.size, 0, 0, milliseconds, 1000, 0, 0)
         self._file.write(_png_chunk(b"fcTL", control))
         for name, data in parts:

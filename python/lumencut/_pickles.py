@@ -28,7 +28,6 @@ def by_name(kind: _Kind) -> _Kind:
     """
 
     def reduced(self: Any, protocol: Any) -> Any:
-        # What makes an object, the class and its arguments; then the state.
         whole: Any = object.__reduce_ex__(self, max(protocol, 2))
         make, arguments, *state = whole
         if type(self) is not kind:

@@ -16,7 +16,6 @@ class KeepsReadOnly:
     __slots__ = ()
 
     def __getstate__(self) -> tuple[dict[str, Any], list[str]]:
-        # Copies compute cached values again.
         state = {name: value for name, value in vars(self).items() if not isinstance(value, FoundOnce)}
         arrays = ((name, value) for name, value in state.items() if isinstance(value, np.ndarray))
         return state, [name for name, array in arrays if not array.flags.writeable]

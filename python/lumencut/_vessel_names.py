@@ -9,7 +9,6 @@ from lumencut._wording import listed
 from lumencut.errors import VesselTreeError
 from lumencut.vessel import Vessel
 
-#: Largest number of names in an error.
 _MOST_NAMES = 24
 #: Largest number of digits of an id; Python rejects thousands of digits.
 _MOST_DIGITS = 18

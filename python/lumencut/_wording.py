@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-#: Largest number of names in a list.
 _MENTIONED = 4
 
 

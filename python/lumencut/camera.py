@@ -23,7 +23,6 @@ from lumencut.volume import Volume
 #: The six views of the body: direction from the viewer into the scene, and up (LPS).
 VIEWS: dict[str, tuple[tuple[float, float, float], tuple[float, float, float]]] = _lumencut.VIEWS
 
-#: A tree, a vessel, a volume, or anything `render` takes as a volume.
 Scene: TypeAlias = VesselTree | Vessel | Volume | Any
 
 

@@ -22,7 +22,6 @@ if TYPE_CHECKING:
 
 #: Pictures with a shorter side than this (pixels) have no room for titles and legend.
 SMALLEST_SIDE = 200
-#: The method that the others are compared with.
 OURS = "CSR (Lumencut)"
 
 #: Differences of depth (mm) at which each colour begins, and the colour of pixels that a method lacks.

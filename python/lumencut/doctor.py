@@ -18,7 +18,6 @@ from urllib.request import ProxyHandler, build_opener
 
 from lumencut.errors import LumencutError
 
-#: Environment variables that change results or devices.
 _VARIABLES = ("RAYON_NUM_THREADS", "VK_DRIVER_FILES", "VK_ICD_FILENAMES", "XDG_CACHE_HOME")
 #: Headers that allow a page to share memory between its workers.
 _ISOLATION = {"Cross-Origin-Opener-Policy": "same-origin", "Cross-Origin-Embedder-Policy": "require-corp"}

@@ -28,7 +28,6 @@ Feature: TypeAlias = Literal["max", "mean", "min", "range", "share"]
 
 FEATURES = ("max", "mean", "min", "range", "share")
 
-#: Features of a half circle.
 _SHOWN = {
     "max": "the largest value",
     "mean": "the mean",

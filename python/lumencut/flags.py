@@ -29,7 +29,6 @@ class Flag(IntFlag):
     METAL = 8
     #: Another lumen or bone is next to the wall.
     NEIGHBOR = 16
-    #: The section reaches beyond the volume.
     OUTSIDE = 32
     #: No wall was found, or it does not enclose a lumen; numbers are NaN, or unreliable.
     NO_EDGE = 64

@@ -28,7 +28,6 @@ if TYPE_CHECKING:
 #: Formats of Pillow without transparency.
 _OPAQUE = ("BMP", "EPS", "JPEG", "MPO", "PCX")
 
-#: Images that can be requested.
 IMAGES = ("image", "depth", "vessel", "distance", "value", "context")
 
 #: All images; the position follows from the depth.

@@ -16,7 +16,6 @@ if TYPE_CHECKING:
     from lumencut.vessel_tree import VesselTree
     from lumencut.volume import Volume
 
-#: The name of a vessel and the world point (mm, LPS) where it ends.
 VesselEnd = tuple[str, tuple[float, float, float]]
 
 
@@ -61,7 +60,6 @@ def frame_source(
     method: str = "csr",
 ) -> FrameSource:
     """Return the source of a frame with these settings, windows as numbers; `ends` are those of the tree."""
-    # The renderer has replaced each name by a window.
     window = cast(Window | None, _context_window(settings) if tree is None else settings.window)
     vessels = 0 if tree is None else len(tree)
     return FrameSource(

@@ -19,7 +19,6 @@ from lumencut.unrolled_wall import MODES, LumenMap, MappedVessel, Mode
 from lumencut.vessel import Vessel
 from lumencut.vessel_tree import VesselTree
 
-#: The patient's head.
 _HEAD = (0.0, 0.0, 1.0)
 
 #: Largest default pixel side (mm).

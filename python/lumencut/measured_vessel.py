@@ -12,7 +12,6 @@ from lumencut.profile_sections import Mark
 from lumencut.stenosis import METHODS, Method, Stenosis
 from lumencut.vessel import Vessel
 
-#: The vessels whose stenoses have groups.
 GROUPS: tuple[Literal["carotid", "coronary"], ...] = ("carotid", "coronary")
 
 

@@ -34,7 +34,6 @@ class Option(NamedTuple):
     form: Literal["whole", "again", "quoted", "plain"] = "whole"
 
 
-#: How a host writes an option.
 Write: TypeAlias = Callable[[Option], str]
 
 _Parts: TypeAlias = tuple[str | Option, ...]
@@ -127,7 +126,6 @@ def _windows(_: Sequence[str]) -> _Parts:
 
 _THRESHOLD = "compare the values with a threshold first, as --threshold of the command line does"
 
-#: The words for each mend, of its values.
 WORDS: dict[MendName, Callable[[Sequence[str]], _Parts]] = {
     "bridge": lambda _: ("ask for a bridge where it is occluded",),
     "every_second": lambda _: ("take every second voxel along each axis, an eighth of all",),

@@ -14,7 +14,6 @@ from lumencut.slab import Slab
 from lumencut.transfer import TransferFunction
 from lumencut.window import Opacity, Window
 
-#: The keyword of the text.
 KEYWORD = "Lumencut"
 
 _LONGEST = 100_000

@@ -177,7 +177,6 @@ def check_space(tree: VesselTree, volume: Volume, subject: str = "vessel tree") 
         times as many points look like lumen with x and y negated. The text names both counts and the option
         that mends it.
     """
-    # Warn only once.
     tree._space_settled |= _warn_if_another_fits(tree, volume, subject)
 
 

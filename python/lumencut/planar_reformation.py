@@ -30,7 +30,6 @@ MODES = ("projected", "stretched", "straightened")
 #: The mode that shows the vessel in the pixels of a camera.
 TANGENTIAL: Final = "tangential"
 
-#: All modes of :func:`cpr`.
 ALL_MODES = (*MODES, TANGENTIAL)
 
 #: Width of the strip that shows the angle of each row (pixels).
@@ -39,14 +38,11 @@ _STRIP = 32
 #: Arc lengths (mm) and the angle at each (radians).
 _Rolled: TypeAlias = tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]
 
-#: Which side of the lumen a straightened vessel can follow.
 ROLLS = ("narrowest", "widest")
 
-#: The patient's head.
 _HEAD = (0.0, 0.0, 1.0)
 
 
-#: What rows and columns of a CPR are.
 _AXES = {
     "projected": "Down: height as it is seen. Across: through the vessel; distances are not true.",
     "stretched": "Down: along the unrolled surface. Across: the lines through the vessel, in mm.",

@@ -14,7 +14,6 @@ from lumencut.frame import check_dicom_alone
 from lumencut.profile_sections import Sections
 from lumencut.stenosis import Stenosis
 
-#: What every file says of itself.
 NOTICE = _lumencut.MEASURING_NOTICE
 
 _ENDINGS = (".csv", ".json")

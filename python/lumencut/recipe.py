@@ -21,7 +21,6 @@ from lumencut.errors import CameraError, FormatError, SettingsError
 from lumencut.picture_text import KEYWORD, plain_settings, settings_of, text_of
 from lumencut.settings import Settings
 
-#: The version of the text.
 _FORMAT = 1
 
 _EXPECTED = "a PNG picture that Lumencut wrote"

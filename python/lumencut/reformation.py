@@ -55,7 +55,6 @@ class Reformation:
 
     #: Whether distances in the image are those that a viewer sees, so that a ruler may measure them.
     is_projection: bool = False
-    #: Arrays of a file.
     _arrays: tuple[str, ...] = ("image", "value", "position", "arc_length", "folded")
 
     def __init__(
@@ -104,7 +103,6 @@ class Reformation:
     def image(self) -> npt.NDArray[np.uint8]:
         """RGBA picture, uint8, shape (H, W, 4); what lies outside the volume is transparent."""
         made = self._look(self.settings, "image", "value")
-        # One look gives both.
         self.__dict__.setdefault("value", made["value"])
         image: npt.NDArray[np.uint8] = made["image"]
         return image

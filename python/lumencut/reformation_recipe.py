@@ -19,7 +19,6 @@ from lumencut.errors import CameraError, FormatError, SettingsError
 from lumencut.picture_text import KEYWORD, plain_settings, settings_of, text_of
 from lumencut.settings import Settings
 
-#: The version of the text.
 _FORMAT = 1
 
 

@@ -25,11 +25,9 @@ _Settings = TypeVar("_Settings")
 _HEAD = "# Settings of Lumencut. A setting that is left out has its default."
 _LARGEST = 1 << 20
 _WIDTH = 100
-#: Stands for None.
 _NONE = "none"
 _EXPECTED = "a settings file, such as lumencut settings writes"
 
-#: What is written as a table, and the names in it.
 _TABLES: dict[str, tuple[Callable[..., Any], tuple[str, ...]]] = {
     "window": (Window, ("level", "width")),
     "opacity": (Opacity, ("transparent", "opaque")),

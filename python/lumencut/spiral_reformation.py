@@ -19,7 +19,6 @@ from lumencut.settings import Settings
 from lumencut.vessel import Vessel
 from lumencut.vessel_tree import VesselTree
 
-#: How samples lie on the spirals.
 SAMPLINGS = ("arc", "angle")
 
 #: The areas that a ruler can have (mm²), and the widest ruler as a share of the picture.

@@ -11,7 +11,6 @@ from lumencut.errors import SettingsError
 
 Method: TypeAlias = Literal["nascet", "ecst", "area"]
 
-#: How a stenosis can be graded.
 METHODS: tuple[Method, ...] = ("nascet", "ecst", "area")
 
 

@@ -16,7 +16,6 @@ from lumencut.vessel_tree import VesselTree
 #: The thresholds of CR (pixels): those of the picture of the neck in the paper of CSR (its Fig. 8).
 RADIUS_OFFSET, ARC_THRESHOLD = 50.0, 150.0
 
-#: mpCPR as the renderer takes it.
 MPCPR = ("mpcpr",)
 
 

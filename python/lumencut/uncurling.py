@@ -21,7 +21,6 @@ from lumencut.settings import Settings
 from lumencut.vessel import Vessel
 from lumencut.vessel_tree import VesselTree
 
-#: The most frames of a film.
 _MOST_FRAMES = 10_000
 
 

@@ -22,7 +22,6 @@ if TYPE_CHECKING:
     from lumencut.cohort.manifest import Manifest, Study
     from lumencut.cohort.recipe import CohortRecipe
 else:
-    # Generic only in recent versions of click.
     _Type = click.ParamType
 
 _UNITS = {"": 1, "k": 1 << 10, "m": 1 << 20, "g": 1 << 30, "t": 1 << 40}
@@ -138,7 +137,6 @@ def batch(manifest: str, output: Path | None, **chosen: Any) -> None:
     _all(manifest, output, given, chosen)
 
 
-#: Options that concern all studies.
 _OF_ALL = ("shard", "retry", "dask", "slurm", "parquet")
 
 

@@ -54,7 +54,6 @@ def leading_to(address: str) -> Iterator[Path | None]:
     try:
         yield file
     finally:
-        # In this order: Windows does not remove an open file.
         os.close(descriptor)
         _remove(file)
         with suppress(OSError):
@@ -74,7 +73,6 @@ def _folders() -> Iterator[Path]:
     if runtime.is_absolute() and _is_private(runtime):
         yield runtime / "lumencut"
     yield visible
-    # A user may have no home.
     yield Path(tempfile.gettempdir()) / f"lumencut-viewer-{_user()}"
 
 

@@ -90,7 +90,6 @@ def evaluate(
     with bar("evaluate", "frame") as progress:
         found = library(
             volume,
-            # The arguments of the command always include centerlines.
             cast("VesselTree", tree),
             names,
             chosen["views"],

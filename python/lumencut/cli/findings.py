@@ -17,7 +17,6 @@ if TYPE_CHECKING:
     from lumencut.mends import Told
     from lumencut.vessel_tree import VesselTree
 
-#: What decided a space or unit.
 _ORIGINS = {
     "asked": "as asked",
     "stated": "stated in the file",

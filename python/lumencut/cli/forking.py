@@ -66,7 +66,6 @@ def _become(order: dict[str, Any]) -> NoReturn:
     """Become the process of a study, as if started by its command line."""
     code = 1
     try:
-        # All of this comes before any code of the study runs.
         os.environ[PARENT] = str(os.getppid())
         os.environ["RAYON_NUM_THREADS"] = str(order["threads"])
         os.setsid()

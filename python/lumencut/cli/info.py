@@ -24,7 +24,6 @@ from lumencut.errors import LumencutError, SeriesError
 
 FILE = click.Path(path_type=Path)
 _CENTERLINE_ENDINGS = (".vtp", ".vtk", ".json", ".fcsv", ".pth", ".swc", ".tre", ".csv", ".txt", ".npy")
-#: Only of use to programs.
 _ONLY_IN_JSON = {"file", "name", "volume", "centerlines", "notes", "decisions", "world_from_index"}
 _ONLY_IN_JSON |= {"kind", "error"}
 

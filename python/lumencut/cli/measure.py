@@ -32,7 +32,6 @@ if TYPE_CHECKING:
 #: does not import numpy.
 METHODS, GROUPS = ("nascet", "ecst", "area"), ("carotid", "coronary")
 
-#: Options that concern a place on one vessel.
 _OF_A_PLACE = ("reference", "method", "original", "comparison", "group")
 
 

@@ -16,7 +16,6 @@ if TYPE_CHECKING:
     from lumencut.vessel_tree import VesselTree
     from lumencut.volume import Volume
 
-#: The endings of each output.
 _ENDINGS = {
     "output": (".csv", ".json"),
     "plot": (".png", ".svg"),

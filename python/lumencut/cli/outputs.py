@@ -11,7 +11,6 @@ import click
 
 from lumencut.cli.options import check_picture
 
-#: Replaced by the name of the view in the name of an output.
 PLACE = "{view}"
 
 

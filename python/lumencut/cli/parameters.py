@@ -10,7 +10,6 @@ import click
 if TYPE_CHECKING:
     _Type = click.ParamType[Any]
 else:
-    # Generic only in recent versions of click.
     _Type = click.ParamType
 
 _Parameter: TypeAlias = "click.Parameter | None"

@@ -177,7 +177,6 @@ def busy(what: str) -> Iterator[None]:
     try:
         yield
     finally:
-        # Return to the start of the line and clear it.
         click.echo("\r\x1b[K", err=True, nl=False)
 
 

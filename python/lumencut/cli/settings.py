@@ -16,7 +16,6 @@ from lumencut.errors import SettingsError
 if TYPE_CHECKING:
     from lumencut.settings import Settings
 
-#: The word for None.
 NO_CONTEXT = "none"
 
 #: The most common settings come first; the others follow in the order of the table.
@@ -121,7 +120,6 @@ def _type(setting: Setting) -> tuple[Any, str | None]:
 
 def _help(setting: Setting) -> str:
     """The help of a setting: its effect, syntax and default."""
-    # Replace names of settings by their options.
     sentence = re.sub(r"`(\w+)`", lambda name: name[1].replace("_", "-"), setting.sentence.rstrip("."))
     return f"{sentence}{_WRITTEN.get(setting.kind, '')}; {_default(setting)}."
 

@@ -158,7 +158,6 @@ def _film(first: Uncurled, frames: int, *, annotate: bool) -> Iterator[Any]:
         for done, made in enumerate(uncurling(first, frames), 1):
             image = (made.annotated() if annotate else made.image).copy()
             timings(f"frame {done}", made.timings)
-            # Pixels outside the volume are black.
             image[..., 3] = 255
             yield _Picture(made, image)
             progress(done, frames)

@@ -20,7 +20,6 @@ if TYPE_CHECKING:
     from lumencut.settings import Settings
     from lumencut.untangled_tree import UntangledTree
 
-#: A camera also needs these; only its direction matters.
 _UNUSED = {"size": (64, 64), "zoom": 1.0}
 
 

@@ -40,7 +40,6 @@ COLUMNS = (
 )
 _NORMAL = 1.96
 
-#: A study, and its vessel by name or number.
 _Vessel = tuple[str, str]
 
 

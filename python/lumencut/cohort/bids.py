@@ -16,7 +16,6 @@ _ENDINGS = (".nii.gz", ".nii")
 #: Endings of the names of images that may replace an angiography.
 _IMAGES = (*_ENDINGS, ".nrrd", ".nhdr", ".mha", ".mhd", ".hdr", ".dcm", ".mgz")
 _EXPECTED = "a BIDS data set with folders sub-…"
-#: Largest number of names in one reason.
 _MOST_NAMED = 8
 
 

@@ -20,7 +20,6 @@ State = Literal["done", "failed", "no room"]
 
 #: Time between asking a process to end and killing it (s).
 _GRACE = 2.0
-#: Interval between checks of a process (s).
 _LOOK = 0.02
 _LONGEST_REASON = 400
 _TAIL = 8192

@@ -24,7 +24,6 @@ _LOST_WORKERS = 5
 _LOOK, _LOOK_FOR_BATCH = 0.1, 1.0
 #: Timeouts of a connection, and of the result of an ended study (s).
 _CONNECTING, _ANSWER = 10.0, 5.0
-#: Dask's states of ended studies.
 _ENDED = ("finished", "error", "cancelled")
 #: Options of ``--slurm``, with their names in dask-jobqueue.
 SLURM_NAMES = {
@@ -82,7 +81,6 @@ class _Studies:
 
     def __init__(self, client: Any, jobs: Sequence[Job], lock: str) -> None:
         self._client, self._lock = client, lock
-        # The last one is the next.
         self._waiting = list(reversed(jobs))
         self._asked: dict[Any, Job] = {}
         self._lost: Counter[str] = Counter()

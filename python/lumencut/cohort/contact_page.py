@@ -109,7 +109,6 @@ def _tile(layout: Layout, row: int, study: Study, record: Record | None) -> str:
     words = "".join(f'<p title="{escape(line)}">{escape(line)}</p>' for line in lines)
     picture = _picture(layout, study) if state == "done" else f"<a>{state}</a>"
     name = f'<b title="{escape(study.id)}">{escape(study.id)}</b>'
-    # The script shows more of them at the end of the page.
     hidden = "" if row < _AT_ONCE else ' class="hidden"'
     return f'<li tabindex="0"{hidden} {attributes}>{picture}{name}{words}<p class="rating"></p></li>'
 

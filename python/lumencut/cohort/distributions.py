@@ -11,7 +11,6 @@ import numpy.typing as npt
 
 from lumencut.cohort.result_tables import ResultTable
 
-#: The columns of ``vessels.csv`` that have distributions.
 QUANTITIES = (
     "length_mm",
     "radius_mean_mm",

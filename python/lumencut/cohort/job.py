@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from pathlib import Path
 
 #: Exit codes of the process of a study: complete, failed with a record, no room on the disk.
-#: A batch with failed studies also ends with the second one.
 DONE, SOME_FAILED, NO_ROOM = 0, 3, 4
 
 

@@ -53,7 +53,6 @@ class Lock:
     """The right of a batch to write into a folder while `held` is open."""
 
     def __init__(self, path: Path) -> None:
-        #: The file that exists while the right is held.
         self.path = path
         self._last = time.monotonic()
 

@@ -15,7 +15,6 @@ from lumencut.errors import FormatError
 
 #: The columns for the source of centerlines; a study uses at most one.
 SOURCES = ("centerlines", "mask", "points", "seeds")
-#: The columns for reading a volume and its centerlines.
 READING = ("label", "series", "phase", "fwhm")
 KNOWN = ("id", "volume", *SOURCES, *READING)
 #: Placeholder of the id of a study in a pattern of file names.
@@ -26,7 +25,6 @@ _SESSION = re.compile(r"sub-([A-Za-z0-9]+)_ses-([A-Za-z0-9]+)")
 _ID_RULE = "letters and digits, with - and _ between them, at most 100 in all"
 _EXPECTED = "a table with the columns id and volume (.csv or .tsv)"
 _NUMBERS = re.compile(r"[-+0-9.eE,;\s]+")
-#: Largest number of mistakes in one message.
 _MOST_NAMED = 20
 
 

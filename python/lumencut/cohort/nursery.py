@@ -24,7 +24,6 @@ class Nursery:
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             env={**os.environ, PARENT: str(os.getpid()), "OPENBLAS_NUM_THREADS": "1"},
-            # Ctrl-C in the terminal is for the batch, which then ends its processes.
             start_new_session=True,
         )
         self._unread = b""

@@ -7,7 +7,6 @@ import os
 import signal
 import sys
 
-#: Names the process that started this one.
 PARENT = "LUMENCUT_BATCH_PARENT"
 _PR_SET_PDEATHSIG = 1
 
@@ -18,6 +17,5 @@ def end_with_parent() -> None:
     if parent is None or not sys.platform.startswith("linux"):
         return
     ctypes.CDLL(None, use_errno=True).prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
-    # It may already have ended.
     if os.getppid() != int(parent):
         os._exit(1)

@@ -211,7 +211,6 @@ def _unknown(path: Path, key: str, known: list[str], where: str = "the recipe") 
     return FormatError(str(path), f"the key {key[:80]!r} in {where}", f"one of {', '.join(known)}", mend)
 
 
-#: Kind of the value of a key, and range of a number.
 _FLAGS = {
     *("fill_gaps", "resample_slices", "doubtful", "all_parts", "bridge", "annotate", "vessels"),
     *("centerlines", "report"),

@@ -16,7 +16,6 @@ from lumencut.cohort.manifest import Study
 from lumencut.dicomweb.address import is_address
 from lumencut.errors import FileError, FormatError
 
-#: The version of the record format.
 FORMAT = 1
 _EXPECTED = "a record of lumencut batch"
 

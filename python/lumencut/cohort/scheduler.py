@@ -23,7 +23,6 @@ _EVERY, _ANSWER = 1.0, 5.0
 _PATIENCE = 12.0
 #: Time without workers before a warning (s).
 _IDLE = 30.0
-#: Timeout of the cleanup of dask (s).
 _GRACE = 2.0
 
 

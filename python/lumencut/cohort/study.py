@@ -29,7 +29,6 @@ from lumencut.volume import Volume
 
 Device = Literal["auto", "cpu", "gpu"]
 
-#: The longest side of a thumbnail (pixels).
 _THUMBNAIL = 144
 #: Largest pixel side of reformations (mm), as for ``lumencut cpr``.
 _COARSEST = 0.25
@@ -87,7 +86,6 @@ def do_study(
     return _tables(study, vessels, found, begin)
 
 
-#: Options of ``lumencut measure`` without a marked stenosis.
 _NOTHING_MARKED = dict.fromkeys(("at", "reference", "method", "original", "comparison", "group"))
 
 

@@ -31,7 +31,6 @@ NUMBERS = (
     "suggested_narrowest_vessel",
 )
 COLUMNS = (*BEGIN, *NUMBERS, "warnings")
-#: The names of the tables of vessels and of sections, for a study and for the cohort.
 OF_STUDIES = ("vessels", "sections")
 
 

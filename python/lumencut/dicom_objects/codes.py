@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 
-#: A code: value, scheme and meaning.
 Coded = tuple[str, str, str]
 
 DIAMETER = ("397413000", "SCT", "Vessel lumen diameter")
@@ -23,13 +22,11 @@ STENOSIS = ("415582006", "SCT", "stenosis")
 BY_AREA = ("122650", "DCM", "Area Based Method")
 REPORT = ("126000", "DCM", "Imaging Measurement Report")
 COMMENT = ("121106", "DCM", "Comment")
-#: Codes of the grading methods of stenoses.
 METHODS = {
     "nascet": ("122655", "DCM", "NASCET"),
     "ecst": ("122656", "DCM", "ECST"),
     "area": BY_AREA,
 }
-#: Codes of procedures, by modality.
 PROCEDURES = {
     "CT": ("77477000", "SCT", "Computed tomography"),
     "MR": ("241663008", "SCT", "Magnetic resonance angiography"),

@@ -23,7 +23,6 @@ CURVED_REFORMATION = ("113073", "Curved multiplanar reformatting")
 _MOST_NAMED = 2000
 #: Replacements of letters that some character sets lack.
 _PLAIN = {"°": " deg", "×": "x", "–": "-", "±": "+/-", "²": "2", "ß": "ss", "…": "..."}
-#: Where an object is written: a file, or what takes its bytes.
 Target = Path | BinaryIO
 #: The longest texts of the value representations LO, ST and LT.
 LO, ST, LT = 64, 1024, 10240

@@ -21,7 +21,6 @@ from lumencut.stenosis import Stenosis
 
 #: What highdicom says of the maker of the images, for whom it takes that of the report.
 _OF_HIGHDICOM = ("ContributingEquipmentSequence", "InstanceCreationDate", "InstanceCreationTime")
-#: Comprehensive 3D SR Storage.
 _REPORT = "1.2.840.10008.5.1.4.1.1.88.34"
 
 

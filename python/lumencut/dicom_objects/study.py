@@ -45,7 +45,6 @@ UNPAIRED = (
     *("CEREBELLUM", "CIRCLEOFWILLIS", "MEDIASTINUM", "STOMACH", "SPLEEN", "BLADDER", "UTERUS", "PROSTATE"),
     *("COLON", "RECTUM", "FACE", "JAW"),
 )
-#: All that is read of a header.
 READ = (*PATIENT, *VISIT, *SCAN, *ACQUISITION, "SeriesInstanceUID", "FrameOfReferenceUID")
 
 

@@ -16,7 +16,6 @@ from lumencut.dicomweb.address import Address
 from lumencut.dicomweb.credentials import CERTIFICATES, Credentials
 from lumencut.errors import FileError, PacsError
 
-#: Number of concurrent requests.
 AT_ONCE = 4
 _TIMEOUT = httpx.Timeout(60.0, connect=10.0, pool=None)
 _MOST_REDIRECTS = 5

@@ -109,7 +109,6 @@ class _Work:
     ) -> None:
         self._client, self._folder, self._done, self._progress = client, folder, done, progress
         self.stop = threading.Event()
-        #: Why writing has failed.
         self._broken = ""
 
     def stream(self, wanted: Sequence[Instance], instances: Sequence[Instance]) -> None:

@@ -131,7 +131,6 @@ def _text(one: Mapping[str, Any], tag: str) -> str:
     values = element.get("Value") if isinstance(element, dict) else None
     texts = []
     for value in values if isinstance(values, list) else ():
-        # A name has several representations.
         shown = next(iter(value.values()), "") if isinstance(value, dict) else value
         texts.append("" if shown is None else str(shown))
     joined = "\\".join(texts)

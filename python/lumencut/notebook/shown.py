@@ -25,7 +25,6 @@ Point = npt.NDArray[np.float64]
 Progress = Callable[[int, int], object]
 Pixel = tuple[float, float]
 
-#: Largest number of points of a line over the picture.
 _MOST_POINTS = 200
 
 

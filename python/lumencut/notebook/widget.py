@@ -26,7 +26,6 @@ from lumencut.notebook.steps import take
 from lumencut.settings import Settings
 from lumencut.vessel_tree import VesselTree
 
-#: The pictures next to the turning view.
 _LINKED = ("straightened", "section")
 
 

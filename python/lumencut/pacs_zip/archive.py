@@ -28,7 +28,6 @@ from lumencut.volume import Volume
 _TITLE = "Lumencut: measured vessels"
 _MEND = 'choose "Anonymous", or a DICOM file of the study'
 
-#: The name of an object in the archive, and what writes it.
 _Member = tuple[str, Callable[[BinaryIO], object]]
 
 

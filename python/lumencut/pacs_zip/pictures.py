@@ -15,7 +15,6 @@ from lumencut.pacs_zip.given import Given, checked, points_of, refused
 from lumencut.session_file import view_settings
 from lumencut.settings import Settings
 
-#: The methods of the page by the names that pictures have for them.
 _METHODS = {"csr": "csr", "csr-paper": "csr", "cr": "cr", "mpcpr": "mpcpr"}
 
 

@@ -29,7 +29,6 @@ from lumencut.viewer.refusing import refusal, unreadable
 
 _log = logging.getLogger("lumencut")
 
-#: Interval between checks for new slices (s).
 _PAUSE = 0.02
 _VTP = "application/vnd.vtk.polydata+xml"
 

@@ -46,16 +46,11 @@ class ArrivingScene:
         self._file, self._tree_in = file, tree_in
         self._is_stopped = False
         self._thread = threading.Thread(target=self._read, name="lumencut volume", daemon=True)
-        #: The type of the voxels; None until it is known.
         self.read_type: np.dtype[Any] | None = file.settled_type
-        #: The voxels [k, j, i], and the number of their first slices that are final.
         self.voxels: tuple[npt.NDArray[Any] | None, int] = (None, 0)
-        #: The volume, after it is read completely.
         self.volume: Volume | None = None
-        #: The errors of the volume and of the centerlines.
         self.problem: LumencutError | None = None
         self.centerline_problem: LumencutError | None = None
-        #: The centerlines as a .vtp file; None until they are placed.
         self.centerlines: bytes | None = None
 
     @property

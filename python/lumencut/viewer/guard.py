@@ -31,7 +31,6 @@ _DENIED_FEATURES = (
     "xr-spatial-tracking",
 )
 
-#: Headers of every response, including errors.
 HEADERS = {
     "Content-Security-Policy": "; ".join(
         f"{name} {value}" for name, value in _CONTENT_SECURITY_POLICY.items()

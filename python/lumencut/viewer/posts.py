@@ -21,7 +21,6 @@ OBJECTS, STUDY, MASK = "make/objects", "make/study", "make/mask"
 
 #: Size limits of requests: two pictures of large screens, and reports of many vessels (bytes).
 _MOST = 128 << 20
-#: Time limit for the content of a request (s).
 _PATIENCE = 60.0
 _JSON, _ZIP = "application/json", "application/zip"
 
@@ -37,9 +36,7 @@ class Posts:
         The address of the server.
     """
 
-    #: The paths that accept content.
     names = (OBJECTS, STUDY, MASK)
-    #: Limits of a request: size (bytes) and time (s).
     most, patience = _MOST, _PATIENCE
 
     def __init__(self, scene: ArrivingScene | None, place: Place) -> None:

@@ -81,7 +81,6 @@ class ViewerServer:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        # Remaining connections are closed.
         self._server.should_exit = self._server.force_exit = True
         self._thread.join(_PATIENCE)
         if self._scene is not None:

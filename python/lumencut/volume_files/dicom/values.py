@@ -22,7 +22,6 @@ def load(stack: Stack, notes: list[str], progress: Progress, filled: Filled) -> 
     whole = np.flatnonzero(places % 1 == 0)
     if len(whole) == len(places):
         rows = places.astype(np.int64)
-        # Missing slices are interpolated after all others are read.
         followed = filled if len(rows) == rows[-1] + 1 else unfollowed
         volume = measured = _read(stack, rows, notes, progress, followed)
     else:
