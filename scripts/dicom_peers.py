@@ -123,7 +123,6 @@ def highdicom(path: Path, case: Case) -> Answer:
     def placed(volume: Any) -> Grid | None:
         if volume.array.ndim != 3:
             return None
-        # Its indices run (slice, row, column).
         return volume.array, volume.affine[:, [2, 1, 0, 3]]
 
     # No inversion of MONOCHROME1: the values count.

@@ -198,7 +198,6 @@ def of_the_cpu() -> Iterator[Entry]:
     for scene in ("aorta", "trefoil", "tree lattice", "tree nearly along y", "tree many vessels", "stent"):
         shows: Literal["all", "cut surface"] = "cut surface" if scene.startswith("tree") else "all"
         for n in range(12):
-            # Every third view is along an axis.
             view = View("anterior", (320, 300), n * math.pi / 6, (0.2 * (n % 3), 0.0, 1.0))
             yield Entry(scene, f"turning {n}", {}, view, shows, ("cpu",))
         if scene != "aorta":

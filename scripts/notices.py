@@ -17,7 +17,6 @@ ROOT = Path(__file__).resolve().parent.parent
 WEB = ROOT / "web"
 #: The build of the page copies it.
 NOTICES = WEB / "public/THIRD-PARTY-NOTICES.txt"
-#: The crate that becomes the WebAssembly.
 CRATE = "lumencut-wasm"
 TARGET = "wasm32-unknown-unknown"
 #: Packages without a licence text; they get the standard text.

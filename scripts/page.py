@@ -25,7 +25,6 @@ from toolchain import add_wasm, missing_of_node, missing_of_wasm
 
 ROOT = Path(__file__).resolve().parent.parent
 WEB = ROOT / "web"
-#: Where the package serves the page from.
 PAGE = ROOT / "python/lumencut/viewer/page"
 #: Written by the build or installed for it; not sources.
 _NO_SOURCES = {"node_modules", "dist", "test-results", "playwright-report", ".vite"}

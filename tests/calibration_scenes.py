@@ -37,11 +37,8 @@ class Scene:
     noise: float = 20.0
     #: The standard deviation of the kernel that correlates the noise, in voxels; below 0 a sharp one.
     kernel: float = 0.7
-    #: The longer over the shorter axis.
     stretch: float = 1.0
-    #: The radius of the bend (mm); 0 for a straight vessel.
     bend: float = 0.0
-    #: The narrowing in the middle, in percent, over a length (mm).
     stenosis: float = 0.0
     stenosis_length: float = 12.0
     length: float = 24.0

@@ -29,7 +29,6 @@ def hook(event, arguments):
 sys.addaudithook(hook)
 """
 
-#: No pictures, and coarse sections: what is tried is the batch.
 RECIPE = "[pictures]\nviews = []\n[measure]\nstep = 2.0\n"
 
 #: The studies that cannot be done, with what is told of each.
@@ -46,11 +45,9 @@ def write_cohort(folder: Path, good: int = 7, bad: bool = True) -> Path:
     """Write studies with their manifest and recipe into a folder, and return the manifest."""
     volume = write_volume(folder / "tube.nii.gz").read_bytes()
     write_lines(folder / "tube.vtk")
-    # The one that is too large is not packed.
     endings = {"greedy": "nii"}
     names = [f"good-{n}" for n in range(good)]
     if bad:
-        # The bad ones stand among the others.
         names = [name for pair in zip(names, [*BAD, *[""] * good], strict=False) for name in pair if name]
     rows = [["id", "volume", "centerlines", "age"]]
     for number, name in enumerate(names):

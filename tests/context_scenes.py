@@ -9,7 +9,6 @@ import numpy as np
 import reference_context
 from lumencut import Camera, Renderer, Settings, TransferFunction, Volume, Window
 
-#: Clear below 60, then coloured and more and more opaque; no steps, so that rounding moves no colour far.
 POINTS = [
     (60.0, (20, 200, 90), 0.0),
     (110.0, (250, 40, 10), 0.15),
@@ -17,7 +16,6 @@ POINTS = [
     (240.0, (255, 250, 200), 0.7),
 ]
 WINDOW = (120.0, 220.0)
-#: Columns of the affine: mm per index along i, j, k.
 GRIDS = {
     "isotropic": np.eye(3),
     "anisotropic": np.diag([0.6, 0.9, 2.3]),
@@ -25,7 +23,6 @@ GRIDS = {
     "oblique": np.array([[0.8, -0.6, 0.0], [0.48, 0.64, -0.6], [0.36, 0.48, 0.8]]),
     "sheared": np.array([[1.0, 0.4, -0.1], [-0.2, 1.2, 0.3], [0.2, 0.0, -1.5]]),
 }
-#: Direction of view and up.
 VIEWS = {
     "along i": ((1, 0, 0), (0, 0, 1)),
     "along j": ((0, 1, 0), (0, 0, 1)),

@@ -6,7 +6,6 @@ import numpy as np
 
 from lumencut import Vessel, Volume
 
-#: Grids that lie as a patient does, oblique, and sheared.
 GRIDS = {
     "straight": np.diag([0.8, 0.9, 1.1, 1.0]),
     "oblique": np.array([[0.7, -0.3, 0.1, 0], [0.25, 0.8, -0.2, 0], [0, 0.2, 1.0, 0], [0, 0, 0, 1]]),

@@ -14,9 +14,7 @@ from dicom_phantom import CENTER, HOUNSFIELD, axial, images
 from dicom_series import Change, Stack
 from lumencut import Settings, Vessel, VesselTree, Volume
 
-#: The phantom's vessel runs along z.
 LINE = VesselTree([Vessel(CENTER + [[-4, 3, z] for z in range(-18, 19, 2)], 3.0, "Aorta of Jane")])
-#: A window that shows something, and a context.
 SETTINGS = Settings(context="mip")
 
 

@@ -120,7 +120,6 @@ class _Good:
         self.lines = write_lines(folder / "lines.vtk")
         made = phantom.stenosis()
         self.tree, self.vessel = made.tree, made.tree[0]
-        # Every second voxel: what is tried is the arguments.
         coarse = made.volume.world_from_index @ np.diag([2, 2, 2, 1])
         self.volume = lumencut.Volume(made.volume.array[::2, ::2, ::2], world_from_index=coarse)
         self.camera = lumencut.Camera.fitted(self.tree, (0, 1, 0), (0, 0, 1), size=(24, 20))

@@ -20,7 +20,6 @@ def compare(found: np.ndarray, expected: np.ndarray, tolerance: float = 0.0) -> 
     assert found.shape == expected.shape, f"shape {found.shape}, expected {expected.shape}"
     assert found.dtype == expected.dtype, f"dtype {found.dtype}, expected {expected.dtype}"
     a, b = found.astype(np.float64), expected.astype(np.float64)
-    # NaN equals NaN and nothing else.
     gap = np.where(np.isnan(a) & np.isnan(b), 0.0, np.abs(a - b))
     gap = np.where(np.isnan(gap), np.inf, gap)
     if gap.ndim == 3:

@@ -56,7 +56,6 @@ def test_shards_share_a_folder(tmp_path):
 def test_a_lost_worker_loses_no_study_and_a_crash_takes_nobody_with_it(tmp_path):
     manifest = write_cohort(tmp_path, good=5)
     text = manifest.read_text("utf-8").splitlines()
-    # Of the bad ones those that end by themselves.
     kept = [line for line in text if not line.startswith(("hanging", "greedy"))]
     manifest.write_text("\n".join(kept) + "\n", "utf-8")
     here, there = tmp_path / "here", tmp_path / "there"

@@ -81,7 +81,6 @@ def test_several_views_of_several_widgets(lab):
         seen = picture(visit, first)
         answered(first, lambda: drag(first, (150, 100), (200, 120)))
         assert picture(visit, first) != seen
-        # Both views of one widget show the same, and the other widget is not touched.
         until(lambda: picture(visit, again) == picture(visit, first))
         assert picture(visit, second) == untouched
         visit.run_cell(1)
@@ -126,7 +125,6 @@ def test_a_restarted_kernel_is_told_and_the_cell_shows_the_view_again(lab):
         view = visit.views().first
         seen = picture(visit, view)
         visit.restart_kernel()
-        # What was shown last stays.
         assert picture(visit, view) == seen
         drag(view, (150, 100), (200, 120))
         assert "run the cell again" in words_with(view, "No answer from the kernel")

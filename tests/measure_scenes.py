@@ -98,7 +98,6 @@ class Tube:
         """The blurred section on a fine grid, its step and its reach (mm)."""
         reach, step = max(self.diameters) / 2 + 7, 0.04
         line = np.arange(-reach, reach + step / 2, step)
-        # Edges of the grid's own cells are smooth: the mean of parts of each.
         shift = (np.arange(4) - 1.5) / 4 * step
         a, b = (d / 2 for d in self.diameters)
         share = np.mean(

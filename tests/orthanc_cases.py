@@ -219,7 +219,6 @@ def test_from_a_scan_to_pictures_and_numbers_beside_it_in_three_commands(stored,
     made = [
         one.texts["modality"] for one in found if "(research, not for diagnosis)" in one.texts["description"]
     ]
-    # The picture and those of the numbers are of the modality of the scan.
     assert {"CT", "SR", "DOC"} == set(made)
 
 

@@ -6,7 +6,6 @@ import numpy as np
 
 from reference import pixel_centers
 
-#: σ of the Gaussian (pixels).
 SIGMA = 2 * np.sqrt(2 * np.log(2)) / np.pi
 
 

@@ -16,7 +16,6 @@ from reference import candidates, distance_to, distinct, levels_of, pieces_of, p
 TIE = 1e-3
 #: Pixels nearer than this to the border of a piece, or to where the lumen ends, may fall on either side (mm).
 BORDER = 1e-4
-#: More than the depth of any scene (mm).
 LIFT = 1e7
 
 

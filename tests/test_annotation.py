@@ -28,7 +28,6 @@ from lumencut import (
 )
 from lumencut.orientation import edges
 
-#: Each side of the patient and the way to it (LPS).
 WAYS = {
     "L": (1, 0, 0), "R": (-1, 0, 0), "P": (0, 1, 0), "A": (0, -1, 0), "S": (0, 0, 1), "I": (0, 0, -1),
 }  # fmt: skip
@@ -122,7 +121,6 @@ def bar_of(picture):
     small = heights((width, height))[0]
     corner = picture[height - 4 * small :, : width // 2 - 2 * small, 0]
     lit = (corner == 255).sum(axis=1)
-    # The bar is the lowest of what is there.
     base = np.nonzero(lit)[0][-1]
     thick = max(2, round(small / 10))
     top = base - 3 * thick

@@ -13,7 +13,6 @@ from hypothesis.extra import numpy as hnp
 from lumencut import VIEWS, Camera, CameraError, Renderer, Settings, Vessel, VesselTree, Volume
 
 LEFT, POSTERIOR, SUPERIOR = np.eye(3)
-#: Direction into the scene, right and up of each view of the body (LPS).
 BODY = {
     "anterior": (POSTERIOR, LEFT, SUPERIOR),
     "posterior": (-POSTERIOR, -LEFT, SUPERIOR),
@@ -25,7 +24,6 @@ BODY = {
 small = st.floats(-100, 100)
 clouds = hnp.arrays(np.float64, st.tuples(st.integers(2, 9), st.just(3)), elements=small)
 angles = st.floats(-7, 7)
-#: An oblique view.
 VIEW = Camera((3, -4, 5), (0.3, 0.9, -0.2), (0.1, 0, 1), (60, 40), 0.7)
 thorough = settings(max_examples=200, deadline=None)
 

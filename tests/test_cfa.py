@@ -17,7 +17,6 @@ from lumencut.feature_aggregation import FEATURES
 from lumencut.reformation_recipe import read_reformation_recipe
 from scene_files import bent_line, write_lines, write_volume
 
-#: A vessel that runs 40 mm downwards.
 LINE = vessel([[0, 0, 20], [0, 0, -20]])
 
 
@@ -135,9 +134,6 @@ def test_the_file_tells_what_it_shows(tmp_path):
     assert "half circle" in recipe.axes
     assert "above 300" in recipe.axes
     assert (recipe.parameters["radius"], recipe.parameters["level"]) == (5.0, 300.0)
-
-
-# The command
 
 
 def test_the_features_are_those_of_the_library():

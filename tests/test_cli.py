@@ -68,9 +68,6 @@ def one_line(result):
     return result.stderr.rstrip("\n")
 
 
-# Options
-
-
 @pytest.mark.parametrize("command", [render, turntable, evaluate])
 @pytest.mark.parametrize("field", fields(Settings), ids=lambda field: field.name)
 def test_every_setting_has_an_option_that_states_its_unit_and_default(command, field):
@@ -195,9 +192,6 @@ def test_wrong_options_are_usage_errors(run, tmp_path, given):
     assert not (tmp_path / "out.png").exists()
 
 
-# Pictures
-
-
 def test_a_picture_of_the_asked_size_shows_the_lumen_white(run, tmp_path):
     result = run("--window", f"{2 * (LUMEN - TISSUE)}/{TISSUE}", "--no-silhouettes")
     assert result.exit_code == 0, result.output
@@ -238,9 +232,6 @@ def test_verbose_tells_what_was_read_and_the_time_of_each_stage(run, files):
     assert "VesselTree(1 vessels, 24 segments)" in told
     assert re.search(r"rendered: [\d.]+ ms \(levels", told)
     assert run().stderr == ""
-
-
-# Errors
 
 
 @pytest.mark.parametrize("place", [0, 1])
@@ -315,9 +306,6 @@ def test_too_little_memory_is_one_line(run, monkeypatch):
     monkeypatch.setattr(options, "placed", greedy)
     result = run()
     assert (result.exit_code, "not enough memory" in one_line(result)) == (1, True)
-
-
-# Processes
 
 
 def test_the_process_leaves_with_1_and_one_line(tmp_path):

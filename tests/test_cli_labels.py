@@ -183,7 +183,7 @@ def test_like_refuses_other_pictures_before_it_reads_the_scene(rendered, tmp_pat
     Image.new("RGB", (300, 300)).save(tmp_path / "other.png")
     _, told = rendered("--like", tmp_path / "other.png", code=1)
     assert told.count("\n") == 1
-    assert "without the text that says how it was rendered" in told
+    assert "without a description of its rendering" in told
     _, told = rendered("--like", tmp_path / "missing.png", code=1)
     assert "missing.png: found No such file" in told
 
@@ -197,7 +197,6 @@ def test_turntables_have_labels_on_request(rendered, tmp_path):
         name = f"frame-00{number}.png"
         assert (pixels(bare / name) != pixels(named / name)).any()
         assert not read_recipe(bare / name).annotate
-        # Every picture can be rendered again by itself.
         again, _ = rendered("--like", named / name, output="again.png")
         np.testing.assert_array_equal(pixels(again), pixels(named / name))
     with Image.open(moving) as first:

@@ -81,7 +81,7 @@ def test_each_of_several_views_can_be_rendered_again_by_itself(scene):
 def test_like_takes_one_view_at_most(scene):
     first, _ = scene.render(*SIZE, "--rotate", "20", output="first.png")
     _, told = scene.render("--like", first, "--view", "left", "--view", "right", output="two.png", code=2)
-    assert "--view is given 2 times beside --like" in told
+    assert "--view is given 2 times with --like" in told
     assert scene.written() == ["first.png"]
     scene.render("--like", first, "--view", "left", output="see {view}.png")
     assert scene.written() == ["first.png", "see left.png"]
@@ -91,7 +91,7 @@ def test_like_takes_one_view_at_most(scene):
 def test_the_view_of_a_picture_has_no_name(scene):
     first, _ = scene.render(*SIZE, output="first.png")
     _, told = scene.render("--like", first, output="{view}.png", code=2)
-    assert "give --view beside --like, or another name" in told
+    assert "give --view with --like, or another name" in told
     assert scene.written() == ["first.png"]
 
 
@@ -114,7 +114,7 @@ def test_another_number_of_vessels_is_told(scene):
     other, told = scene.render("--like", first, output="again.png")
     assert told == (
         f"lumencut: warning: {first} shows 1 vessel, the new picture 2; "
-        "--vessel and --exclude choose vessels, beside --like too\n"
+        "--vessel and --exclude choose vessels, also with --like\n"
     )
     assert scene.render("--like", first, "--exclude", "LAD", "--zoom-to", "LCX", output="third.png")[1] == ""
     assert scene.render("--like", other, "--vessel", "LAD", output="third.png")[1] == ""
@@ -150,7 +150,6 @@ def test_a_name_beside_like_is_taken_from_the_new_volume(scene):
     first, _ = scene.render(*SIZE, "--window", "700/210", output="first.png")
     path, _ = scene.render("--like", first, "--window", "full", output="again.png")
     window = read_recipe(path).settings.window
-    # The tube has 40 beside the vessel and 300 in it.
     assert (window.level, window.width) == (170, 260)
 
 

@@ -43,7 +43,7 @@ IDLE = [
         (
             f"--context {name} --context-transfer 0:000000:0,300:ffc864:0.5",
             "--context-window 300/100",
-            "intensities of their own",
+            "their own intensities",
             {"context_window": Window(9, 5)},
         )
         for name in ("dvr", "mip")

@@ -57,7 +57,6 @@ def test_pictures_of_one_series(two_series, tmp_path, command, series):
     with Image.open(folder / "view.png") as picture:
         assert picture.size == (24, 20)
         asked = picture.convert("RGB").tobytes()
-    # The same picture as of the files of that series alone.
     for path in two_series.glob("7-*.dcm"):
         path.unlink()
     assert invoke(*words).exit_code == 0
@@ -143,7 +142,6 @@ def test_a_view_that_misses_the_volume_is_a_warning(tmp_path, command, who):
         "the volume reaches from -0.5,-0.5,-0.5 to 23.5,19.5,31.5 (mm, LPS)"
     )
     with Image.open(tmp_path / "view.png") as picture:
-        # Nothing but the background.
         assert picture.convert("RGB").getcolors() == [(16 * 16, (0, 0, 0))]
 
 

@@ -54,7 +54,6 @@ def test_tables_hold_the_good_studies_in_the_order_of_the_manifest(done):
     assert {row["centerlines_from"] for row in sections if row["id"] == good[0]} == {"none"}
     assert {row["centerlines_from"] for row in sections if row["id"] == good[1]} == {"centerlines"}
     assert all(row["uncertainty_mm"] and row["fwhm_source"] and row["wall_source"] for row in sections)
-    # The tube has a radius of 3 mm.
     measured = [float(row["diameter_median_mm"]) for row in table(out / "vessels.csv")]
     assert all(abs(diameter - 6) < 0.5 for diameter in measured), measured
 
@@ -198,7 +197,6 @@ def test_a_full_disk_ends_the_batch_and_blames_no_study(tmp_path):
     assert "found no room left on the disk" in ended.stderr
     assert [row["state"] for row in table(out / "studies.csv")] == ["done", "skipped", "skipped"]
     assert not list(out.glob(".lumencut/unfinished/*"))
-    # There is room again.
     (tmp_path / "site/sitecustomize.py").unlink()
     again = run(manifest, out)
     assert "2 of them now" in again.stdout

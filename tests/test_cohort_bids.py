@@ -67,7 +67,6 @@ def test_participants_and_then_the_group(data):
     assert first.stdout.splitlines() == ["sub-02_ses-a: done", "sub-02_ses-b: done"]
     group = run(data, "group")
     assert "2 done, 0 failed, 1 not done yet" in group.stdout
-    # Those that are done are not done again.
     assert run(data, "participant").stdout.splitlines() == ["sub-01: done"]
     assert run(data, "group").returncode == 0
     out = data / "out"

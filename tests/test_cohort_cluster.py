@@ -102,7 +102,7 @@ def test_a_batch_ends_without_its_scheduler_and_goes_on_when_run_again(cohort, t
     manifest, whole = cohort
     out = tmp_path / "out"
     told = lose_scheduler(manifest, out, lambda batch: wait_for(lambda: list(out.glob(sign)), batch), number)
-    assert "expected a scheduler that answers; start it, and run the command again: it goes on" in told
+    assert "expected a scheduler that answers; start it, and run the command again: it continues" in told
     wait_for(lambda: not processes_of(out))
     done = [row["state"] for row in table(out / "studies.csv")].count("done")
     assert done == len(list(out.glob(DONE)))

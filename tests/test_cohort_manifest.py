@@ -85,7 +85,7 @@ def test_names_are_those_of_bids(tmp_path, study_id, label, folder):
         ("id,,volume\na,x,1.nii\n", "no name of column 2"),
         ("id,volume\n", "no study"),
         ("", "an empty file"),
-        (b"id,volume\nM\xfcller,1.nii\n", "the byte 0xfc in line 2, which is no UTF-8"),
+        (b"id,volume\nM\xfcller,1.nii\n", "the byte 0xfc in line 2, which is not UTF-8"),
         (b"id,volume\na,1\x00.nii\n", "a null character in line 2"),
         ('id,volume\na,"1.nii\n', "line 2"),
     ],
@@ -108,7 +108,7 @@ def test_names_one_letter_off_are_warned_of(tmp_path):
     manifest = read_manifest(manifest_of(tmp_path, "id,volume,centerline,Mask,masc,age\na,1.nii,,,,5\n"))
     assert manifest.further == ("centerline", "Mask", "masc", "age")
     assert len(manifest.notes) == 3
-    assert "'centerline' is carried along; perhaps 'centerlines' is meant" in manifest.notes[0]
+    assert "'centerline' is only copied; perhaps 'centerlines' is meant" in manifest.notes[0]
 
 
 def test_a_pattern_names_volumes_and_masks(tmp_path):
@@ -121,7 +121,7 @@ def test_a_pattern_names_volumes_and_masks(tmp_path):
     assert manifest.studies[0].given == str(tmp_path / "masks/a1.nii.gz")
     with pytest.raises(FormatError, match="no such file"):
         read_manifest(f"{tmp_path}/none-{{id}}.nii.gz")
-    with pytest.raises(FormatError, match="in the place of the id"):
+    with pytest.raises(FormatError, match="in place of the id"):
         read_manifest(f"{tmp_path}/{{id}}/ct.nii.gz", mask="mask.nii.gz")
 
 
@@ -256,7 +256,7 @@ report = true
         ("[measure]\nstep = true", "a number from 0.01 to 100"),
         ('[measure]\nwall = "thick"', "level and deviation such as [45, 25]"),
         ("[outputs]\nreport = 1", "true or false"),
-        ("[measure", "no TOML"),
+        ("[measure", "invalid TOML"),
     ],
 )
 def test_mistakes_in_a_recipe_are_named(tmp_path, text, words):

@@ -83,7 +83,6 @@ def test_the_agreement_of_two_runs_is_that_of_bland_and_altman(tmp_path):
     assert vessels.bias == pytest.approx(0.2)
     assert vessels.sd == pytest.approx(0, abs=1e-12)
     sections = found["sections", "diameter_equivalent_mm"]
-    # One section of twenty does not count.
     assert len(sections.first) == 4 * 19
     expected = [0.2 * (-1) ** z for z in range(20) if z != 7] * 4
     assert sections.bias == pytest.approx(np.mean(expected))

@@ -74,9 +74,6 @@ def test_the_panels_are_the_four_methods():
         assert np.array_equal(panel.frame.image, frame.image)
 
 
-# The command
-
-
 @pytest.fixture
 def files(tmp_path):
     return [str(write_volume(tmp_path / "ct.nii.gz")), str(write_lines(tmp_path / "lines.vtk"))]

@@ -184,7 +184,6 @@ def test_along_an_axis_the_largest_value_is_that_of_a_voxel(view, spacing):
     camera = Camera(middle, direction, up, flat.shape[::-1], spacing)
     points = [(0.0, (0, 0, 0), 0.0), (255.0, (255, 255, 255), 1.0)]
     found = drawn(volume, camera, "mip", points=points)[..., 0]
-    # Columns run along `right`, rows against `up`; the array's rows and columns along the world's axes.
     expected = flat[:: -int(camera.up.sum()), :: int(camera.right_axis.sum())]
     np.testing.assert_array_equal(found, expected)
 

@@ -94,7 +94,6 @@ def test_options_become_settings(volume, tmp_path, asked, given, expected):
 def test_wrong_options_are_usage_errors_before_any_file_is_read(tmp_path, command, given, told):
     result = invoke(command, "nowhere.nii", "-o", tmp_path / "out.png", *given.split())
     assert result.exit_code == 2
-    # The message may be wrapped.
     assert told in " ".join(result.stderr.split())
     assert list(tmp_path.iterdir()) == []
 
@@ -131,7 +130,7 @@ def test_a_volume_that_is_wholly_transparent_is_a_warning_of_its_own(volume, tmp
     transfer = ["--context-transfer", "5000:ffffff:0,6000:ffffff:1"]
     result = invoke("render", volume, "-o", tmp_path / "out.png", "--context", "dvr", *transfer)
     assert result.exit_code == 0
-    assert "shows the volume: all of it in view is transparent" in result.stderr
+    assert "shows the volume: everything in view is transparent" in result.stderr
     assert "--context-transfer" in result.stderr
 
 

@@ -71,7 +71,6 @@ def test_painting_what_is_clear_changes_nothing_to_the_bit(mode, value):
     # Hidden values in voxels whose neighbours are hidden too: no sample that shows changes.
     array, hidden = blobs()
     assert 0.5 < hidden.mean() < 0.99
-    # Gradients reach one voxel further.
     still = np.lib.stride_tricks.sliding_window_view(np.pad(hidden, 1), (3, 3, 3)).all(axis=(3, 4, 5))
     painted = np.where(still, np.float32(value), array)
     for view in ("along j", "oblique"):

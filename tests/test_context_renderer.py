@@ -170,7 +170,6 @@ def test_ctrl_c_ends_a_context_and_the_renderer_goes_on(alone, made):
 
     thread = threading.Thread(target=interrupt_once_it_runs)
     camera = Camera.anterior(made.volume, (3000, 3000))
-    # Half a minute or more of samples.
     slow = Settings(context="dvr", context_window=WINDOW, context_transfer=CLEAR, context_step=0.02)
     thread.start()
     try:

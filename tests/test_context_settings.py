@@ -205,9 +205,6 @@ def test_every_preset_and_every_context_is_taken_and_makes_another_picture():
         assert picture(context=name) == picture(context=name, context_transfer="bone")
 
 
-# The window of a volume alone
-
-
 def noisy(shape):
     """Tissue of 100 ± 10 with a rod of 400."""
     array = np.random.default_rng(1).normal(100, 10, shape).astype(np.float32)

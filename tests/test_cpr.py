@@ -28,9 +28,6 @@ def along(points, at):
     return np.stack([np.interp(at, length, points[:, axis]) for axis in range(3)], axis=1)
 
 
-# Straight vessels
-
-
 @each_mode
 @pytest.mark.parametrize("grid", GRIDS)
 def test_a_straight_vessel_is_the_plain_slice(mode, grid):
@@ -61,9 +58,6 @@ def test_a_projected_vessel_that_rises_has_its_highest_point_on_top():
     made = cpr(blank(), vessel([[0, 0, -10], [0, 0, 10]]), width=10, pixel_spacing=1)
     assert made.position[0, 5, 2] == 10
     np.testing.assert_allclose(made.arc_length, np.arange(20, -1, -1), atol=1e-12)
-
-
-# Positions
 
 
 @each_mode
@@ -119,9 +113,6 @@ def test_points_off_the_image_lie_where_the_documentation_says():
         np.testing.assert_allclose(made.world_from_pixel([27, 43]), [[7, 0, -23]], atol=1e-9)
 
 
-# Projected
-
-
 def test_rows_that_several_points_share_show_the_nearest_and_are_folded():
     # Down, and up again beside it and farther away; the lowest row has the one point where it turns.
     made = cpr(blank(), vessel([[-10, 0, 10], [-10, 0, -10], [10, 6, 10]]), width=40, pixel_spacing=1)
@@ -132,7 +123,6 @@ def test_rows_that_several_points_share_show_the_nearest_and_are_folded():
     np.testing.assert_allclose(made.position[row, :, 0], x, atol=1e-12)
     np.testing.assert_allclose(made.position[row, x < -5, 1], 0, atol=1e-12)
     np.testing.assert_allclose(made.position[row, x > -5, 1], 3, atol=1e-12)
-    # As far from both: the one nearer to the viewer, who stands in front.
     np.testing.assert_allclose(made.position[row, x == -5, 1], 0, atol=1e-12)
     assert made.arc_length[row] == pytest.approx(10)
 
@@ -146,9 +136,6 @@ def test_a_level_stretch_is_shown_in_its_row():
 
 def test_a_projected_vessel_is_not_measurable():
     assert [cpr(blank(), wave(), mode, pixel_spacing=1).measurable for mode in MODES] == [False, True, True]
-
-
-# Stretched
 
 
 def test_lengths_on_a_stretched_surface_are_true():
@@ -175,7 +162,6 @@ def test_a_stretched_helix_has_its_closed_form():
     assert made.size[1] == int(downwards[-1] / 0.5) + 1
     at = np.interp(0.5 * np.arange(made.size[1]), downwards, fine)
     np.testing.assert_allclose(made.arc_length, np.hypot(radius, rise) * at, atol=1e-3)
-    # The vessel's column follows its own x, about the middle of its reach.
     place = made.pixel_from_world(line.points)
     np.testing.assert_allclose((place[:, 0] - 60) * 0.5, radius * np.cos(a), atol=1e-6)
     np.testing.assert_allclose(place[:, 1] * 0.5, np.interp(a, fine, downwards), atol=1e-3)
@@ -211,9 +197,6 @@ def test_a_stretched_vessel_that_returns_is_folded_where_it_was_shown_before():
         np.testing.assert_array_equal(made.folded[40 - row], x <= 0)
 
 
-# Straightened
-
-
 def test_sections_of_a_helix_are_perpendicular_and_do_not_turn():
     radius, rise = 12.0, 3.0
     line, _, length = helix(radius, rise)
@@ -241,7 +224,6 @@ def test_the_first_section_is_seen_from_the_front():
     # A vessel that begins along the view is seen from below, as axial slices are.
     made = cpr(blank(), vessel([[0, -10, 0], [0, 10, 0]]), "straightened", width=10, pixel_spacing=1)
     np.testing.assert_allclose(made.position[0, -1] - made.position[0, 0], [10, 0, 0], atol=1e-12)
-    # The user's own side: the patient's left.
     line = vessel([[0, 0, 10], [0, 0, -10]])
     made = cpr(blank(), line, "straightened", width=10, pixel_spacing=1, normal=[5, 0, 1])
     np.testing.assert_allclose(made.position[0, -1] - made.position[0, 0], [0, 10, 0], atol=1e-12)
@@ -251,7 +233,6 @@ def test_the_first_section_is_seen_from_the_front():
 def test_the_viewer_of_a_turned_cpr_moves_to_the_right(mode):
     line = vessel([[0, 0, 10], [0, 0, -10]])
     made = cpr(blank(), line, mode, width=10, pixel_spacing=1, degrees=90)
-    # From the patient's left: the back is on the right.
     np.testing.assert_allclose(made.position[0, -1] - made.position[0, 0], [0, 10, 0], atol=1e-12)
     turned = cpr(blank(), line, mode, width=10, pixel_spacing=1, angle=0.3).rotated(degrees=60)
     again = cpr(blank(), line, mode, width=10, pixel_spacing=1, angle=0.3 + np.pi / 3)
@@ -298,9 +279,6 @@ def test_right_angles_inflections_and_straight_runs():
     assert not made.folded[:, made.size[0] // 2].any()
 
 
-# Odd vessels
-
-
 @each_mode
 @pytest.mark.parametrize("make", [lattice, nearly_along_y, of_few_points])
 @pytest.mark.parametrize("seed", [1, 2, 3])
@@ -324,9 +302,6 @@ def test_any_vessel_has_a_layout_or_lies_in_one_row(mode, make, seed):
         np.testing.assert_allclose(back, pixels, atol=1e-5)
         shown += 1
     assert shown > 3
-
-
-# Slabs
 
 
 @each_mode

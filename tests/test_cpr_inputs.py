@@ -35,9 +35,6 @@ def volume():
     return noise()
 
 
-# What is refused
-
-
 @pytest.mark.parametrize(
     ("changes", "error", "words"),
     [
@@ -127,9 +124,6 @@ def test_repeated_points_change_nothing(volume):
         )
 
 
-# What is made
-
-
 def test_defaults(volume):
     made = cpr(volume, STRAIGHT)
     assert (made.mode, made.angle, made.pixel_spacing) == ("projected", 0.0, volume.spacing.min())
@@ -214,9 +208,6 @@ def test_contact_sheets():
     assert (sheet[..., 3] == 255).all()
 
 
-# Paths
-
-
 @pytest.fixture(scope="module")
 def tree():
     trunk = Vessel([[0, 0, 30], [0, 0, 20], [0, 0, 10]], [4, 4, 3], "trunk")
@@ -231,7 +222,6 @@ def test_a_path_joins_vessels_in_their_order(tree):
     np.testing.assert_array_equal(path.points, expected)
     np.testing.assert_array_equal(path.radius, [4, 4, 3, 2, 1, 1])
     assert path.name == "trunk + left + foot"
-    # The other way round, and of a single vessel.
     np.testing.assert_array_equal(tree.path(["foot", 1, 0]).points[[0, -1]], [[8, 0, -20], [0, 0, 30]])
     assert tree.path([1]) == tree[1]
 
@@ -276,9 +266,6 @@ def test_paths_that_are_none(tree, ids, words):
         tree.path(ids)
 
 
-# The straightened volume
-
-
 @pytest.fixture(scope="module")
 def straightened(volume):
     return straightened_volume(volume, wave(), 12, 0.8, angle=0.7, smoothing=1.0)
@@ -314,7 +301,6 @@ def test_its_files_are_read_back(straightened, tmp_path, ending):
     again = read_volume(path)
     np.testing.assert_array_equal(again.array, straightened.volume.array)
     np.testing.assert_allclose(again.world_from_index, straightened.volume.world_from_index, atol=1e-6)
-    # Readers of others see the same.
     if ending == ".nrrd":
         array, header = nrrd.read(str(path))
         assert header["space"] == "left-posterior-superior"
@@ -337,9 +323,6 @@ def test_the_straightened_volume_is_checked(volume, straightened, tmp_path):
         straightened.world_from_index([[1, 2]])
     with pytest.raises(CameraError, match="width of the CPR"):
         straightened_volume(volume, wave(), -1)
-
-
-# Aggregated features
 
 
 def test_features_are_aggregated_over_half_circles():

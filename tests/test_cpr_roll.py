@@ -15,7 +15,6 @@ from lumencut.errors import CameraError, MeasuringError
 from lumencut.reformation_recipe import read_reformation_recipe
 from lumencut.volume_writers import write_volume
 
-#: A vessel that runs 50 mm downwards.
 LINE = Vessel([[0, 0, 25], [0, 0, -25]], radius=4.0)
 
 

@@ -63,10 +63,8 @@ def test_a_larger_offset_keeps_more_surroundings_and_hides_more_lumen(offset):
     expected = (np.abs(y) <= 4 + offset) | (np.abs(y) <= np.abs(x))
     assert np.array_equal(frame.vessel == 0, expected)
     assert np.array_equal(frame.depth, np.where(expected, 0, 40))
-    # Lumen behind: 8 mm wide, less the band of the front one.
     shown = (frame.vessel == 1) & (np.abs(x) <= 4)
     assert shown.sum() / 4 == 8 * (120 - 2 * (4 + offset))
-    # Surroundings in front, within 20 mm of the crossing.
     band = (frame.vessel == 0) & (np.abs(x) <= 20) & (np.abs(y) <= 20)
     reach = min(4 + offset, 20)
     assert band.sum() / 4 == pytest.approx(40 * 40 - (20 - reach) * (40 + 2 * reach), abs=45)

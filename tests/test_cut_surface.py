@@ -21,10 +21,8 @@ from lumencut import Camera, Renderer, Settings, Vessel, VesselTree, Volume, pha
 from lumencut._checked_settings import checked
 from scenes import lattice, nearly_along_y, of_few_points, wandering
 
-#: Depth and distance (mm).
 TOLERANCE = 1e-3
 PLAIN = Settings(depth_filter=False)
-#: Directions of view and the up that goes with them.
 DIRECTIONS = {
     "front": ((0.0, 1.0, 0.0), (0.0, 0.0, 1.0)),
     "oblique": ((0.4, 1.0, -0.2), (0.0, 0.0, 1.0)),
@@ -198,7 +196,6 @@ def test_real_trees(file, direction, rule, shared_data):
 )
 @pytest.mark.parametrize("rule", ["default", "paper"])
 def test_the_comparison_sees_a_wrong_setting(changes, rule):
-    # One vessel has no radius.
     tree = VesselTree(Vessel(one.points, one.radius if n else None) for n, one in enumerate(wandering(0)))
     camera = fitted(tree, "oblique")
     frame = Renderer(None, tree).cut_surface(camera, RULES[rule])

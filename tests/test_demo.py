@@ -175,5 +175,5 @@ def test_offline_a_phantom_is_shown_and_said(offline, tmp_path, monkeypatch):
     result = run_demo(tmp_path)
     assert result.exit_code == 0, result.output
     assert result.stderr.count("\n") == 1
-    assert result.stderr.startswith("lumencut: warning: the CT of the demo cannot be had, a phantom is shown")
+    assert result.stderr.startswith("lumencut: warning: the CT of the demo cannot be downloaded, a phantom")
     assert sorted(path.name for path in (tmp_path / "shown").iterdir()) == PICTURES

@@ -34,8 +34,6 @@ from lumencut.cli import main
 from scene_files import write_lines, write_volume
 from scenes import wandering
 
-# Which device
-
 
 def test_the_gpu_that_computes_is_one_of_the_listed(gpu):
     listed = devices()
@@ -122,9 +120,6 @@ def run_python(code, changes=None, timeout=120):
     return told.stdout
 
 
-# Failures
-
-
 def too_large():
     """A volume that no adapter takes, because it is longer than any side that one allows."""
     side = max(device.volume_side for device in devices())
@@ -174,9 +169,6 @@ def test_other_errors_are_the_same_on_the_gpu(any_gpu, error):
     with pytest.raises(error, match="context_step: found"):
         renderer.render(settings=Settings(context_step=0.001))
     assert renderer.device == any_gpu
-
-
-# Beside other threads and processes
 
 
 @pytest.mark.usefixtures("interruptible", "gpu")
@@ -267,9 +259,6 @@ sys.exit(status)
     may_refuse = device == "gpu" and not devices()[0].is_software
     is_refused = may_refuse and "start processes by 'spawn' instead of 'fork'" in told
     assert is_refused or told in (f"child: {any_gpu}", "child: cpu")
-
-
-# The command line
 
 
 def info(*words):

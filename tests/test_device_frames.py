@@ -101,9 +101,6 @@ def test_one_renderer_shows_any_view_in_any_order():
         assert_alike(found.render(camera, SETTINGS[name]), expected.render(camera, SETTINGS[name]))
 
 
-# Stages on the CPU
-
-
 @pytest.mark.parametrize(
     "stages", ["distance", "depth, depth_filter", "surface,silhouette,context", "context,composite"]
 )
@@ -121,9 +118,6 @@ def test_unknown_stages_are_refused(monkeypatch):
     with pytest.raises(SettingsError, match="stages of the CPU: found 'magic'; expected names of "):
         Renderer(None, wandering(1), "gpu")
     Renderer(None, wandering(1), "cpu")
-
-
-# The comparison
 
 
 @pytest.mark.parametrize(("name", "limit"), [(name, n) for name in LIMITS for n in range(len(LIMITS[name]))])

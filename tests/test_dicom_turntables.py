@@ -36,7 +36,6 @@ def test_frames_are_one_object_without_error(tmp_path, grey, compress):
     assert (data.NumberOfFrames, data.FrameTime) == (5, 125)
     assert data.FrameIncrementPointer == pydicom.tag.Tag("FrameTime")
     assert (data.RecommendedDisplayFrameRate, data.CineRate, data.PreferredPlaybackSequencing) == (8, 8, 0)
-    # The sides of the patient turn with the view.
     assert not data.PatientOrientation
     assert np.allclose(data.PixelSpacing, turn[0].camera.pixel_spacing)
     assert data.ImageComments == "5 frames. First: View anterior. Last: View RAO 72 deg"

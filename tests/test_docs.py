@@ -26,9 +26,6 @@ EXAMPLES = [script.path for script in docs_pages.scripts_of(docs_pages.EXAMPLES)
 GALLERY = [script.path for script in docs_pages.scripts_of(docs_pages.GALLERY)]
 
 
-# Pages
-
-
 def test_every_page_is_in_the_navigation_and_the_other_way_round():
     named = re.findall(r"^      - (\S+\.md)$", (ROOT / "mkdocs.yml").read_text("utf-8"), re.MULTILINE)
     assert len(named) > 30
@@ -181,9 +178,6 @@ def test_every_name_that_a_page_shows_is_public():
     assert [(page, name) for page, name in sorted(shown) if name not in lumencut.__all__] == []
 
 
-# Scripts
-
-
 @pytest.mark.parametrize("path", [*EXAMPLES, *GALLERY], ids=lambda path: path.stem)
 def test_every_script_is_a_card_of_one_page(path):
     page = "gallery.md" if path in GALLERY else "python.md"
@@ -224,9 +218,6 @@ def test_a_script_of_the_gallery_makes_its_picture(path, stent, tmp_path, monkey
     with Image.open(tmp_path / docs_pages.script_of(path).picture) as picture:
         low, high = picture.convert("L").getextrema()
     assert high - low > 100
-
-
-# The site
 
 
 PAGE = '<html><head>{head}</head><body><h1 id="top">T</h1>{body}</body></html>'
@@ -300,9 +291,6 @@ def test_a_picture_that_cannot_be_made_ends_the_build(tmp_path, monkeypatch, cod
     monkeypatch.setattr(docs_pages, "GALLERY", Path(tmp_path))
     with pytest.raises(docs_pages.PageError, match=said):
         docs.draw(docs_pages.script_of(path), tmp_path)
-
-
-# Types
 
 
 def symbol(name, *, known=True, ambiguous=False):

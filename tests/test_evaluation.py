@@ -46,9 +46,6 @@ def alone(volume=None, tree=None, settings=EXACT, **more):
     return row
 
 
-# Numbers
-
-
 def test_a_straight_tube_is_shown_as_it_is():
     # 19 pixels and a half across: 19 or 20 of them, wherever the tube lies between their centres.
     row = alone(tree=VesselTree([tube(4.875)]), pixel_spacing=0.5, size=(200, 200))
@@ -86,7 +83,6 @@ def test_crossing_tubes_by_cost_show_less_of_the_one_behind():
 
 def test_surroundings_are_where_the_volume_is(block):
     front = {"views": 1, "size": (100, 100), "pixel_spacing": 2.0}
-    # 80 mm of 200 mm along both axes.
     assert alone(block, **front)["tissue_percent"] == pytest.approx(16, abs=1)
     assert alone(None, **front)["tissue_percent"] is None
 
@@ -129,9 +125,6 @@ def test_lines_of_the_rule_leap_are_at_leaps_and_nowhere_else():
     assert paper["leaps"] > 50
     assert row["leaps_with_line_percent"] >= paper["leaps_with_line_percent"]
     assert row["lines_elsewhere_mm_per_mm2"] < 0.001
-
-
-# Methods
 
 
 def test_a_straight_upright_vessel_is_the_same_by_all_methods():
@@ -178,9 +171,6 @@ def test_vessels_beside_the_volume_have_an_image_too(block):
     tree = VesselTree([*crossing_tubes(), Vessel([(500, 0, 0), (500, 0, 20)], 2.0)])
     (row,) = evaluate(block, tree, ("cpr",), **SMALL).table
     assert row["tissue_percent"] > 0
-
-
-# Arguments
 
 
 def test_methods_differ_in_their_settings_alone():
@@ -254,9 +244,6 @@ def test_progress_and_cancelling():
     assert told == [(1, 20), (2, 20), (3, 20)]
 
 
-# Files
-
-
 @pytest.fixture
 def found(block):
     return evaluate(block, crossing_tubes(), **SMALL)
@@ -300,9 +287,6 @@ def test_pictures_of_the_worst_views(found, block, tmp_path):
     with pytest.raises(VolumeError, match="no volume"):
         evaluate(None, crossing_tubes(), **SMALL).save_pictures(tmp_path / "none")
     assert not (tmp_path / "none").exists()
-
-
-# The command
 
 
 @pytest.fixture

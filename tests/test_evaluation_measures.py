@@ -241,7 +241,6 @@ def test_lines_at_leaps_and_elsewhere(lone, camera):
     drawn[:, 40] = 0.2
     found = numbers(lone, replace(shown, plain_depth=depth, strength=drawn))
     assert found["leaps"] == 161
-    # A line within one pixel counts.
     assert found["leaps_with_line_percent"] == pytest.approx(100 * 82 / 161)
     # 161 pixels of 0.5 mm on all columns but the two at the leap and one beside each.
     assert found["lines_elsewhere_mm_per_mm2"] == pytest.approx(1 / (157 * 0.5))

@@ -37,9 +37,6 @@ def found(fork):
     return find_vessels(fork.volume)
 
 
-# What is found
-
-
 @pytest.mark.parametrize(
     ("name", "radius", "parts"),
     [
@@ -75,7 +72,6 @@ def test_the_vessels_of_a_fork_hang_together_at_points_that_are_the_same_to_the_
         meets = any((others == end).all(axis=1).any() for end in ends)
         met = any((vessel.points == one.points[0]).all(axis=1).any() for one in found if one is not vessel)
         assert meets or met
-    # Beyond the junction, where lumens part, all lines lie in the middle.
     truth = np.concatenate([one.points for one in fork.tree])
     for vessel in found:
         outside = vessel.points[np.abs(vessel.points[:, 2]) > 14]
@@ -148,9 +144,6 @@ def test_the_result_does_not_depend_on_the_number_of_threads():
     assert trees[0].parts == trees[1].parts
 
 
-# What is not found
-
-
 def noise():
     return np.random.default_rng(1).normal(0, 20, (60, 60, 60))
 
@@ -203,9 +196,6 @@ def test_a_vessel_without_contrast_medium_is_doubtful():
     _, volume = ct_of(45, FAT)
     with pytest.raises(TracingError, match="none that is sure, but"):
         find_vessels(volume)
-
-
-# Odd input
 
 
 @pytest.mark.parametrize("shape", [(1, 60, 60), (1, 1, 1), (2, 3, 4), (60, 1, 60)])
@@ -270,9 +260,6 @@ def test_a_smallest_radius_that_is_none_is_refused(fork, value):
         find_vessels(fork.volume, smallest_radius=value)
 
 
-# Progress and Ctrl-C
-
-
 def test_progress_rises_to_the_whole(fork):
     told = []
     find_vessels(fork.volume, progress=lambda done, total: told.append((done, total)))
@@ -303,9 +290,6 @@ def test_ctrl_c_ends_a_process_that_finds():
     ends_by_ctrl_c(FINDS, "finding")
 
 
-# Parts of any tree
-
-
 def test_parts_of_a_tree_from_elsewhere_hang_together_by_shared_points(tmp_path):
     trunk = Vessel([[0, 0, z] for z in range(0, 60, 10)])
     branch = Vessel([[0.0005, 0, 30], [20, 0, 30]])
@@ -324,9 +308,6 @@ def test_parts_are_the_same_once_the_tree_was_written_and_read(found, tmp_path):
     again = VesselTree(Vessel(one.points, one.radius) for one in found)
     assert again.parts == found.parts
     assert len(read_centerlines(tmp_path / "lines.vtp", coordinates="lps").parts) == 1
-
-
-# The command line
 
 
 @pytest.fixture(scope="module")

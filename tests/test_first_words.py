@@ -23,9 +23,6 @@ def ran(*words):
     return CliRunner().invoke(main, list(words))
 
 
-# The bare command
-
-
 @pytest.fixture
 def built(tmp_path, monkeypatch):
     """A page that is there, and small."""
@@ -55,7 +52,6 @@ def test_without_arguments_three_things_are_named_that_exist(built, has_page):
         assert name == "lumencut"
         told = ran(command, "--help").stdout
         assert all(option in told for option in options if option.startswith("-"))
-    # The viewer is no use where its page was not built.
     assert ("view" in {command for _, command, *_ in commands}) == has_page
     assert "lumencut doctor" in said.stdout
 
@@ -76,9 +72,6 @@ def test_the_program_is_named_as_it_can_be_called_again(tmp_path, monkeypatch):
 
 def test_a_command_that_is_not_there_is_still_refused():
     assert ran("reender").exit_code == 2
-
-
-# Completion
 
 
 @pytest.mark.parametrize(
@@ -108,9 +101,6 @@ def test_the_lines_for_each_shell_that_are_documented_give_its_script(shell):
     asked = {"_LUMENCUT_COMPLETE": f"{shell}_source"}
     told = subprocess.run(SCRIPT, env=os.environ | asked, capture_output=True, text=True, check=True)
     assert f"_LUMENCUT_COMPLETE={shell}_complete" in told.stdout
-
-
-# The doctor
 
 
 def test_the_doctor_tells_what_a_report_needs(built, monkeypatch):
@@ -147,7 +137,7 @@ def test_the_doctor_misses_the_page_an_extra_and_a_package(tmp_path, monkeypatch
     assert said.exit_code == 1
     assert "extra plot" in said.stdout
     assert "without matplotlib; pip install 'lumencut[plot]'" in said.stdout
-    assert said.stdout.splitlines()[-1] == "2 problems, told below"
+    assert said.stdout.splitlines()[-1] == "2 problems, listed below"
     package, absent = said.stderr.splitlines()
     assert "found no tqdm; expected all; pip install lumencut" in package
     assert "the viewer's page: found none in this installation" in absent

@@ -31,9 +31,6 @@ def run(*arguments: object) -> subprocess.CompletedProcess:
     return subprocess.run(command, capture_output=True, text=True, check=False)
 
 
-# The list
-
-
 def test_the_list_is_long_and_its_names_are_file_names():
     counts = Counter(entry.name for entry in LIST)
     assert set(counts.values()) == {1}
@@ -78,9 +75,6 @@ def test_a_scene_is_made_the_same_again():
     one, other = (SCENES["voxels f4"]() for _ in range(2))
     np.testing.assert_array_equal(one.volume.array, other.volume.array)
     np.testing.assert_array_equal(one.tree.points, other.tree.points)
-
-
-# Writing
 
 
 def test_frames_are_written_as_they_are_rendered(tmp_path):
@@ -128,9 +122,6 @@ def test_the_gpu_renders_the_list_too(tmp_path):
     assert list(written["frames"]) == [
         entry.name for entry in LIST if entry.cpu_stages.startswith("distance")
     ]
-
-
-# Comparing hashes
 
 
 def arrays() -> dict[str, np.ndarray]:
@@ -214,9 +205,6 @@ def test_files_without_frames_are_not_equal(tmp_path):
 def test_other_devices_are_named(tmp_path, capsys):
     assert compare(hashes(tmp_path, "a"), hashes(tmp_path, "b", device="some GPU")) == 0
     assert "devices: cpu and some GPU" in capsys.readouterr().out
-
-
-# Differences of arrays
 
 
 def folders(tmp_path: Path, **other: np.ndarray) -> tuple[Path, Path]:

@@ -66,7 +66,7 @@ def test_a_hanging_is_one_series(line, tmp_path):
 @pytest.mark.parametrize("other", [("--view", "left"), ("--rotate", "30"), ("--up", "0,0,1")])
 def test_options_that_say_from_where_one_looks_are_refused(line, tmp_path, other):
     words = ("--hanging", "evar", "-o", tmp_path / "a.dcm", *other)
-    assert f"{other[0]} does nothing beside --hanging" in run("render", series(), line, *words, code=2)
+    assert f"{other[0]} does nothing with --hanging" in run("render", series(), line, *words, code=2)
 
 
 def test_one_field_of_view_is_that_of_the_lines(line, tmp_path):

@@ -235,11 +235,11 @@ def test_real_lines_give_no_doubt(shared_data):
 
 @pytest.mark.parametrize("name", ["helix", "trefoil", "y_junction", "crossing", "collinear_run", "stenosis"])
 def test_phantoms_give_no_doubt(name):
-    assert line_doubts(getattr(phantom, name)().tree, beside=True) == []
+    assert line_doubts(getattr(phantom, name)().tree, parallel=True) == []
 
 
 def test_lines_that_are_traced_give_no_doubt():
     made = phantom.y_junction()
-    assert line_doubts(lumencut.find_vessels(made.volume), beside=True) == []
+    assert line_doubts(lumencut.find_vessels(made.volume), parallel=True) == []
     ends = made.tree[0].points[[2, -3]]
-    assert line_doubts(lumencut.trace(made.volume, [ends]), beside=True) == []
+    assert line_doubts(lumencut.trace(made.volume, [ends]), parallel=True) == []

@@ -21,7 +21,6 @@ from lumencut.volume_writers import write_volume
 
 SPACING = 0.5
 
-#: A vessel that runs downwards, 30 mm long and 4 mm in radius.
 LINE = Vessel([[0, 0, 15], [0, 0, -15]], radius=4.0)
 
 

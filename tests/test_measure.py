@@ -145,7 +145,6 @@ def test_the_point_spread_is_estimated_where_the_vessel_is_wide():
     tube = round_tube(6.0, fwhm=1.1)
     volume = tube.volume(Grid.even(EVEN, box(tube, 24)))
     profile = measure(volume, tube.vessel(20))
-    # Noise leaves a spread of some percent.
     assert profile.fwhm == pytest.approx(1.1, rel=0.1)
     assert profile.fwhm_source.startswith("estimated on ")
     narrow = round_tube(1.2)
@@ -197,7 +196,6 @@ def test_what_is_brighter_than_lumen_by_more_than_its_noise_is_no_lumen(away, re
     profile = measure(scan, Vessel(np.stack([0 * z, 0 * z, z], axis=1)))
     within = np.abs(profile.arc_length - 19) <= 2
     assert (profile.flags[within] & (Flag.CALCIUM | Flag.METAL) > 0).all()
-    # Beside it there is lumen alone.
     beside = np.abs(profile.arc_length - 19) > 5
     assert (profile.flags[beside] == 0).all()
 

@@ -213,7 +213,6 @@ def test_the_contour_of_a_section_lies_on_the_wall(narrow, marked, at):
     assert len(ring) > 50
     profile = marked.profile
     wall = np.linalg.norm(profile.contour[number] - profile.center[number], axis=1).mean()
-    # A third of a pixel.
     assert radius.mean() == pytest.approx(wall, abs=0.03)
     plain = view.picture(marked, number, has_contour=False)
     assert len(near(plain, CYAN)) == 0

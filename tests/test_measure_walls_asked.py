@@ -15,7 +15,6 @@ from scene_files import write_volume_of
 
 #: A wall that is brighter than that of soft tissue, and surer.
 BRIGHT = (70.0, 5.0)
-#: What is asked for in Python, and on the command line.
 ASKED = [(None, "auto"), ("off", "off"), (BRIGHT, "70,5")]
 
 

@@ -15,7 +15,7 @@ from click.testing import CliRunner
 from lumencut import Mend, Vessel, VesselTree, Volume, _lumencut, read_volume, trace
 from lumencut.cli import main
 from lumencut.errors import FormatError, LumencutError, SeriesError, SpaceWarning, VesselTreeError
-from lumencut.mends import WORDS, MendName, as_option, told
+from lumencut.mends import WORDS, MendName, advised, as_option
 from lumencut.placement import check_meeting, check_space
 from test_dicom import AXIAL
 from test_dicom_choice import phases
@@ -25,7 +25,6 @@ from volume_samples import coded, write_stack
 
 PAGE = Path(__file__).parents[1] / "web/src/core/mends.ts"
 
-#: What can be chosen among.
 VALUES = {"coordinates": ("lps", "ras"), "place": ("lps", "ras"), "unit": ("cm", "dm"), "phase": ("0", "400")}
 VALUES["reading"] = ("lps in cm", "ras in m")
 
@@ -81,7 +80,7 @@ def test_words(name, argument, option):
 
 
 def test_advice_comes_before_the_mend_and_both_are_kept():
-    error = FormatError("a", "b", "c", told("add the files", [("fill_gaps", ())]))
+    error = FormatError("a", "b", "c", advised("add the files", [("fill_gaps", ())]))
     assert (
         str(error) == "a: found b; expected c; add the files, or have them interpolated with fill_gaps=True"
     )
@@ -166,5 +165,5 @@ def test_what_is_logged_is_worded_for_the_command_line(tmp_path, caplog, monkeyp
     import click
 
     with click.Context(main) as ctx, reported(ctx):
-        logging.getLogger("lumencut").warning("%s: %s", "a", told("b", [("fill_gaps", ())]))
+        logging.getLogger("lumencut").warning("%s: %s", "a", advised("b", [("fill_gaps", ())]))
     assert said == ["a: b, or have them interpolated with --fill-gaps"]

@@ -77,7 +77,6 @@ def test_a_slanted_vessel_is_as_thin_as_the_geometry_predicts(phi, theta):
     found = width(inside(mpcpr(None, tree, camera), along, 4.0), phi, 0.1)
     expected = 8.0 * np.sin(np.radians(phi)) / np.sqrt(1 - along[0] ** 2)
     assert found == pytest.approx(expected, abs=0.11)
-    # CSR cuts it along v × d and shows all of it.
     true = Renderer(None, tree).cut_surface(camera, Settings(depth_filter=False))
     assert width(inside(true, along, 4.0), phi, 0.1) == pytest.approx(8.0, abs=0.11)
     assert expected <= 8.0 + 1e-9
@@ -127,7 +126,6 @@ def test_rows_beyond_the_ends_show_nothing():
     assert np.array_equal(np.isfinite(frame.position).all(axis=2), frame.vessel >= 0)
     assert (frame.image[~rows, :, 3] == 0).all()
     assert (frame.image[rows, :, 3] == 255).all()
-    # With a context all of the volume is seen there.
     context = mpcpr(volume, tree, front(), Settings(window=Window(50, 100), context="mip"))
     assert (context.context[~rows][:, 10:50, 3] > 0).all()
     assert (context.context[rows][..., 3] == 0).all()

@@ -82,7 +82,6 @@ def test_turning_by_the_options_of_a_camera_gives_its_angles():
         ("anterior", (0.5, 0, math.sqrt(0.75)), "anterior turned 30°"),
         ("anterior", (0, 0, -1), "anterior turned 180°"),
         ("superior", (0, 1, 0), "superior turned 180°"),
-        # From below with the patient's left on top, the front is on the left.
         ("inferior", (1, 0, 0), "inferior turned 90°"),
     ],
 )

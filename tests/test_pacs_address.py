@@ -38,7 +38,7 @@ def pacs(scan):
 @pytest.mark.parametrize(
     ("given", "words"),
     [
-        ("http://pacs.example/dicom-web", "which anybody on the way can read"),
+        ("http://pacs.example/dicom-web", "which anybody on the network can read"),
         ("https://me:pw1@pacs.example/web", "a name or a password"),
         ("https://pacs.example/web?token=1", "dicomweb:https://HOST"),
         ("https://pacs.example/web/studies/..%2f1", "dicomweb:https://HOST"),

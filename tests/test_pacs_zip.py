@@ -245,7 +245,7 @@ def test_a_study_without_a_frame_of_reference_holds_no_coordinates(tmp_path):
 
 def test_numbers_that_are_no_millimetres_are_not_written():
     asked = {**request("anonymous"), "stated": {"spacing": False, "orientation": True}}
-    with pytest.raises(FormatError, match="how far its voxels lie apart"):
+    with pytest.raises(FormatError, match="a scan without voxel spacing"):
         pacs_zip(sent(asked), scan())
     assert pacs_zip(sent({**asked, "findings": []}), scan())
 
@@ -269,8 +269,8 @@ def broken():
     yield {"view": {**view, "picture": "%"}}, "base64"
     yield {"view": {**view, "picture": encoded(b"no picture")}}, "cannot be read"
     yield {"view": {**view, "method": "none"}}, "a method"
-    yield {"view": {**view, "settings": {"none": 1}}}, "settings that are none"
-    yield {"view": {**view, "camera": {**view["camera"], "direction": [0, 0, 0]}}}, "a camera that is none"
+    yield {"view": {**view, "settings": {"none": 1}}}, "invalid settings"
+    yield {"view": {**view, "camera": {**view["camera"], "direction": [0, 0, 0]}}}, "an invalid camera"
     finding = finding_part(measured())
     yield {"findings": [{**finding, "points": [[0, 0]]}]}, "no points"
     yield {"findings": [{**finding, "points": [[0, 0, 0]]}]}, "a vessel that is none"

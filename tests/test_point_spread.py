@@ -21,7 +21,6 @@ def binary(diameter: float, noise: float) -> Profile:
     points = grid.points(1)
     values = np.where(np.hypot(points[0], points[1]) <= diameter / 2, 300.0, 0.0)
     values += np.random.default_rng(1).normal(0, noise, values.shape)
-    # These tubes have no wall.
     return measure(Volume(values.astype(np.float32), world_from_index=grid.affine), LINE, wall="off")
 
 

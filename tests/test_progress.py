@@ -24,7 +24,6 @@ def any_threads():
     lumencut.set_threads(None)
 
 
-# What takes some tenths of a second, so that something is told on the way.
 LARGE = (1500, 1400)
 
 

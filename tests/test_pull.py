@@ -99,8 +99,8 @@ def kept_back(pacs, uids, how):
 @pytest.mark.parametrize(
     ("how", "words"),
     [
-        ("partial", "status 206: a part of what was asked for"),
-        ("dies", "a connection that broke off"),
+        ("partial", "status 206: only a part of the request"),
+        ("dies", "an interrupted connection"),
         ("cut", "an end within a part"),
         ("other", "another instance"),
         ("text", "no DICOM file"),
@@ -172,7 +172,7 @@ def test_a_pacs_that_is_gone_is_not_asked_for_everything(pacs, tmp_path):
     kept_back(pacs, {key[2] for key in pacs.held}, "error")
     result = run("pull", pacs.address, "-o", tmp_path / "out")
     assert result.exit_code == 3
-    assert "not asked for any more" in result.output
+    assert "not requested after" in result.output
     assert not files(tmp_path / "out")
 
 
@@ -218,7 +218,7 @@ def test_wrong_and_missing_tokens_are_told_apart_and_never_shown(pacs, tmp_path,
     assert "LUMENCUT_DICOMWEB_TOKEN" in none.output
     monkeypatch.setenv("LUMENCUT_DICOMWEB_TOKEN", "wr0ng-one")
     wrong = run("pull", pacs.address, "-o", tmp_path / "out", "--verbose")
-    assert "refused, wrong or expired" in wrong.output
+    assert "rejected, wrong or expired" in wrong.output
     assert "wr0ng" not in wrong.output + caplog.text
 
 
@@ -313,7 +313,7 @@ def test_tls_is_verified_and_a_private_authority_is_named(scan, tmp_path):
         address = f"{pacs.base}/studies/{study}/series/{series}"
         refused = run("pull", address, "-o", tmp_path / "out")
         assert refused.exit_code == 1
-        assert "a certificate that is not trusted" in refused.output
+        assert "an untrusted certificate" in refused.output
         assert "--ca FILE" in refused.output
         taken = run("pull", address, "-o", tmp_path / "out", "--ca", mine[0])
         assert taken.exit_code == 0, taken.output

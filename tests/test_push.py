@@ -39,7 +39,7 @@ def test_objects_are_sent_in_batches_and_found_again(pacs, scan):
     done = run(scan, pacs.base, "--yes", "--new-study")
     assert done.exit_code == 0, done.output
     assert "40 of 40 objects are in" in done.output
-    assert "cannot be taken back" in done.output
+    assert "cannot be removed" in done.output
     assert pacs.batches == [32, 8]
     assert set(pacs.held.values()) == {path.read_bytes() for path in scan.iterdir()}
 
@@ -81,7 +81,7 @@ def test_the_first_push_to_an_address_is_asked_for(pacs, scan, monkeypatch):
     monkeypatch.setattr("click.testing._NamedTextIOWrapper.isatty", lambda self: True)
     no = run(scan, pacs.base, "--new-study", input="n\n")
     assert no.exit_code == 1
-    assert "cannot be taken back" in no.output
+    assert "cannot be removed" in no.output
     assert not pacs.batches
     assert run(scan, pacs.base, "--new-study", input="y\n").exit_code == 0
     again = run(scan, pacs.base)
@@ -95,7 +95,7 @@ def test_what_is_refused_is_named_and_only_that_is_sent_again(pacs, scan):
     done = run(scan, pacs.base, "--yes", "--new-study")
     assert done.exit_code == 3
     assert "39 of 40 objects are in" in done.output
-    assert f"{paths[5]}: the PACS does not take this kind of object (0122)" in done.output
+    assert f"{paths[5]}: the PACS does not accept this kind of object (0122)" in done.output
     assert str(paths[3]) not in done.output
     assert pacs.batches == [32, 8, 1]
     pacs.refused.clear()
@@ -126,7 +126,7 @@ def test_an_object_that_is_taken_and_lost_is_told(pacs, scan):
     pacs.fault = lose
     done = run(scan, pacs.base, "--yes", "--new-study")
     assert done.exit_code == 3
-    assert "taken, but not found by a search afterwards" in done.output
+    assert "accepted, but not found by a search afterwards" in done.output
 
 
 def test_bad_objects_are_refused_before_anything_is_sent(pacs, scan, tmp_path):
@@ -204,7 +204,7 @@ def test_an_issuer_tells_patients_apart_where_both_state_it(pacs, scan, tmp_path
     assert "'There'" in refused.output
     bare = run(second, pacs.base, "--yes")
     assert bare.exit_code == 0
-    assert "one issuer alone is stated" in bare.output
+    assert "only one issuer is stated" in bare.output
 
 
 @pytest.mark.parametrize("values", [{"PatientID": " phantom "}, {"PatientName": "Another^Spelling"}])

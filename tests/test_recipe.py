@@ -78,7 +78,6 @@ def test_saved_pictures_hold_what_was_used(frame, tmp_path):
     assert (recipe.annotate, recipe.vessel_names, recipe.vessels) == (True, False, 1)
     made = phantom.calcified_wall()
     renderer = Renderer(made.volume, made.tree)
-    # The windows from the data are there as numbers.
     assert recipe.settings == dataclasses.replace(
         Settings(), window=renderer.window, context_window=renderer.window
     )

@@ -160,7 +160,6 @@ def test_an_aorta_shows_its_lumen():
     shown = []
     for point in points:
         place = pixel(frame.camera, point)
-        # Not hidden by a vessel before it.
         if abs(frame.depth[place] - (point - frame.camera.center) @ frame.camera.direction) < 1:
             shown.append((frame.value[place], frame.image[place][0]))
     assert len(shown) > len(points) / 2
@@ -168,7 +167,6 @@ def test_an_aorta_shows_its_lumen():
     assert np.median(values) == pytest.approx(LUMEN, abs=15)
     assert (abs(values - LUMEN) < 70).mean() > 0.9
     assert np.median(greys) == pytest.approx(grey(LUMEN, window), abs=8)
-    # The lumen is brighter than tissue and darker than calcifications.
     assert grey(60, window) < 80 < grey(LUMEN, window) < 180 < grey(CALCIFIED, window)
 
 

@@ -152,7 +152,6 @@ def test_locks_hold_what_is_declared():
             assert all(requirement.specifier.contains(version) for version in versions), requirement
     for lock in (dev, wheel):
         assert {name: versions for name, versions in lock.items() if name in runtime} == runtime
-    # They are installed into one environment, one after the other.
     both = docs.keys() & dev.keys()
     assert {name: docs[name] for name in both} == {name: dev[name] for name in both}
     assert project["build-system"]["requires"] == groups["build"]

@@ -6,7 +6,6 @@ from rust_graph import rust_graph
 
 ROOT = Path(__file__).resolve().parents[1]
 
-#: The rooms, and which others each of them may need.
 ROOMS: dict[str, tuple[str, ...]] = {
     "voxels": (),
     "trace::lines": (),

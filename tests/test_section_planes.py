@@ -12,7 +12,6 @@ from lumencut.section_pictures import SectionView, fitting_size
 from lumencut.window import Window
 from measure_scenes import FWHM, LUMEN, TISSUE, bent
 
-#: Arc lengths (mm) between sections that are measured every half millimetre.
 PLACES = (4.13, 12.6, 18.87, 25.4)
 
 

@@ -307,7 +307,7 @@ def broken(name):
         ("no place", "frame 5 without ImagePositionPatient"),
         ("turned", "turned against each other"),
         ("uneven", "of no common distance"),
-        ("beside", "beside each other"),
+        ("beside", "side by side"),
         ("far", "a grid of"),
         ("twice", "segment 1 aorta twice in one place"),
         ("syntax", "pixels as MPEG"),

@@ -172,7 +172,6 @@ def test_measure_grades_what_was_marked_in_the_viewer(tmp_path):
     stenosis = json.loads((tmp_path / "out.json").read_text())["vessels"][0]["stenosis"]
     expected = measure(read_volume(volume), scene.tree[0], tree=scene.tree).stenosis(30.0, 50.0)
     assert (stenosis["percent"], stenosis["at_mm"]) == (expected.percent, 30.0)
-    # A place that an option names comes first.
     result = run("measure", volume, session, "-o", tmp_path / "other.json", "--at", 20)
     assert json.loads((tmp_path / "other.json").read_text())["vessels"][0]["stenosis"] is None
 

@@ -168,9 +168,6 @@ def test_what_cannot_be_opened_is_a_file_error(tmp_path, name):
         Settings.from_file(tmp_path / name)
 
 
-# Commands
-
-
 @pytest.fixture
 def asked(monkeypatch, tmp_path):
     """Runs ``lumencut render`` with more options, and returns the settings it asked for."""

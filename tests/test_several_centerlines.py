@@ -40,9 +40,6 @@ def tree():
     return VesselTree([Vessel(LEFT + np.array([3 * n, 0, n]), 1.0 + n, name) for n, name in enumerate(NAMES)])
 
 
-# A choice of vessels
-
-
 def test_a_choice_keeps_order_and_equal_vessels(tree):
     assert list(tree.select("RCA", "LAD")) == [tree[0], tree[2]]
     assert list(tree.select(2, -1, "RCA")) == [tree[2]]
@@ -87,9 +84,6 @@ def test_a_view_can_be_fitted_to_one_vessel(tree):
         assert turned == fitted_turn(fitted, VesselTree([vessel]))
     with pytest.raises(CameraError, match="a VesselTree, a Vessel, a Volume"):
         Camera.anterior(tree.points)
-
-
-# Several files
 
 
 def test_vessels_follow_in_the_order_of_the_files_and_keep_their_names(tmp_path, tree):
@@ -163,9 +157,6 @@ def test_files_that_cannot_be_read_are_named(tmp_path):
         read_centerlines([good, str(good)])
     with pytest.raises(FormatError, match="at least one file"):
         read_centerlines([])
-
-
-# Commands
 
 
 @dataclass
@@ -288,9 +279,6 @@ def test_the_evaluation_takes_several_files_with_and_without_a_volume(runs):
         result = CliRunner().invoke(main, words)
         assert result.exit_code == 0, result.output
         assert "csr" in result.output
-
-
-# Several views
 
 
 def test_each_view_has_a_file_of_its_own_and_the_volume_is_read_once(runs, monkeypatch):

@@ -57,7 +57,6 @@ POLY_DATA = sorted(
 def stated_points(path: Path) -> np.ndarray:
     """All points of a file in mm and LPS, read in the plainest way that its format allows."""
     if path.suffix == ".pth":
-        # The tangents have attributes of the same names.
         places = re.findall(r'<pos x="([^"]+)" y="([^"]+)" z="([^"]+)"', path.read_text())
         return 10.0 * np.array(places, float)
     if path.suffix == ".json":

@@ -143,7 +143,6 @@ def test_masks_lie_on_their_volumes():
     ):
         inside, values = read_volume(DATA / mask), read_volume(DATA / volume)
         np.testing.assert_allclose(inside.world_from_index, values.world_from_index, atol=1e-3)
-        # Contrast agent: the lumen is brighter than the rest.
         assert values.array[inside.array > 0].mean() > 2 * np.abs(values.array[inside.array == 0].mean())
 
 

@@ -17,7 +17,6 @@ SETTINGS = Settings(
     depth_filter=False,
     levels=0,
     silhouette_reach=None,
-    # A low cost would move the border between two vessels.
     cost_weight=1e4,
     window=Window(level=0, width=100),
     silhouette_color=(0, 0, 0),

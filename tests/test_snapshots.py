@@ -76,7 +76,6 @@ def test_a_picture_stays_as_it_is(name, tmp_path):
     found, path = picture(name), SNAPSHOTS / f"{name}.png"
     if os.environ.get("LUMENCUT_WRITE_SNAPSHOTS") == "1":
         Image.fromarray(found).save(path, optimize=True)
-    # A missing snapshot is a failure: opening it raises.
     with Image.open(path) as image:
         expected = np.asarray(image)
     result = compare(found, expected, TOLERANCE)

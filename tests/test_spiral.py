@@ -13,7 +13,6 @@ from lumencut.cli import main
 from lumencut.errors import CameraError, SettingsError, VesselTreeError
 from lumencut.volume_writers import write_volume
 
-#: A vessel that runs 20 mm downwards, 4 mm in radius.
 LINE = Vessel([[0, 0, 10], [0, 0, -10]], radius=4.0)
 
 

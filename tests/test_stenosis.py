@@ -208,5 +208,4 @@ def test_a_percentage_tells_what_makes_it_doubtful(past_a_junction, half):
         graded = past_a_junction.stenosis(at, 10)
         assert graded.doubts == doubts
         assert str(graded).endswith(f"mm at 10.0 mm. {' '.join(doubts)}")
-    # An assumed diameter has no place.
     assert past_a_junction.stenosis(50, 10, "ecst", 12.0).doubts == ()

@@ -142,7 +142,7 @@ def test_patients_are_told_apart_by_id_and_issuer_alone(outputs, studies, tmp_pa
     [
         ({"PatientID": ""}, "patients cannot be compared.*'J-17'.*no PatientID"),
         ({"PatientID": None}, "patients cannot be compared"),
-        ({"IssuerOfPatientID": None}, "one issuer alone is stated"),
+        ({"IssuerOfPatientID": None}, "only one issuer is stated"),
         ({"FrameOfReferenceUID": "1.2.77"}, "frame of reference .*1.2.77"),
         ({"BodyPartExamined": "HEAD"}, "ABDOMEN.*HEAD"),
     ],

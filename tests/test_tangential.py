@@ -38,7 +38,6 @@ def test_positions_are_those_whose_values_are_shown(name):
         made = cpr(volume, wave(), "tangential", camera=VIEW)
         inverse = np.linalg.inv(volume.world_from_index)
         index = made.position @ inverse[:3, :3].T + inverse[:3, 3]
-        # The outermost half of a voxel has the value of its middle.
         index = index.clip(0, np.array(volume.size) - 1)
         seen = ~np.isnan(made.value)
         assert seen.sum() > 3000

@@ -38,7 +38,6 @@ def test_ctrl_c_ends_a_rendering_and_the_renderer_goes_on():
                 looks.append(True)
         if len(looks) == LOOKS:
             signal.raise_signal(signal.SIGINT)
-            # Not the minutes that the whole picture takes.
             looks.append(ended.wait(10))
 
     thread = threading.Thread(target=interrupt_once_it_runs)

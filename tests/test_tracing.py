@@ -61,7 +61,6 @@ def test_a_tube_with_a_stenosis_is_traced_within_a_twentieth_of_a_millimetre(tub
     off = away(vessel.points, line)
     assert off.mean() <= 0.05
     assert off.max() <= 0.25
-    # All of it, from click to click.
     assert away(line[6:-6], vessel.points).max() < 0.3
     assert np.linalg.norm(np.diff(vessel.points, axis=0), axis=1).max() <= 0.5
     wrong = vessel.radius - true_radius(vessel.points, line, radius)
@@ -146,7 +145,6 @@ def test_the_orientation_of_the_grid_changes_nothing(short):
     for axes in ((2, 1, 0), (0, 2, 1), (1, 0, 2)):
         array = np.ascontiguousarray(volume.array.transpose(axes))
         affine = volume.world_from_index.copy()
-        # The axes of the array are k, j, i.
         affine[:, :3] = volume.world_from_index[:, [2 - axes[2 - a] for a in range(3)]]
         (turned,) = trace(Volume(array[::-1], world_from_index=_flipped(affine, array)), clicks)
         assert away(turned.points, plain.points).max() < 0.02
@@ -224,7 +222,6 @@ def test_a_tracer_follows_what_is_added_moved_and_removed(short):
     assert away(tracer.tree[0].points, first[0].points).max() < 0.02
     assert [len(points) for points in tracer.points] == [2]
     assert tracer.add(line[30], vessel=1) == 1
-    # A vessel of one point is not traced yet.
     assert len(tracer.tree) == 1
 
 

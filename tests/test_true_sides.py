@@ -21,7 +21,6 @@ from lumencut.orientation import c_arm_angles, view_name
 from lumencut.turntables import turntable
 from ramp_scenes import letters_of, oblique, ramp_volumes
 
-#: All is black, so that labels can be read off pictures.
 #: The scan of the ramps lies elsewhere than the study that its results are written into.
 pytestmark = pytest.mark.filterwarnings("ignore::lumencut.errors.StudyWarning")
 

@@ -45,9 +45,6 @@ def spun(tmp_path, *more, output="spin.webp"):
     return CliRunner().invoke(main, [*command, *more])
 
 
-# Views
-
-
 def test_a_whole_turn_does_not_repeat_its_first_frame_but_a_part_ends_where_it_says():
     np.testing.assert_allclose(np.degrees(frame_angles(4, 360)), [0, 90, 180, 270])
     np.testing.assert_allclose(np.degrees(frame_angles(3, -720)), [0, -240, -480])
@@ -84,9 +81,6 @@ def test_a_turn_without_a_camera_is_fitted(renderer):
     frame = next(turntable(renderer, settings=Settings(silhouettes=False), frames=1))
     expected = fitted_turn(Camera.anterior(renderer.tree), renderer.tree)
     assert frame.camera.pixel_spacing == expected.pixel_spacing
-
-
-# Files
 
 
 @pytest.mark.parametrize("name", ["spin.webp", "spin.png", "spin.apng"])
@@ -260,9 +254,6 @@ def test_videos_take_one_frame_after_the_other(renderer, tmp_path, monkeypatch):
     assert (video.codec, video.rate, video.stream.width, video.stream.height) == ("libx264", 12.5, 24, 20)
     with pytest.raises(FormatError, match="even numbers"):
         save_animation(turn(renderer, 2, size=(25, 20)), tmp_path / "odd.mp4")
-
-
-# Command
 
 
 def test_the_command_writes_an_animation(tmp_path):

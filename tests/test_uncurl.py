@@ -57,7 +57,6 @@ def test_positions_are_those_whose_values_are_shown(name):
         made = uncurl(volume, wave(), VIEW, 0.6)
         inverse = np.linalg.inv(volume.world_from_index)
         index = made.position @ inverse[:3, :3].T + inverse[:3, 3]
-        # The outermost half of a voxel has the value of its middle.
         index = index.clip(0, np.array(volume.size) - 1)
         seen = ~np.isnan(made.value)
         assert seen.sum() > 5000
@@ -116,9 +115,6 @@ def test_a_film_begins_and_ends_as_the_two_reformations():
 def test_bad_arguments(changes, error, words):
     with pytest.raises(error, match=words):
         uncurl(**{"volume": noise(), "vessel": wave(), "camera": VIEW, **changes})
-
-
-# The command
 
 
 def test_a_film_of_the_longest_vessel(files, tmp_path):

@@ -73,7 +73,6 @@ def test_parts_have_true_lengths_and_the_directions_of_turns(fork: lumencut.Unta
         steps = np.linalg.norm(np.diff(part.pixels, axis=0), axis=1) * fork.pixel_spacing
         assert steps.sum() == pytest.approx(vessel.length, abs=1e-9)
         assert part.arc_length[-1] == pytest.approx(vessel.length)
-    # Counter-clockwise from downwards is to the right.
     right = next(part for part in fork.parts if part.turn > 0)
     assert right.pixels[-1, 0] > right.pixels[0, 0]
 

@@ -37,7 +37,6 @@ def test_a_cut_vessel_is_both_of_its_parts():
     assert (first.radius[-1], first.confidence[-1]) == pytest.approx((1.35, 0.35))
     np.testing.assert_array_equal(second.points[1:], whole.points[4:])
     np.testing.assert_array_equal(second.bridged[1:], whole.bridged[4:])
-    # Both parts joined again are the vessel, with one point more.
     back = cut.joined("LAD", "LAD part 2")
     assert [vessel.name for vessel in back] == [None, "LAD", "LAD part 1"]
     np.testing.assert_array_equal(np.delete(back[1].points, 4, axis=0), whole.points)

@@ -25,7 +25,6 @@ from lumencut.volume_writers import write_volume as write_any
 from scene_files import write_lines, write_volume
 from view_serving import Client, split, write_page
 
-#: The program on a page of its own.
 PROGRAM = """
 import sys
 from pathlib import Path
@@ -85,9 +84,6 @@ def viewing(built, *words):
             yield process, process.stdout.readline()
         finally:
             process.kill()
-
-
-# What it says
 
 
 def test_the_address_stands_alone_on_a_line(run):
@@ -220,8 +216,6 @@ def test_the_demo_is_a_scene_too(run, monkeypatch, tmp_path):
     assert (found[2].status, found[3].status) == (200, 404)
     assert found[2].body == found[0].body
 
-
-# How it ends
 
 on_posix = pytest.mark.skipif(os.name != "posix", reason="these signals are those of POSIX")
 

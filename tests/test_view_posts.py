@@ -131,7 +131,6 @@ def test_content_that_does_not_come_is_waited_for_only_shortly(client, monkeypat
     received = client.raw(head(client, "Content-Length: 5") + b"{}")
     assert int(received.split(maxsplit=2)[1]) == 408
     assert time.monotonic() - start < 5
-    # The next one is taken.
     assert post(client, b"{}").status == 422
 
 

@@ -61,7 +61,6 @@ def test_where_only_the_values_tell_the_type_the_header_waits(page):
 
 @pytest.mark.parametrize("name", ["ct.nii", "ct.nii.gz", "dicom"])
 def test_readers_tell_of_slices_that_are_final(tmp_path, name):
-    # Noise is not packed to nothing.
     array = np.random.default_rng(1).integers(0, 1000, (30, 64, 64), np.int16)
     path = tmp_path / name
     if name == "dicom":
@@ -132,9 +131,6 @@ def test_who_goes_away_is_not_missed(page, caplog):
         connection.close()
         assert client.ask("data/volume").body.endswith(array.tobytes())
     assert caplog.records == []
-
-
-# What cannot be read
 
 
 def fails(after):

@@ -96,7 +96,6 @@ def test_another_user_gets_nothing_while_a_browser_opens_and_afterwards(ground, 
         port, token = re.fullmatch(ADDRESS, address).groups()
         while_it_opens = everything_seen(int(port), ground, until=arrived.exists)
         afterwards = everything_seen(int(port), ground)
-        # The owner has the page, and the scan.
         assert "lumencut-volume" in arrived.read_text("utf-8")
         with urlopen(f"{address}data/volume", timeout=20) as scan:
             assert scan.read(8) == b"LCVOLUME"
@@ -147,7 +146,6 @@ def test_what_a_killed_run_left_is_removed_by_the_next_one_and_no_other_file(gro
     for other in others:
         other.touch()
     with places(HOME=ground), leading_to("http://first") as first, leading_to("http://second") as second:
-        # That of a run that still works stays.
         assert sorted(held_by(ground)) == sorted([first, second])
         assert "http://first" in first.read_text("utf-8")
     assert sorted(left.parent.iterdir()) == sorted(others)

@@ -31,9 +31,6 @@ def client(page):
         yield client
 
 
-# Headers
-
-
 def refusals(client):
     """An answer of every kind that the server gives."""
     yield 200, client.ask()
@@ -97,9 +94,6 @@ def test_so_has_the_answer_where_the_server_itself_fails(tmp_path, caplog):
     assert_protected(answer.headers)
     assert str(tmp_path).encode() not in answer.body
     assert "could not answer: unexpected RuntimeError" in caplog.text
-
-
-# Who may ask
 
 
 @pytest.mark.parametrize("host", ["127.0.0.1:{port}", "localhost:{port}"])
@@ -167,9 +161,6 @@ def test_it_listens_on_loopback_alone(page):
 def test_a_port_that_is_taken_is_refused(client, page):
     with pytest.raises(FileError, match=f"port {client.place.port}: found another program on it"):
         ViewerServer(Page.of(page), port=client.place.port)
-
-
-# What may be asked
 
 
 @pytest.mark.parametrize("method", ["POST", "PUT", "DELETE", "PATCH", "OPTIONS", "TRACE", "PROPFIND", "get"])

@@ -40,9 +40,6 @@ def streamed(page, file):
     return header, np.frombuffer(voxels, kind).reshape(header["size"][::-1])
 
 
-# The page
-
-
 def test_the_page_is_served_as_it_was_built(page):
     with serving(page) as client:
         index, script, wasm = (client.ask(name) for name in ("", "assets/app.js", "assets/core.wasm"))
@@ -93,9 +90,6 @@ def test_a_server_that_ends_by_itself_is_an_error(page):
         server._server.should_exit = True
         with pytest.raises(RuntimeError, match="ended by itself"):
             server.wait()
-
-
-# The volume
 
 
 @pytest.mark.parametrize("name", SENT_ALIKE)
@@ -194,9 +188,6 @@ def test_a_head_request_waits_for_no_voxels(page):
     assert not scene._thread.is_alive()
     assert (answer.status, answer.body) == (200, b"")
     assert int(answer.headers["content-length"]) > coded().nbytes
-
-
-# Centerlines
 
 
 def scene_of(volume, *centerlines, **chosen):

@@ -40,9 +40,6 @@ def assert_as_simpleitk(path):
         np.testing.assert_allclose(volume.world_from_index @ [*index, 1.0], [*place, 1.0], atol=2e-4)
 
 
-# NIfTI
-
-
 @pytest.mark.parametrize("kind", [nibabel.Nifti1Image, nibabel.Nifti2Image, nibabel.Nifti1Pair])
 @pytest.mark.parametrize("order", ["<", ">"])
 def test_byte_order_of_the_whole_nifti_file(tmp_path, kind, order):
@@ -145,9 +142,6 @@ def test_capital_names_of_a_pair(tmp_path):
         (tmp_path / f"x.{end}").rename(tmp_path / f"X.{end.upper()}")
     for name in ("X.HDR", "X.IMG"):
         assert_maps(read_volume(tmp_path / name), oblique())
-
-
-# NRRD
 
 
 def save_by_hand(path, data=RAW, encoding="raw", lines="", **fields):
@@ -276,9 +270,6 @@ def test_text_keeps_all_digits(tmp_path):
     text = " ".join(map(str, array.ravel())).encode()
     path = save_by_hand(tmp_path / "y.nrrd", text, "ascii", type="int64")
     np.testing.assert_array_equal(read_volume(path).array, array)
-
-
-# MetaImage
 
 
 def test_metaimage_variants_as_simpleitk_reads_them(tmp_path):

@@ -25,7 +25,6 @@ def test_an_artery_in_fat_is_measured_without_its_wall(diameter):
     # Diameters from two widths of the blur on must hold 0.1 mm or 3 %, narrower ones 0.15 mm.
     assert abs(bias) < (max(0.1, 0.03 * diameter) if diameter >= 2 * scene.fwhm else 0.15)
     if 2.0 <= diameter <= 6.0:
-        # With two levels a part of the wall is taken for lumen.
         assert np.mean(of(scene, wall="off").diameter_equivalent) - diameter > 0.35
 
 

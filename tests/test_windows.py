@@ -41,11 +41,9 @@ WITH_FAT = [
     for name in BRIGHT
     if name.startswith("CTA") and not any(without in name for without in ("lumen", "vessels", "body"))
 ]
-#: Angiographies of which only parts were kept.
 MASKED = [name for name in BRIGHT if "alone" in name or "zeros" in name or " at " in name]
 DARK = [name for name, kind in KINDS.items() if kind.is_dark]
 
-#: Real volumes and centerlines, below ../shared/data.
 REAL = {
     "stent": ("stent-cta/stent_cta.nii.gz", "stent-cta/centerlines.vtp"),
     "dissection": ("dissection-cta/ct_cropped.nii.gz", "dissection-cta/aorta_arch_centerlines_LPS.vtp"),
@@ -64,7 +62,6 @@ def test_along_centerlines_the_lumen_is_light_and_its_tissue_dark(name):
     lumen = scene.volume.sample(np.concatenate([vessel.points for vessel in scene.tree]))
     window = Window.from_data(scene.volume, scene.tree)
     assert 0.60 - 1e-6 <= share(window, lumen[np.isfinite(lumen)]) <= 0.72 + 1e-6
-    # That of the nearest voxels.
     assert 0.58 <= found["centerline"] <= 0.75
     # Not a number where only the vessels are numbers.
     assert not found["tissue"] >= 0.40
@@ -182,7 +179,6 @@ def test_real_angiographies_have_the_lumen_light_and_the_tissue_dark(name, share
     assert 0.60 - 1e-6 <= share(window, lumen) <= 0.72 + 1e-6
     assert ends(window)[0] >= volume.array.min()
     if volume.array.min() < -500:
-        # Fat of a CT (HU).
         assert 0.02 < share(window, [-100.0]) < 0.2
     assert share(window, tissue) < 0.40
 
@@ -227,7 +223,6 @@ def test_the_names_of_settings_are_known_once_there_is_a_volume():
     np.testing.assert_array_equal(
         renderer.render(camera, given).image, renderer.render(camera, renderer.windowed(given)).image
     )
-    # The surface alone needs no window.
     assert np.isfinite(Renderer(None, scene.tree).cut_surface(camera, given).depth).any()
 
 

@@ -71,7 +71,6 @@ class Scene:
         """Paint rings of a stent around a line, at an even distance (mm)."""
         distance, nearest = self.distance(line, np.full(len(line), radius))
         along = np.r_[0, np.cumsum(np.linalg.norm(np.diff(line, axis=0), axis=1))][nearest.astype(int)]
-        # No caps over the ends.
         ring = (np.abs(distance) < thickness / 2) & (nearest > 0) & (nearest < len(line) - 1)
         self.values[ring & (along % every < every / 2)] = value
 

@@ -17,7 +17,6 @@ from lumencut import Vessel, VesselTree, Volume
 
 SIZE = (48, 48, 56)
 
-#: What a voxel is.
 AIR, FAT, SOFT, LUNG, BONE, WALL, CALCIFIED, LUMEN, METAL = range(9)
 
 #: Intensities of a CT angiography (HU), in the order above.
@@ -32,7 +31,6 @@ class Angiography:
     """A volume on a grid of 1 mm, its centerlines, and what each voxel is."""
 
     name: str
-    #: Voxels in the order [i, j, k].
     array: npt.NDArray[Any]
     tree: VesselTree
     labels: npt.NDArray[np.uint8]

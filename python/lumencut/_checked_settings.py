@@ -1,4 +1,4 @@
-"""What `Settings` does besides holding its fields: it checks them, once, by the table of the core."""
+"""The behaviour of `Settings`: checks its fields once by the table of the core."""
 
 from __future__ import annotations
 
@@ -19,9 +19,9 @@ _CLASSES = {"opacity": Opacity, "slab": Slab, "focus": Focus}
 
 
 class CheckedSettings:
-    """The base of `Settings`; beside the fields it keeps what the core made of them when it checked them."""
+    """The base of `Settings`; also stores the values that the core has checked and converted."""
 
-    # A slot is no field: it is neither compared nor printed, and stays out of what is pickled.
+    # A slot is not a field: it is not compared, printed or pickled.
     __slots__ = ("_checked",)
     _checked: _lumencut.Settings
 
@@ -118,7 +118,7 @@ class CheckedSettings:
         return read_settings(path, cls)
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Write all settings as a TOML file with comments, which appears only once it is whole.
+        """Write all settings as a TOML file with comments, which appears only when complete.
 
         :meth:`from_file` gives equal settings back. What is taken from the data (None) is left out, in a
         comment.
@@ -154,7 +154,7 @@ def checked(settings: CheckedSettings) -> _lumencut.Settings:
 
 
 def look_values(look: str) -> dict[str, Any]:
-    """Return what a look chooses, by the names of the settings."""
+    """Return the settings of a look by name."""
     values = _lumencut.LOOKS[look]
     return {name: _CLASSES[name](*value) if name in _CLASSES else value for name, value in values.items()}
 
@@ -190,7 +190,7 @@ def _value(name: str, setting: _lumencut.Setting, value: Any) -> Any:
 
 
 def _vessels(name: str, value: Any) -> tuple[int | str, ...]:
-    """Ids and names of vessels, which are looked for once there is a tree."""
+    """Ids and names of vessels, resolved later with a tree."""
     try:
         if isinstance(value, (str, bytes)):
             raise TypeError

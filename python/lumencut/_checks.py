@@ -38,7 +38,7 @@ def flag(error: type[LumencutError], subject: str, value: Any) -> bool:
 
 
 def callback(error: type[LumencutError], subject: str, value: Any) -> None:
-    """Refuse what is neither None nor a function."""
+    """Reject anything but None or a function."""
     if value is not None and not callable(value):
         raise error(subject, _short(value), "a function, or None")
 
@@ -57,13 +57,13 @@ def integers(
 def choice(
     error: type[LumencutError], subject: str, value: Any, choices: Sequence[str], others: str = ""
 ) -> None:
-    """Refuse what is none of the names; ``others`` says what else the caller takes."""
+    """Reject anything but these names; ``others`` describes further accepted values."""
     if not (isinstance(value, str) and value in choices):
         raise error(subject, _short(value), "one of " + ", ".join(map(repr, choices)) + others)
 
 
 def _floats(value: Any) -> npt.NDArray[np.float64] | None:
-    """A copy of real numbers without mask, or None of anything else, texts and complex numbers among it."""
+    """A copy of real numbers without mask; None for anything else, such as text and complex numbers."""
     try:
         array = np.asarray(value)
         if value is None or array.dtype.kind not in "biufO" or np.ma.is_masked(value):

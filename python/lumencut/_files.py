@@ -1,4 +1,4 @@
-"""Paths that a file can have, and files that appear only once they are whole."""
+"""Paths that a file can have, and files that appear only when complete."""
 
 from __future__ import annotations
 
@@ -22,14 +22,14 @@ def checked_path(path: Any, expected: str) -> Path:
     Parameters
     ----------
     path : path-like
-        What the caller gave.
+        The argument of the caller.
     expected : str
-        What was expected there, for the error.
+        What was expected, for the error.
 
     Raises
     ------
     FormatError
-        For what is no path at all.
+        For anything that is not a path.
     FileError
         For texts that can name no file, and for pipes and devices.
     """
@@ -57,8 +57,8 @@ def checked_path(path: Any, expected: str) -> Path:
 
 
 def replace_whole(path: Path, write: Callable[[Path], object]) -> None:
-    """Let ``write`` make a file where nobody else looks, and move it to ``path`` once it is whole."""
-    # Beside the file that a link names: a move across disks would not be at once.
+    """Let ``write`` make a temporary file, and move it to ``path`` when complete."""
+    # Next to the target of a link, because a move across disks is not atomic.
     place = Path(os.path.realpath(checked_path(path, WRITABLE)))
     with private_folder(path, place.parent) as folder:
         write(folder / "whole.part")
@@ -66,7 +66,7 @@ def replace_whole(path: Path, write: Callable[[Path], object]) -> None:
 
 
 def write_text(path: str | os.PathLike[str], text: str) -> None:
-    """Write a text that appears only once it is whole."""
+    """Write a text that appears only when complete."""
     replace_whole(checked_path(path, WRITABLE), lambda whole: whole.write_text(text, "utf-8", newline="\n"))
 
 
@@ -90,9 +90,9 @@ def private_folder(subject: Path, home: Path) -> Iterator[Path]:
 
 
 def move(whole: Path, path: Path) -> None:
-    """Put a new file in the place of an old one, behind links and with the permissions of the old one.
+    """Replace an old file by a new one, following links and keeping its permissions.
 
-    Where there is none, the file keeps the permissions with which the user makes files.
+    Without an old file, the new one keeps the default permissions of the user.
     """
     place = os.path.realpath(path)
     try:

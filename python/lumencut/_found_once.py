@@ -1,4 +1,4 @@
-"""What was found in a volume, kept with it so that it is found once: windows, point spreads."""
+"""Cache of values derived from a volume, such as windows and point spreads."""
 
 from __future__ import annotations
 
@@ -9,10 +9,9 @@ from typing import Any, Generic, TypeVar
 import numpy as np
 import numpy.typing as npt
 
-#: Of how many trees things are kept, and how many voxels tell whether the voxels were exchanged.
+#: Number of trees with cached values, and of sampled voxels that detect a change of the array.
 _MOST, _LOOKED_AT = 32, 32768
 
-#: What is found.
 _T = TypeVar("_T")
 
 
@@ -20,7 +19,7 @@ class FoundOnce(Generic[_T]):
     """What was found in one volume, by what was asked for and by the vessels: the same objects in order.
 
     The tree of each is kept, so that no other vessels take its place in memory. Voxels may be written to by
-    whoever holds their array: where evenly spread ones have changed, all is found anew.
+    whoever holds their array: where evenly spread ones have changed, all is found again.
     """
 
     def __init__(self) -> None:
@@ -29,7 +28,7 @@ class FoundOnce(Generic[_T]):
         self._found: dict[tuple[Any, ...], tuple[_T, Any]] = {}
 
     def __len__(self) -> int:
-        """Return how many are kept."""
+        """Return the number of cached values."""
         return len(self._found)
 
     def once(self, voxels: npt.NDArray[Any], name: str, tree: Any, find: Callable[[], _T]) -> _T:
@@ -40,11 +39,11 @@ class FoundOnce(Generic[_T]):
         voxels : numpy.ndarray, shape (n,)
             The voxels of the volume, in the order of memory.
         name : str
-            What tells it from others.
+            Its key.
         tree : VesselTree or None
             The vessels along which it is found.
         find : callable
-            Finds it; called where it is not known.
+            Computes it; called if it is not cached.
         """
         key = (name, *map(id, tree or ()))
         with self._lock:

@@ -1,4 +1,4 @@
-"""The tree of vessels that were found, the doubtful ones beside it."""
+"""The tree of found vessels, with the doubtful ones separate."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def checked_radius(smallest_radius: float) -> float:
 def found_tree(
     vessels: list[tuple[_Array, _Array, _Array, str]], parts: list[list[int]], notes: list[str]
 ) -> VesselTree:
-    """Return the tree of vessels with their doubts, empty where there are none, and what is told of them."""
+    """Return the tree of vessels with their doubts, empty without doubts, and the notes on it."""
     made = [
         (Vessel(points, radius, confidence=confidence), doubt)
         for points, radius, confidence, doubt in vessels

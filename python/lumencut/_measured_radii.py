@@ -1,4 +1,4 @@
-"""Measured radii of the vessels of a tree, and what is to be said of them."""
+"""Measured radii of the vessels of a tree, and notes on them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Moving pictures written frame by frame: WebP and APNG, of which no more than one frame is held in memory.
+"""Moving pictures written frame by frame: WebP and APNG, with one frame in memory at a time.
 
 Pillow encodes each frame as a picture of its own; here its parts are put into the file of all frames, as the
 WebP container specification and the third edition of the PNG specification say. (Pillow itself wants all
@@ -18,15 +18,15 @@ if TYPE_CHECKING:
 
 # Lossless is five times larger without a difference that an eye finds at this quality.
 _WEBP = {"quality": 90, "method": 4}
-#: What the chunk VP8X says: the file is an animation, and any of its frames has an opacity.
+#: Flags of the chunk VP8X: an animation with transparency.
 _HAS_ANIMATION, _HAS_ALPHA = 0x02, 0x10
-#: What the chunk ANMF says: the frame takes the place of the one before.
+#: Flag of the chunk ANMF: the frame replaces the previous one.
 _REPLACES = 0x02
 _SIGNATURE = b"\x89PNG\r\n\x1a\n"
 
 
 class MovingPicture(Protocol):
-    """A file that frames are added to; `close` makes it whole."""
+    """A file for frames; `close` completes it."""
 
     def __init__(self, file: IO[bytes]) -> None: ...
 
@@ -34,7 +34,7 @@ class MovingPicture(Protocol):
         """Add a frame, of the same size as all others."""
 
     def close(self) -> None:
-        """Write what is known only now; the file itself stays open."""
+        """Complete the headers; the file stays open."""
 
 
 class WebP:
@@ -48,7 +48,6 @@ class WebP:
         if self._size == (0, 0):
             self._size = picture.size
             self._file.write(self._head(0))
-            # No background, and no end to the repetitions.
             self._file.write(_riff_chunk(b"ANIM", bytes(6)))
         parts = list(_riff_chunks(_encoded(picture, "WEBP", **_WEBP)))
         if any(name == b"ALPH" for name, _ in parts):
@@ -58,7 +57,7 @@ class WebP:
         self._file.write(_riff_chunk(b"ANMF", frame + b"".join(_riff_chunk(*part) for part in parts)))
 
     def close(self) -> None:
-        """Write the head once more, with the length of the file."""
+        """Write the header again, with the length of the file."""
         length = self._file.tell()
         self._file.seek(0)
         self._file.write(self._head(length - 8))
@@ -83,7 +82,6 @@ class Apng:
             self._file.write(_SIGNATURE + _png_chunk(b"IHDR", parts[0][1]))
             self._place = self._file.tell()
             self._write_count()
-        # Neither blended with the frame before nor removed after it.
         control = struct.pack(">5I2H2B", self._next(), *picture.size, 0, 0, milliseconds, 1000, 0, 0)
         self._file.write(_png_chunk(b"fcTL", control))
         for name, data in parts:
@@ -118,7 +116,7 @@ def _riff_chunk(name: bytes, data: bytes) -> bytes:
 
 
 def _riff_chunks(content: bytes) -> Iterator[tuple[bytes, bytes]]:
-    """The picture of a WebP file and its opacity; what else it states stands in the head of all frames."""
+    """The picture and transparency of a WebP file, without its other chunks."""
     place = 12
     while place < len(content):
         name, length = struct.unpack_from("<4sI", content, place)

@@ -6,7 +6,7 @@ import importlib
 import sys
 from typing import Any, TypeVar
 
-#: Where the classes live that public values hold and that are not public themselves.
+#: Modules of the non-public classes that public values hold.
 _PARTS = {
     "Angle": "profile",
     "Box": "dicom_objects.extents",
@@ -28,7 +28,6 @@ def by_name(kind: _Kind) -> _Kind:
     """
 
     def reduced(self: Any, protocol: Any) -> Any:
-        # What makes an object, the class and its arguments; then the state.
         whole: Any = object.__reduce_ex__(self, max(protocol, 2))
         make, arguments, *state = whole
         if type(self) is not kind:

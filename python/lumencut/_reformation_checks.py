@@ -20,7 +20,7 @@ SlabArgument: TypeAlias = "Slab | tuple[float, str] | float | None"
 
 
 def check_vessel(vessel: Any) -> None:
-    """Refuse what is no vessel, and say once what is doubtful about its line."""
+    """Reject anything but a vessel, and warn once of doubts about its line."""
     if not isinstance(vessel, Vessel):
         mend = (
             "take one of its vessels, or several as one by its path()"
@@ -32,12 +32,12 @@ def check_vessel(vessel: Any) -> None:
 
 
 def flat_settings(settings: Any, slab: SlabArgument = None) -> Settings:
-    """Return the settings of an image that no ray goes on behind, with the slab that the caller names.
+    """Return the settings of an image without context behind it, with the slab of the caller.
 
     Raises
     ------
     SettingsError
-        For what are no settings, a slab that is not thicker than 0, or a focus.
+        For invalid settings, a slab that is not thicker than 0, or a focus.
     """
     if not isinstance(settings, (Settings, type(None))):
         raise SettingsError("settings", type(settings).__name__, "Settings or None")
@@ -65,7 +65,7 @@ def radians(subject: str, angle: float | None, degrees: float | None) -> float:
 
 
 def rotation(angle: float | None, degrees: float | None) -> float:
-    """Return by how much to turn (radians), of which one of two angles is given.
+    """Return the rotation (radians) from one of two angles.
 
     Raises
     ------

@@ -20,13 +20,13 @@ def written(rows: Iterable[Sequence[object]]) -> str:
 
 
 def _cell(value: object) -> str:
-    """A value as a cell, in quotes where it would not be read as one without."""
+    """A value as a cell, in quotes if required."""
     text = marked(value) if isinstance(value, str) else "" if value is None else str(value)
     return '"' + text.replace('"', '""') + '"' if _PARTED.search(text) else text
 
 
 def marked(text: str) -> str:
-    """Return a text behind an apostrophe where it begins as a formula does and is no number."""
+    """Return a text with an apostrophe in front if a spreadsheet would read it as a formula."""
     return f"'{text}" if _FORMULA.match(text) and not _NUMBER.fullmatch(text) else text
 
 

@@ -1,4 +1,4 @@
-"""Objects as values: what pickling and copying keep, and how arrays are compared by what they hold."""
+"""Value semantics: pickling, copying, and comparison of arrays by content."""
 
 from __future__ import annotations
 
@@ -11,12 +11,11 @@ from lumencut._found_once import FoundOnce
 
 
 class KeepsReadOnly:
-    """A base whose read-only arrays are read-only again in what is unpickled or copied."""
+    """A base whose read-only arrays stay read-only after pickling and copying."""
 
     __slots__ = ()
 
     def __getstate__(self) -> tuple[dict[str, Any], list[str]]:
-        # What was found in a volume is found again in its copies.
         state = {name: value for name, value in vars(self).items() if not isinstance(value, FoundOnce)}
         arrays = ((name, value) for name, value in state.items() if isinstance(value, np.ndarray))
         return state, [name for name, array in arrays if not array.flags.writeable]
@@ -29,7 +28,7 @@ class KeepsReadOnly:
 
 
 class Value(KeepsReadOnly):
-    """A base of what is equal to another of its class with the same content.
+    """A base of objects that are equal if class and content are equal.
 
     `_content` gives it as what can be compared and hashed.
     """
@@ -51,5 +50,5 @@ class Value(KeepsReadOnly):
 
 
 def content_of(array: npt.NDArray[np.float64] | None) -> tuple[tuple[int, ...], bytes] | None:
-    """What a finite array holds: equal for equal shapes and numbers, -0.0 and 0.0 among them."""
+    """A key of a finite array: equal for equal shapes and numbers, with -0.0 equal to 0.0."""
     return None if array is None else (array.shape, (array + 0.0).tobytes())

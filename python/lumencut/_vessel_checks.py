@@ -1,4 +1,4 @@
-"""What is known of the points of a vessel, one value for each, or an error that names it."""
+"""Values per point of a vessel, checked."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from lumencut.errors import VesselTreeError
 
 
 def radii(radius: Any, count: int) -> npt.NDArray[np.float64]:
-    """Return radii (mm), the same one for all points where one is given."""
+    """Return radii (mm) per point; a single one applies to all points."""
     if not isinstance(radius, Sequence) and np.ndim(radius) == 0:
         radius = np.full(count, numbers(VesselTreeError, "radius of the vessel", radius, ()))
     return numbers(VesselTreeError, "radius of the vessel", radius, (-1,))

@@ -9,7 +9,7 @@ from lumencut.vessel import Vessel
 
 
 def parts_of(vessel: Vessel, at: float, taken: list[str]) -> list[Vessel]:
-    """Return both parts of a vessel that is cut at an arc length (mm), beside names that are taken."""
+    """Return both parts of a vessel cut at an arc length (mm), with names that are not taken."""
     name = vessel.name
     names = [name, None if name is None else _lumencut.part_name(taken, name)]
     parts = _lumencut.cut(_arrays(vessel), at)

@@ -9,9 +9,8 @@ from lumencut._wording import listed
 from lumencut.errors import VesselTreeError
 from lumencut.vessel import Vessel
 
-#: How many names an error lists.
 _MOST_NAMES = 24
-#: The most digits of a word that may be an id; Python refuses to read thousands of them.
+#: Largest number of digits of an id; Python rejects thousands of digits.
 _MOST_DIGITS = 18
 
 
@@ -20,7 +19,7 @@ class _VesselNameError(VesselTreeError, KeyError):
 
 
 def id_or_name(vessels: Iterable[Vessel], word: int | str) -> int | str:
-    """Return the id that a word of digits tells, unless a vessel has the word as its name."""
+    """Return the id of a word of digits, unless it is the name of a vessel."""
     if not isinstance(word, str) or any(vessel.name == word for vessel in vessels):
         return word
     return int(word) if word.isascii() and word.isdecimal() and len(word) <= _MOST_DIGITS else word

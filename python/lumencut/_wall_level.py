@@ -12,7 +12,7 @@ Wall: TypeAlias = tuple[float, float] | Literal["off"] | None
 
 
 def wall_level(wall: Wall) -> tuple[float, float] | None:
-    """Return the level of walls for the core: with a standard deviation of 0 they are not told apart.
+    """Return the level of walls for the core: with a standard deviation of 0 they are not distinguished.
 
     Raises
     ------

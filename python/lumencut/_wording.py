@@ -1,15 +1,14 @@
-"""Counts and lists of names as messages tell them."""
+"""Counts and lists of names in messages."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 
-#: How many names of a list are told.
 _MENTIONED = 4
 
 
 def counted(count: int, what: str) -> str:
-    """A count and what is counted, in the plural where there are several."""
+    """A count with its noun, in the plural if needed."""
     return f"{count} {what}{'' if count == 1 else 's'}"
 
 
@@ -19,6 +18,6 @@ def a(name: str) -> str:
 
 
 def listed(names: Sequence[str], most: int = _MENTIONED) -> str:
-    """Give the first few names and how many more there are."""
+    """Return the first names and the number of others."""
     tail = f" and {len(names) - most} more" if len(names) > most else ""
     return ", ".join(names[:most]) + tail

@@ -39,7 +39,7 @@ def writer_for(
     vessel_names: bool = False,
     dicom: dict[str, Any] | None = None,
 ) -> Writer:
-    """Return what writes frames in the format that the path names, or refuse before anything is rendered.
+    """Return the writer of frames for the format of the path; an error before anything is rendered.
 
     `dicom` says how frames become a DICOM object (`study`, `anonymous`, `other_patient`, `grey`, `compress`);
     without it none can be written.
@@ -48,10 +48,10 @@ def writer_for(
     for name, value in {"annotate": annotate, "vessel_names": vessel_names}.items():
         flag(SettingsError, name, value)
     if vessel_names and not annotate:
-        raise SettingsError("vessel_names", "True without annotate", "annotate=True beside it")
+        raise SettingsError("vessel_names", "True without annotate", "annotate=True with it")
     labels = {"annotate": annotate, "vessel_names": vessel_names}
     if dicom is not None and checked.suffix.lower() == ".dcm":
-        # What a reader called a vessel may be anybody's name.
+        # A vessel may carry the name of a person.
         labels["vessel_names"] &= not dicom["anonymous"]
         return partial(_save_checked, checked, labels, partial(_save_object, checked, dicom))
     check_dicom_alone(checked, **(dicom or {}))
@@ -59,7 +59,7 @@ def writer_for(
 
 
 def is_sequence(path: str | os.PathLike[str]) -> bool:
-    """Tell whether frames become a picture each, which have no speed."""
+    """Return whether each frame becomes a separate picture, without a speed."""
     return _is_folder(os.fspath(path), Path(path)) or "%" in Path(path).name
 
 
@@ -137,7 +137,7 @@ def _save_moving(path: Path, kind: type[MovingPicture], frames: Iterable[Frame],
 
 
 def _save_sequence(pattern: Path, labels: dict[str, bool], frames: Iterable[Frame], _: float) -> None:
-    """Write one picture per frame, all of which appear together at the end."""
+    """Write one picture per frame; all appear together at the end."""
     from PIL import Image
 
     parent = pattern.parent

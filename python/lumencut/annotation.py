@@ -24,7 +24,7 @@ SMALLEST_SIDE = 200
 def annotated(
     image: npt.NDArray[np.uint8], camera: Camera, source: FrameSource, *, vessel_names: bool
 ) -> npt.NDArray[np.uint8]:
-    """Return a copy of an RGBA picture (H, W, 4) with labels, without any where it is too small for them."""
+    """Return a copy of an RGBA picture (H, W, 4) with labels, or without them if it is too small."""
     if min(camera.size) < SMALLEST_SIDE:
         return image.copy()
     sheet = Sheet(image)
@@ -40,10 +40,10 @@ def annotated(
 def with_labels(
     image: npt.NDArray[np.uint8], words: Iterable[str], letters: dict[str, str], spacing: float | None
 ) -> npt.NDArray[np.uint8]:
-    """Return a copy of an RGBA picture (H, W, 4) with labels, without any where it is too small for them.
+    """Return a copy of an RGBA picture (H, W, 4) with labels, or without them if it is too small.
 
-    Words stand in the upper left corner, letters at the edges that they name. With the side of a pixel (mm)
-    a scale bar stands in the lower left corner.
+    Text is in the upper left corner, letters are at the edges that they name. With the side of a pixel (mm)
+    a scale bar is in the lower left corner.
     """
     if min(image.shape[:2]) < SMALLEST_SIDE:
         return image.copy()

@@ -23,7 +23,6 @@ from lumencut.volume import Volume
 #: The six views of the body: direction from the viewer into the scene, and up (LPS).
 VIEWS: dict[str, tuple[tuple[float, float, float], tuple[float, float, float]]] = _lumencut.VIEWS
 
-#: A tree, a vessel, a volume, or whatever else `render` takes as a volume.
 Scene: TypeAlias = VesselTree | Vessel | Volume | Any
 
 
@@ -98,8 +97,8 @@ class Camera(Value):
 
         Parameters
         ----------
-        scene : VesselTree, Vessel, Volume, or whatever else :func:`lumencut.render` takes as a volume
-            What is to fit: ``tree["LAD"]`` zooms to one vessel.
+        scene : VesselTree, Vessel, Volume, or anything :func:`lumencut.render` takes as a volume
+            The objects to fit: ``tree["LAD"]`` zooms to one vessel.
         direction : array_like, shape (3,)
             From the viewer into the scene; any length.
         up : array_like, shape (3,)
@@ -181,14 +180,14 @@ class Camera(Value):
             How far the viewer moves about the vessel (radians), counted as by :meth:`rotated` about "up". 0
             is the one of these views that is nearest to the anterior view, the head up.
         degrees : float
-            The angle in degrees, in the place of ``angle``.
+            The angle in degrees, instead of ``angle``.
         size : (int, int), default (512, 512)
             Width and height (pixels).
 
         Raises
         ------
         CameraError
-            For what is no vessel, a place that is not on it, both angles, or one that is not finite.
+            For an invalid vessel, a place that is not on it, both angles, or an infinite angle.
         VesselTreeError
             For a vessel without length.
         """
@@ -223,7 +222,7 @@ class Camera(Value):
         size : (int, int), default (512, 512)
             Width and height (pixels).
         start : Camera, optional
-            The view before; the anterior one where not given.
+            The view before; the anterior one by default.
 
         Raises
         ------
@@ -255,7 +254,7 @@ class Camera(Value):
         axis : {"up", "right", "direction"} or array_like of shape (3,), default "up"
             An axis of the view, or a vector in world space (LPS).
         degrees : float
-            The angle in degrees, in the place of ``angle``.
+            The angle in degrees, instead of ``angle``.
 
         Raises
         ------

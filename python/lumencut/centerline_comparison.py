@@ -36,7 +36,7 @@ _Points = npt.NDArray[np.float64]
 @by_name
 @dataclass(frozen=True)
 class CenterlineComparison:
-    """What :func:`lumencut.compare_centerlines` found; shares are from 0 to 1, NaN where nothing counts.
+    """What :func:`lumencut.compare_centerlines` found; shares are from 0 to 1, NaN if nothing counts.
 
     Attributes
     ----------
@@ -89,7 +89,7 @@ def compare_centerlines(
     is nearest to most of the reference, from its point nearest to the start of the reference the
     shortest way to the point nearest to its end. So it does not matter where vessels are parted. ``ov``,
     ``ot`` and ``ai`` are then those of all points and connections together, ``of`` is the mean over the
-    length of the reference. What the traced tree has elsewhere is told by ``false_length`` alone.
+    length of the reference. ``false_length`` alone covers the traced tree elsewhere.
 
     Parameters
     ----------
@@ -134,7 +134,7 @@ def compare_centerlines(
 
 @dataclass(frozen=True)
 class _Counts:
-    """What is counted of one vessel of the reference: points that are right and all, connections inside."""
+    """Counts of one vessel of the reference: correct and all points, and connections inside."""
 
     right: int
     all: int
@@ -171,7 +171,7 @@ def _summary(
 
 
 def _counted(traced: _Points | None, reference: Vessel, step: float) -> _Counts:
-    """Count what is right along a vessel of the reference; ``traced`` is None where nothing belongs to it."""
+    """Count correct points along a vessel of the reference; ``traced`` is None without a counterpart."""
     points, radius = _sampled(reference.points, step, reference.radius)
     length, count = reference.length, len(points)
     relevant = np.flatnonzero(radius >= _RELEVANT_RADIUS)

@@ -1,4 +1,4 @@
-"""A centerline file of any format that `lumencut-io` reads, and how it becomes a tree in world space."""
+"""A centerline file of any supported format, and its conversion to a tree in world space."""
 
 from __future__ import annotations
 
@@ -52,21 +52,21 @@ class CenterlineReport:
     space_from, unit_from : "asked", "stated", "volume", "values" or "assumed"
         Who said so: the caller, the file, the extent of the volume, its values along the lines, or nobody.
     vessels, points : int
-        How many vessels it forms, and how many points they have.
+        The number of vessels, and of their points.
     radius : bool
         Whether every vessel has radii.
     decision : Told
-        What was assumed or decided of space and unit, and by what; empty where file or caller said it.
+        What was assumed or decided about space and unit, and why; empty if file or caller stated it.
     is_unusual : bool
         Whether the volume decided against LPS or the usual unit of the format, or the space by its values.
     notes : tuple of str
-        What was odd about the file, one sentence each, those of `doubts` among them.
+        Notes on the file, one sentence each, including those of `doubts`.
     doubts : tuple of LineDoubt
-        What is doubtful about its lines.
+        Doubts about its lines.
     fits_also : tuple of str
-        Units that would fit the volume too, where it decided for the usual one.
+        Other units that would also fit the volume, if the usual one was chosen.
     doubt : Told
-        What speaks against the unit that the file states, or that was assumed; empty where nothing does.
+        Reasons against the stated or assumed unit; empty if there are none.
     """
 
     format: str
@@ -88,7 +88,7 @@ class CenterlineReport:
 
     @property
     def reordered(self) -> tuple[str, ...]:
-        """The notes that say of which lines the points were put in another order."""
+        """The notes on lines whose points were sorted."""
         return tuple(note for note in self.notes if note.endswith(_lumencut.REORDERED))
 
 
@@ -134,7 +134,7 @@ class CenterlineFile:
         *,
         reorder: bool = False,
     ) -> tuple[VesselTree, CenterlineReport]:
-        """Give the vessels in world space and tell how they were read; parameters as `read_centerlines`."""
+        """Return the vessels in world space and a report on reading; parameters as `read_centerlines`."""
         check_choice(coordinates, unit)
         if not isinstance(reorder, bool):
             raise SettingsError("reorder", repr(reorder), "True or False")
@@ -156,7 +156,7 @@ class CenterlineFile:
         tree = VesselTree([Vessel(points * place.signs, radius, name) for points, radius, name in vessels])
         is_told = place.is_unusual or (volume is not None and bool(place.doubt))
         tree._space_settled = place.space_from == "asked" or is_told
-        doubts = line_doubts(tree, beside=True)
+        doubts = line_doubts(tree, parallel=True)
         if not reorder:
             doubts += worded(content.parted_doubts())
         return tree, self._report(tree, stated, place, notes, doubts)
@@ -169,10 +169,10 @@ class CenterlineFile:
         *,
         reorder: bool = False,
     ) -> VesselTree:
-        """Give the vessels in world space, and say what was assumed or decided as `read_centerlines` does."""
-        return self.told(coordinates, unit, volume, reorder=reorder)[0]
+        """Return the vessels in world space, and warn of assumptions like `read_centerlines`."""
+        return self.tree_and_report(coordinates, unit, volume, reorder=reorder)[0]
 
-    def told(
+    def tree_and_report(
         self,
         coordinates: Coordinates | None = None,
         unit: Unit | None = None,
@@ -181,7 +181,7 @@ class CenterlineFile:
         reorder: bool = False,
         are_lines: bool = True,
     ) -> tuple[VesselTree, CenterlineReport]:
-        """Do as `tree`, and tell how the file was read; points that are no lines may be in any order."""
+        """Like `tree`, with a report on reading; points that are not lines may be in any order."""
         tree, report = self.placed(coordinates, unit, volume, reorder=reorder)
         if are_lines:
             warn_of(report.doubts, self.path.name)
@@ -191,8 +191,8 @@ class CenterlineFile:
         if volume is not None and (words := other_scan(self._session, self.path.name, as_volume(volume))):
             warnings.warn(StudyWarning(words), stacklevel=4)
         if report.is_unusual:
-            told = report.decision.after(f"{self.path.name}: ")
-            warnings.warn(SpaceWarning(told), stacklevel=4)
+            decision = report.decision.after(f"{self.path.name}: ")
+            warnings.warn(SpaceWarning(decision), stacklevel=4)
         elif report.decision:
             weak = report.space_from == "volume" and _mostly_outside(tree, volume)
             is_open = weak or report.fits_also or report.space_from == "assumed"
@@ -205,15 +205,15 @@ class CenterlineFile:
             _log.info("%s: %s", self.path, note)
         return tree, report
 
-    def beside(
+    def within(
         self,
         volume: Volume | None,
         coordinates: Coordinates | None = None,
         unit: Unit | None = None,
         **how: bool,
     ) -> tuple[VesselTree, CenterlineReport]:
-        """Do as `told` for the caller's caller, and say where vessels lie wrongly in the volume."""
-        tree, report = self.told(coordinates, unit, volume, **how)
+        """Like `tree_and_report` for the caller's caller, with a warning if vessels miss the volume."""
+        tree, report = self.tree_and_report(coordinates, unit, volume, **how)
         if volume is not None:
             check_space_once(tree, volume, self.path.name, stacklevel=4)
             if fits_nowhere(tree.points, volume):

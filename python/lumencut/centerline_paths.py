@@ -17,7 +17,7 @@ _SAME = 1e-3
 #: Segments are parted so that neighbouring points are at most so far apart (mm).
 _STEP = 0.5
 
-#: How far apart the points of a line are that say which piece it belongs to (mm).
+#: Distance of the points of a line that decide its piece (mm).
 _VOTES = 1.0
 
 #: A way that is shorter than this share of a line may lead around the wrong side of a cycle.
@@ -92,7 +92,7 @@ class CenterlinePaths:
         return int(distance.argmin())
 
     def _pieces(self) -> npt.NDArray[np.int64]:
-        """Number the parts of the graph that hang together, from 0."""
+        """Number the parts of the graph that are connected, from 0."""
         piece = np.full(len(self._points), -1, dtype=np.int64)
         count = 0
         for start in range(len(piece)):

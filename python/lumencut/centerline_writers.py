@@ -13,7 +13,7 @@ _FORMATS = ("vtp", "mrk.json", "vtk", "csv", "swc")
 
 
 def write_centerlines(tree: VesselTree, path: str | os.PathLike[str]) -> None:
-    """Write a tree as a centerline file (mm, LPS), which appears only once it is whole.
+    """Write a tree as a centerline file (mm, LPS), which appears only when complete.
 
     Of ``.vtp`` and ``.mrk.json`` `read_centerlines` gives the same vessels back to the bit, in their order
     and direction and with their names: the file is marked as vessels, so that none is joined to another.
@@ -21,8 +21,8 @@ def write_centerlines(tree: VesselTree, path: str | os.PathLike[str]) -> None:
 
     * ``.vtk`` (legacy): the same but for names, which VTK reads and `read_centerlines` does not.
     * ``.csv``: a row per point with the columns ``line`` (the vessel's id), ``name``, ``l (mm)``, ``p (mm)``,
-      ``s (mm)`` and ``radius (mm)``; name and radius where any vessel has one. Unknown radii beside known
-      ones are 0. Names are not read back, and lines that meet are joined anew.
+      ``s (mm)`` and ``radius (mm)``; name and radius if any vessel has one. Unknown radii among known
+      ones are 0. Names are not read back, and lines that meet are joined again.
     * ``.swc``: a node per point. Vessels that begin at a point of another one become its branches; there are
       no names, and a reader has a branch from each forking to the next. Unknown radii are 0. The format
       states no space: read it with ``coordinates="lps"``.
@@ -47,7 +47,7 @@ def write_centerlines(tree: VesselTree, path: str | os.PathLike[str]) -> None:
     VesselTreeError
         For a tree with equal neighbouring points, or a name that the format cannot hold.
     FileError
-        Where the file cannot be written.
+        If the file cannot be written.
     """
     if not isinstance(tree, VesselTree):
         raise VesselTreeError("vessel tree", type(tree).__name__, "a VesselTree")

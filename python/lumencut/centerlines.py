@@ -37,12 +37,12 @@ def read_centerlines(
         as its `.vtp` file would be: its lines, with their array ``MaximumInscribedSphereRadius`` or
         ``Radius`` of points, their names and the space that its field data states.
     coordinates : "lps" or "ras", optional
-        The space of the file's coordinates. By default the one that the file states, else the one that fits
-        the volume, else LPS.
+        The space of the file's coordinates. Default: as stated in the file, otherwise the one that fits
+        the volume, otherwise LPS.
     unit : "um", "mm", "cm", "dm" or "m", optional
-        The unit of the file's coordinates and radii. By default the one that the file states, else the one
-        that fits the volume, else that of its format: cm for `.pth`, mm for all others.
-    volume : Volume, or whatever else :func:`lumencut.render` takes as one, optional
+        The unit of the file's coordinates and radii. Default: as stated in the file, otherwise the one that
+        fits the volume, otherwise that of its format: cm for `.pth`, mm for all others.
+    volume : Volume, or anything :func:`lumencut.render` takes as one, optional
         Where given, its extent decides what the file leaves open. Where both spaces fit the extent, the
         values along the lines decide if at least three times as many points look like lumen in the one space
         as in the other, and at least half of all and twenty of them. What the file states is compared with
@@ -60,7 +60,7 @@ def read_centerlines(
         units fit the volume and its values do not tell which, or none does; with `reorder` where the order
         of a line is doubtful and no other is found without doubt.
     VolumeError
-        For what is no volume.
+        For anything that is not a volume.
 
     Warns
     -----
@@ -78,9 +78,9 @@ def read_centerlines(
         files, read = CenterlineFiles(path), []
         # No further function between here and the warnings: they name the line of the caller.
         for file in files:
-            read.append(file.beside(volume, coordinates, unit, reorder=reorder))  # noqa: PERF401
+            read.append(file.within(volume, coordinates, unit, reorder=reorder))  # noqa: PERF401
         return files.joined(read)
-    return CenterlineFile(path).beside(volume, coordinates, unit, reorder=reorder)[0]
+    return CenterlineFile(path).within(volume, coordinates, unit, reorder=reorder)[0]
 
 
 def inspect_centerlines(
@@ -91,5 +91,5 @@ def inspect_centerlines(
     volume: Any = None,
     reorder: bool = False,
 ) -> CenterlineReport:
-    """Tell how `read_centerlines` reads a file, with the same parameters and errors."""
+    """Report how `read_centerlines` reads a file, with the same parameters and errors."""
     return CenterlineFile(path).placed(coordinates, unit, volume, reorder=reorder)[1]

@@ -22,10 +22,9 @@ if TYPE_CHECKING:
 
 #: Pictures with a shorter side than this (pixels) have no room for titles and legend.
 SMALLEST_SIDE = 200
-#: The method that the others are compared with.
 OURS = "CSR (Lumencut)"
 
-#: Differences of depth (mm) from which on each colour stands, and the colour of what a method does not show.
+#: Differences of depth (mm) at which each colour begins, and the colour of pixels that a method lacks.
 _COLORS = ((0.5, (255, 236, 120)), (2.0, (255, 160, 40)), (5.0, (230, 40, 40)), (20.0, (190, 40, 190)))
 _NOTHING = (70, 130, 255)
 #: From how much on (mm) a difference is counted.
@@ -43,7 +42,7 @@ class Panel:
     title : str
         The name of the method.
     frame : Frame
-        What it shows.
+        Its title.
     """
 
     title: str
@@ -71,11 +70,11 @@ def side_by_side(
     pictures: Sequence[npt.NDArray[np.uint8]],
     further: Sequence[tuple[str, npt.NDArray[np.uint8]]] = (),
 ) -> npt.NDArray[np.uint8]:
-    """Return the panels as one picture, RGBA: the pictures above, how far their depths differ below.
+    """Return the panels as one picture, RGBA: the pictures above, differences of depth below.
 
     The last panel is what the others are compared with. ``pictures`` are those of the panels, (H, W, 4), with
     or without labels. In the lower row pixels are coloured where the depth differs from the last panel's, as
-    far as either shows a value of the volume; below the last panel stand the colours and what they mean.
+    far as either shows a value of the volume; below the last panel is the legend of the colours.
     ``further`` are titles and pictures with pixels of their own, which have no depth to compare: they stand
     at the right, as large as they fit.
     """
@@ -164,7 +163,7 @@ def _fitted(picture: npt.NDArray[np.uint8], shape: tuple[int, ...]) -> npt.NDArr
 
 
 def _without_depth(shape: tuple[int, ...]) -> npt.NDArray[np.uint8]:
-    """Words, on black, that tell why there is nothing to compare."""
+    """The reason, on black, why there is nothing to compare."""
     sheet = Sheet(_opaque(np.zeros((*shape[:2], 3), np.uint8)))
     for number, line in enumerate(
         ("Its pixels are not those", "of the view: it has", "no depth to compare.")

@@ -17,7 +17,6 @@ Picture: TypeAlias = npt.NDArray[np.uint8]
 #: Between the pictures of a sheet, and around them (pixels).
 _GAP = 8
 
-#: Behind and between the pictures of a sheet.
 _GROUND = (48, 48, 48, 255)
 
 

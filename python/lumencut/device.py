@@ -43,7 +43,7 @@ class Device:
 def devices() -> list[Device]:
     """Return the GPUs of this machine, the one that ``device="gpu"`` takes first.
 
-    The list is empty where there is none with a driver for Vulkan, Metal or DirectX 12.
+    The list is empty without a GPU that has a driver for Vulkan, Metal or DirectX 12.
     """
     look_for_no_display()
     return [Device(**fields) for fields in _lumencut.devices()]
@@ -51,6 +51,6 @@ def devices() -> list[Device]:
 
 def look_for_no_display() -> None:
     """Keep a layer of Mesa from complaining on stderr that it finds no display to choose a GPU by."""
-    told = ("DISPLAY", "WAYLAND_DISPLAY", "MESA_VK_DEVICE_SELECT")
-    if sys.platform == "linux" and not any(os.environ.get(name) for name in told):
+    screens = ("DISPLAY", "WAYLAND_DISPLAY", "MESA_VK_DEVICE_SELECT")
+    if sys.platform == "linux" and not any(os.environ.get(name) for name in screens):
         os.environ.setdefault("NODEVICE_SELECT", "1")

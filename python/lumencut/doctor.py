@@ -1,6 +1,6 @@
-"""What a report of a fault needs to know of an installation: versions, GPUs, the page, what is missing.
+"""Facts about an installation for bug reports: versions, GPUs, the page, and missing parts.
 
-Nothing here names a file of the user: paths within the home folder are told from `~` on.
+Nothing here names a file of the user: paths in the home folder begin with `~`.
 """
 
 from __future__ import annotations
@@ -18,18 +18,17 @@ from urllib.request import ProxyHandler, build_opener
 
 from lumencut.errors import LumencutError
 
-#: Variables of the environment that change what is computed, where, or by what.
 _VARIABLES = ("RAYON_NUM_THREADS", "VK_DRIVER_FILES", "VK_ICD_FILENAMES", "XDG_CACHE_HOME")
-#: What a browser must be told before it lets a page share memory between its workers.
+#: Headers that allow a page to share memory between its workers.
 _ISOLATION = {"Cross-Origin-Opener-Policy": "same-origin", "Cross-Origin-Embedder-Policy": "require-corp"}
-#: The side of the picture that is tried (pixels), and how long the viewer's server may take (s).
+#: Side of the test picture (pixels), and timeout of the viewer's server (s).
 _SIDE, _PATIENCE = 64, 10.0
 _Device: TypeAlias = Literal["cpu", "gpu"]
 _BOTH: tuple[_Device, _Device] = ("cpu", "gpu")
 
 
 def examined() -> dict[str, Any]:
-    """Look at this installation, and try what it should be able to do.
+    """Examine this installation, and test its abilities.
 
     Returns
     -------
@@ -109,7 +108,7 @@ def _version(name: str) -> str | None:
 
 
 def _gpus(problems: list[str]) -> tuple[list[dict[str, Any]], str]:
-    """The GPUs, and what computes where nothing is said."""
+    """The GPUs, and the default device."""
     try:
         from lumencut import _lumencut
         from lumencut.device import devices
@@ -121,7 +120,7 @@ def _gpus(problems: list[str]) -> tuple[list[dict[str, Any]], str]:
 
 
 def _tried(device: _Device, problems: list[str]) -> float | None:
-    """How long a second small picture takes (ms); the first one also prepares what is kept."""
+    """Time of a second small picture (ms); the first one includes preparation."""
     from lumencut.camera import Camera
     from lumencut.phantom import straight_tube
     from lumencut.renderer import Renderer
@@ -165,7 +164,7 @@ def _page(problems: list[str]) -> dict[str, Any] | None:
 
 
 def _headers(address: str) -> Message:
-    """What the server says beside the page; asked without the proxies that the environment may name."""
+    """The headers of the server for the page, requested without proxies of the environment."""
     with build_opener(ProxyHandler({})).open(address, timeout=_PATIENCE) as answer:
         headers: Message = answer.headers
         return headers

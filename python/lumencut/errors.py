@@ -1,4 +1,4 @@
-"""What can go wrong: every error names its subject, what was found, what was expected and what mends it."""
+"""Errors and warnings. Every error names its subject, what was found, what was expected and the mend."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ class LumencutError(Exception):
 
     @property
     def advice(self) -> str:
-        """What mends it in words alone."""
+        """The mend as text."""
         return self.mend.advice if isinstance(self.mend, Told) else self.mend
 
     def written(self, write: Write) -> str:
@@ -79,7 +79,7 @@ class TracingError(LumencutError, ValueError):
 
 
 class MeasuringError(LumencutError, ValueError):
-    """A vessel whose lumen cannot be measured, or a place on it of which a number would make no sense."""
+    """A vessel whose lumen cannot be measured, or a place on it where a number would make no sense."""
 
 
 class FormatError(LumencutError, ValueError):
@@ -87,7 +87,7 @@ class FormatError(LumencutError, ValueError):
 
 
 class SeriesError(FormatError):
-    """A folder of several DICOM series of which none was chosen; `series` describes them."""
+    """A folder of several DICOM series without a choice; `series` describes them."""
 
     series: tuple[SeriesReport, ...] = ()
 
@@ -97,7 +97,7 @@ class FileError(LumencutError, OSError):
 
 
 class PacsError(LumencutError, OSError):
-    """A PACS that cannot be reached, refuses, or does not give or take all that was asked of it."""
+    """A PACS that cannot be reached, rejects a request, or handles only a part of it."""
 
 
 class MissingPackageError(LumencutError, RuntimeError):
@@ -105,7 +105,7 @@ class MissingPackageError(LumencutError, RuntimeError):
 
 
 class DeviceWarning(UserWarning):
-    """A GPU that was given up; the CPU goes on in its place."""
+    """A GPU that was given up; the CPU continues in its place."""
 
 
 class StudyWarning(UserWarning):

@@ -28,7 +28,6 @@ Feature: TypeAlias = Literal["max", "mean", "min", "range", "share"]
 
 FEATURES = ("max", "mean", "min", "range", "share")
 
-#: What a pixel shows of its half circle.
 _SHOWN = {
     "max": "the largest value",
     "mean": "the mean",
@@ -45,7 +44,7 @@ _AXES = (
 class FeatureAggregation(Reformation):
     """A straightened vessel whose pixels stand for half circles; made by :func:`lumencut.cfa`.
 
-    ``value`` holds the aggregated values, NaN where the whole half circle lies outside the volume; its middle
+    ``value`` holds the aggregated values, NaN if the whole half circle lies outside the volume; its middle
     column is the vessel itself. ``position`` and both ways between pixels and world are those of the middle
     of the half circle, which the straightened CPR shows.
 
@@ -122,9 +121,9 @@ def cfa(
 ) -> FeatureAggregation:
     """Return one straightened picture of all that surrounds a vessel.
 
-    This is our reading of curvicircular feature aggregation (Mistelbauer et al. 2013): a pixel r mm beside
-    the vessel shows what is asked for of the half circle of radius r on its side, in the section of its row.
-    So whatever lies around the vessel shows without turning it, on the side where it is.
+    This is our reading of curvicircular feature aggregation (Mistelbauer et al. 2013): a pixel r mm from
+    the vessel shows the chosen feature of the half circle of radius r on its side, in the section of its row.
+    So everything around the vessel is visible without turning it, on the side where it lies.
 
     Parameters
     ----------
@@ -134,7 +133,7 @@ def cfa(
         The largest circle (mm).
     feature : {"max", "mean", "min", "range", "share"}, default "max"
         What of a half circle is shown: its largest, mean or smallest value; ``"range"``, by how much the
-        largest exceeds the smallest, which tells where the surroundings are uneven; or ``"share"``, how much
+        largest exceeds the smallest, which shows uneven surroundings; or ``"share"``, how much
         of it lies above ``level``, from 0 to 1. Its samples are no farther apart than a pixel, and one of
         them is the pixel of the straightened CPR.
     level : float, optional

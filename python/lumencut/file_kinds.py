@@ -1,4 +1,4 @@
-"""What a file holds by its first bytes, so that whoever was given the wrong one can say what it is.
+"""Kinds of files by their first bytes, for errors about a wrong file.
 
 Which room reads a file is decided elsewhere: here a file may stay unknown.
 """
@@ -23,16 +23,16 @@ _NIFTI: dict[int, tuple[int, tuple[bytes, ...]]] = {
 
 @dataclass(frozen=True)
 class Kind:
-    """What a file holds.
+    """The kind of a file.
 
     Attributes
     ----------
     role : "volume" or "centerlines"
         As which of the two it can be meant.
     name : str
-        What it is, such as ``a NIfTI volume``.
+        Its description, such as ``a NIfTI volume``.
     mend : str
-        What would make it readable; empty where it is read.
+        How to make it readable; empty if it is supported.
     is_dicom : bool
         Whether it can be a DICOM series.
     """
@@ -44,7 +44,7 @@ class Kind:
 
 
 def kind_of(path: Path) -> Kind | None:
-    """Tell what a file or folder holds; None where it is missing, no plain file, or not known."""
+    """Return the kind of a file or folder; None if it is missing, not a plain file, or unknown."""
     try:
         if path.is_dir():
             return Kind("volume", "a folder", is_dicom=True)
@@ -58,7 +58,7 @@ def kind_of(path: Path) -> Kind | None:
 
 
 def _head(path: Path) -> bytes:
-    """The first bytes, unpacked where they are gzipped."""
+    """The first bytes, decompressed if gzipped."""
     with path.open("rb") as file:
         head = file.read(_HEAD)
     if not head.startswith(b"\x1f\x8b"):

@@ -1,4 +1,4 @@
-"""What there is to know of a measured section beside its numbers."""
+"""Flags of measured sections."""
 
 from __future__ import annotations
 
@@ -9,31 +9,30 @@ from lumencut._pickles import restored
 
 
 class Flag(IntFlag):
-    """What there is to know of a section; sections keep their numbers whatever is set.
+    """Flags of a section; sections keep their numbers with any flag.
 
     Sections with `BRANCH`, `OUTSIDE`, `NO_EDGE`, `RECENTERED` or `RESTLESS_LINE` are left out of what is
     narrowest, widest or suggested, and of references.
     """
 
     def __reduce_ex__(self, protocol: Any) -> Any:
-        """Return what is pickled: the name of the class and the bits."""
+        """Return the pickle: the name of the class and the bits."""
         return restored(), ("Flag", int(self))
 
     #: The diameter is below 1.5 times the width (FWHM) of the point spread.
     AT_LIMIT = 1
-    #: The section lies within a junction, or lumen goes on sideways.
+    #: The section lies within a junction, or the lumen continues sideways.
     BRANCH = 2
     #: Something in the wall is brighter than lumen; it is no lumen, and what it touches is not fitted.
     CALCIUM = 4
     #: Something brighter than lumen goes all around it, or is far brighter: a stent, or metal.
     METAL = 8
-    #: Another lumen or bone is beside the wall.
+    #: Another lumen or bone is next to the wall.
     NEIGHBOR = 16
-    #: The section reaches beyond the volume.
     OUTSIDE = 32
-    #: No wall was found, or what it encloses is no lumen; numbers are NaN, or not to be used.
+    #: No wall was found, or it does not enclose a lumen; numbers are NaN, or unreliable.
     NO_EDGE = 64
-    #: The vessel's point lies outside of the lumen, whose middle was found beside it.
+    #: The vessel's point lies outside of the lumen, whose middle was found elsewhere.
     RECENTERED = 128
     #: The wall is far from an ellipse.
     IRREGULAR = 256

@@ -37,9 +37,9 @@ def flight(
         The first and the last view, of one size; such as ``Camera.refocused(tree, "LAD", size,
         start=start)`` as the end.
     settings : Settings, optional
-        The knobs; their defaults where not given.
+        The settings; defaults if omitted.
     frames : int, default 36
-        How many frames, at least 2.
+        Number of frames, at least 2.
 
     Yields
     ------
@@ -49,7 +49,7 @@ def flight(
     Raises
     ------
     CameraError
-        For what is no camera, cameras of different sizes, or fewer than two frames.
+        For invalid cameras, cameras of different sizes, or fewer than two frames.
     """
     from lumencut.renderer import check_renderer
 

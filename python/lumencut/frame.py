@@ -1,4 +1,4 @@
-"""What a rendering leaves behind, pixel by pixel, row 0 on top."""
+"""The images of a rendering, row 0 on top."""
 
 from __future__ import annotations
 
@@ -28,10 +28,9 @@ if TYPE_CHECKING:
 #: Formats of Pillow without transparency.
 _OPAQUE = ("BMP", "EPS", "JPEG", "MPO", "PCX")
 
-#: What a view can be asked for.
 IMAGES = ("image", "depth", "vessel", "distance", "value", "context")
 
-#: What a view can have: the position follows from the depth.
+#: All images; the position follows from the depth.
 _IMAGES = ("image", "depth", "vessel", "distance", "position", "value", "context", "folded")
 
 
@@ -92,7 +91,7 @@ class Frame(KeepsReadOnly):
     def distance(self) -> npt.NDArray[np.float32]:
         """Projected distance to the nearest centerline (mm), float32, shape (H, W).
 
-        With the level choice ``own`` nothing else needs it: it is computed when it is first asked for, unless
+        With the level choice ``own`` nothing else needs it: it is computed on first use, unless
         ``images`` named it, and the frame holds on to its renderer until then.
         """
         if not isinstance(self._distance, (np.ndarray, type(None))):
@@ -131,7 +130,7 @@ class Frame(KeepsReadOnly):
         return _lumencut.positions(self.camera, depth)
 
     def __getstate__(self) -> tuple[dict[str, Any], list[str]]:
-        """Return what is copied or pickled: all images, computed by now."""
+        """Return the state to copy or pickle: all images, computed now."""
         if self.has("distance"):
             _ = self.distance
         return super().__getstate__()
@@ -146,7 +145,7 @@ class Frame(KeepsReadOnly):
         return picture_as_png(self.image) if self.has("image") else None
 
     def has(self, name: str) -> bool:
-        """Tell whether the view has the image of this name, such as ``"depth"`` or ``"context"``."""
+        """Return whether the view has the image of this name, such as ``"depth"`` or ``"context"``."""
         if not isinstance(name, str) or name not in _IMAGES:
             return False
         return getattr(self, "_depth" if name == "position" else f"_{name}") is not None
@@ -174,7 +173,7 @@ class Frame(KeepsReadOnly):
     def annotated(self, *, vessel_names: bool = False) -> npt.NDArray[np.uint8]:
         """Return the picture with labels, RGBA, uint8, shape (H, W, 4); the frame itself stays as it is.
 
-        At the edges stand the sides of the patient that they look to: R, L, A, P, S and I for right, left,
+        The edges are labelled with the sides of the patient: R, L, A, P, S and I for right, left,
         anterior, posterior, superior and inferior, several where the view is oblique, the main one first.
         In the upper left corner stand the view and the window (W width, L level), in the lower left one a
         scale bar of a round length in mm. Where the source of the volume states no orientation or no spacing
@@ -184,7 +183,7 @@ class Frame(KeepsReadOnly):
         Parameters
         ----------
         vessel_names : bool, default False
-            Write the names of the vessels beside their ends, as far as there is room.
+            Write the names of the vessels at their ends, as far as there is room.
 
         Raises
         ------
@@ -207,11 +206,11 @@ class Frame(KeepsReadOnly):
         compress: bool = False,
         values: bool = False,
     ) -> None:
-        """Write the picture, or with the ending ``.npz`` all arrays; a file appears only once it is whole.
+        """Write the picture, or with the ending ``.npz`` all arrays; a file appears only when complete.
 
         A ``.png`` says how large its pixels are, where the source of the volume states a spacing, and how it
         was rendered, for ``lumencut render --like``: with which view, settings and version. It names no file
-        and nothing that the files say of the patient or the scan. Pictures of mpCPR and CR, which that
+        and nothing about the patient or the scan from the files. Pictures of mpCPR and CR, which that
         command does not make, say nothing but the size of their pixels.
 
         Parameters
@@ -225,7 +224,7 @@ class Frame(KeepsReadOnly):
             The names of the vessels among the labels.
         study : Volume or path-like, optional
             For ``.dcm``: a volume that was read from DICOM, or a DICOM folder, file or zip archive, whose
-            study the picture is put into; where not given, the study of the scan that is shown.
+            study the picture is put into; by default, the study of the scan that is shown.
         anonymous : bool, default False
             For ``.dcm``: leave patient and study out, and the names of vessels too. A study of its own is
             made for each scan. That is not the Basic Profile of PS3.15.
@@ -236,7 +235,7 @@ class Frame(KeepsReadOnly):
             For ``.dcm``: write the pixels as JPEG 2000, lossless.
         values : bool, default False
             For ``.dcm``: write the values at the cut surface, without labels and context, as a derived CT or
-            MR image that a PACS shows in any window. It has a frame of reference of its own.
+            MR image that a PACS shows in any window. It has its own frame of reference.
 
         Raises
         ------
@@ -252,7 +251,7 @@ class Frame(KeepsReadOnly):
         for name, value in {"annotate": annotate, "vessel_names": vessel_names}.items():
             flag(SettingsError, name, value)
         if vessel_names and not annotate:
-            raise SettingsError("vessel_names", "True without annotate", "annotate=True beside it")
+            raise SettingsError("vessel_names", "True without annotate", "annotate=True with it")
         if path.suffix.lower() == ".dcm":
             labels = {"annotate": annotate, "vessel_names": vessel_names}
             how = {"anonymous": anonymous, "other_patient": other_patient}
@@ -306,7 +305,7 @@ class Frame(KeepsReadOnly):
         from lumencut.dicom_objects.chosen_study import chosen_study
 
         origin = self._known_source().origin
-        assert origin is not None, "whoever renders a frame knows its scan"
+        assert origin is not None, "a rendered frame knows its scan"
         return chosen_study(origin, study, anonymous=anonymous, other_patient=other_patient)
 
     def _known_source(self) -> FrameSource:
@@ -315,7 +314,7 @@ class Frame(KeepsReadOnly):
         return self._source
 
     def _png_options(self, *, annotate: bool, vessel_names: bool) -> dict[str, Any]:
-        """What Pillow writes into a PNG beside the picture."""
+        """Metadata that Pillow writes into a PNG."""
         from lumencut.recipe import Recipe, pixel_size, png_options
 
         if self._source is None:
@@ -335,7 +334,7 @@ class Frame(KeepsReadOnly):
 
 
 def check_dicom_alone(path: Path, **given: Any) -> None:
-    """Refuse what only a DICOM file can hold, for a file of another format."""
+    """Reject options of DICOM files for a file of another format."""
     for name, value in given.items():
         if value is not None and value is not False:
             found = f"{value!r}, with the ending {path.suffix!r}"
@@ -343,12 +342,10 @@ def check_dicom_alone(path: Path, **given: Any) -> None:
 
 
 def check_values(annotate: bool, compress: bool) -> None:
-    """Refuse what values cannot have."""
+    """Reject options that do not apply to values."""
     for name, value in (("annotate", annotate), ("compress", compress)):
         if value:
-            raise SettingsError(
-                name, "True beside values", "False, for values", "write a picture beside them"
-            )
+            raise SettingsError(name, "True with values", "False, for values", "write a picture as well")
 
 
 def picture_as_png(image: npt.NDArray[np.uint8]) -> bytes:
@@ -361,7 +358,7 @@ def picture_as_png(image: npt.NDArray[np.uint8]) -> bytes:
 
 
 def save_picture(image: npt.NDArray[np.uint8], path: Path, png_options: dict[str, Any] | None = None) -> None:
-    """Write an RGBA picture in the format that the ending names; a PNG with what else Pillow can write."""
+    """Write an RGBA picture in the format of the ending; a PNG with metadata."""
     from PIL import Image
 
     expected = "a picture format such as .png, .tif or .webp"

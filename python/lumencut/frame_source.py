@@ -1,4 +1,4 @@
-"""What a frame was made from, as far as its labels and the text in its files need it."""
+"""The source of a frame, for its labels and the text in its files."""
 
 from __future__ import annotations
 
@@ -16,14 +16,13 @@ if TYPE_CHECKING:
     from lumencut.vessel_tree import VesselTree
     from lumencut.volume import Volume
 
-#: The name of a vessel and the world point (mm, LPS) where it ends.
 VesselEnd = tuple[str, tuple[float, float, float]]
 
 
 @by_name
 @dataclass(frozen=True)
 class FrameSource:
-    """What a frame was made from.
+    """The source of a frame.
 
     Attributes
     ----------
@@ -34,13 +33,13 @@ class FrameSource:
     states_spacing, states_orientation : bool
         As for the volume.
     vessels : int
-        How many vessels are shown.
+        The number of shown vessels.
     vessel_ends : tuple of (str, (float, float, float))
         Each named vessel and where its name belongs.
     method : str, default "csr"
         The method: ``"csr"``, ``"mpcpr"`` or ``"cr"``.
     origin : Origin or None
-        The scan, as far as DICOM objects tell of it; None for a source made by hand.
+        The scan as described by DICOM objects; None for a source made by hand.
     """
 
     settings: Settings
@@ -61,7 +60,6 @@ def frame_source(
     method: str = "csr",
 ) -> FrameSource:
     """Return the source of a frame with these settings, windows as numbers; `ends` are those of the tree."""
-    # The renderer has put a window in the place of each name.
     window = cast(Window | None, _context_window(settings) if tree is None else settings.window)
     vessels = 0 if tree is None else len(tree)
     return FrameSource(

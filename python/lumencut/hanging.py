@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from lumencut.vessel_tree import VesselTree
     from lumencut.volume import Volume
 
-#: How a C-arm is turned for each view of a hanging (degrees): LAO above 0, RAO below; cranial above 0, caudal
+#: Angles of a C-arm for each view of a hanging (degrees): LAO above 0, RAO below; cranial above 0, caudal
 #: below. The order is that of the series.
 HANGINGS: dict[str, tuple[tuple[int, int], ...]] = {
     "evar": ((0, 0), (45, 0), (90, 0), (180, 0), (-45, 0), (-90, 0)),

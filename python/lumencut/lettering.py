@@ -79,7 +79,7 @@ class Sheet:
         """Return a line in pieces that fit between the left edge and a letter in the middle."""
         room = self.size[0] / 2 - 2 * self.margin - self._fonts[1].getlength("SAL") / 2
         pieces: list[str] = []
-        # Words that begin with a letter: what a number belongs to stays before it.
+        # Words that begin with a letter: a number stays with the word before it.
         for word in re.split(" (?=[a-zA-Z])", line):
             longer = f"{pieces[-1]} {word}" if pieces else word
             if pieces and self._fonts[0].getlength(longer) <= room:
@@ -137,7 +137,7 @@ class Sheet:
         return 3 * self._outline
 
     def is_free(self, box: Box, others: Iterable[Box] = ()) -> bool:
-        """Tell whether a box lies within the picture, over none that is taken and none of the others."""
+        """Return whether a box lies within the picture and overlaps no other box."""
         width, height = self.size
         within = box[0] >= 0 and box[1] >= 0 and box[2] <= width and box[3] <= height
         return within and not any(_overlap(box, other) for other in (*self.taken, *others))
@@ -161,7 +161,7 @@ def _overlap(one: Box, other: Box) -> bool:
 
 
 def _whole(place: tuple[float, float]) -> tuple[int, int]:
-    """A place in whole pixels: letters between pixels are blurred."""
+    """A place in whole pixels, so that letters are sharp."""
     return round(place[0]), round(place[1])
 
 

@@ -1,4 +1,4 @@
-"""What is doubtful about lines, said once for each vessel: their order, points far away, missing parts."""
+"""Doubts about lines, reported once per vessel: order of points, distant points, missing parts."""
 
 from __future__ import annotations
 
@@ -19,11 +19,11 @@ class LineDoubt(NamedTuple):
     Attributes
     ----------
     vessel : int
-        Its id among the vessels that were looked at.
+        Its id among the given vessels.
     other : int or None
         The id of the other vessel where two lie side by side.
     text : Told
-        What was found, and what mends it.
+        The finding and the mend.
     """
 
     vessel: int
@@ -31,10 +31,10 @@ class LineDoubt(NamedTuple):
     text: Told
 
 
-def line_doubts(vessels: Iterable[Vessel], *, beside: bool = False) -> list[LineDoubt]:
-    """Return what is doubtful about the order of points; with `beside` also vessels side by side."""
+def line_doubts(vessels: Iterable[Vessel], *, parallel: bool = False) -> list[LineDoubt]:
+    """Return doubts about the order of points; with `parallel` also about vessels side by side."""
     arrays = [((vessel.points, vessel.radius), vessel.name) for vessel in vessels]
-    return worded(_lumencut.line_doubts(arrays, beside))
+    return worded(_lumencut.line_doubts(arrays, parallel))
 
 
 def worded(doubts: Iterable[tuple[int, int | None, str, Any]]) -> list[LineDoubt]:
@@ -48,7 +48,7 @@ def check_lines_once(vessels: Sequence[Vessel], subject: str = "vessel tree") ->
     Warns
     -----
     LineWarning
-        For each doubt about a vessel that was not looked at before.
+        For each doubt about a vessel that was not checked before.
     """
     if all(vessel._line_settled for vessel in vessels):
         return
@@ -58,7 +58,7 @@ def check_lines_once(vessels: Sequence[Vessel], subject: str = "vessel tree") ->
 
 
 def warn_of(doubts: Iterable[LineDoubt], subject: str) -> None:
-    """Warn whoever called the package of doubts."""
+    """Warn the caller of the package of doubts."""
     for doubt in doubts:
         warnings.warn(LineWarning(doubt.text.after(f"{subject}: ")), stacklevel=_level_outside())
 
@@ -72,6 +72,6 @@ def _level_outside() -> int:
 
 
 def settle(vessels: Iterable[Vessel]) -> None:
-    """Keep in mind that the lines of vessels were looked at."""
+    """Remember that the lines of vessels were checked."""
     for vessel in vessels:
         vessel._line_settled = True

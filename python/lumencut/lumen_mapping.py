@@ -1,4 +1,4 @@
-"""How a lumen map is made: the vessel measured, its wall found and unrolled."""
+"""The making of a lumen map: measures the vessel, finds its wall and unrolls it."""
 
 from __future__ import annotations
 
@@ -19,10 +19,9 @@ from lumencut.unrolled_wall import MODES, LumenMap, MappedVessel, Mode
 from lumencut.vessel import Vessel
 from lumencut.vessel_tree import VesselTree
 
-#: The patient's head.
 _HEAD = (0.0, 0.0, 1.0)
 
-#: The coarsest pixels where the caller names none (mm).
+#: Largest default pixel side (mm).
 _COARSEST = 0.25
 
 
@@ -55,7 +54,7 @@ def lumen_map(
 
     Parameters
     ----------
-    volume : Volume, or whatever else :func:`lumencut.render` takes as a volume
+    volume : Volume, or anything :func:`lumencut.render` takes as a volume
         The angiography.
     vessel : Vessel
         The centerline; :meth:`VesselTree.path` makes one of several vessels that meet.
@@ -65,10 +64,10 @@ def lumen_map(
         wall, in colour. ``"shaded"`` shows the wall as a surface that is lit from within.
     pixel_spacing : float, optional
         Side of a pixel (mm), along the vessel and around it at the mean radius; half of the smallest side of
-        a voxel where not given, but no more than 0.25 mm.
+        a voxel by default, at most 0.25 mm.
     angle : float, optional
         The direction of the middle column around the vessel (radians); 0 is to the right of the straightened
-        CPR at angle 0. Where not given, the side with most calcium is in the middle, so that the cut does not
+        CPR at angle 0. By default, the side with most calcium is in the middle, so that the cut does not
         run through it; 0 where there is none.
     overlap : float, default 0
         How much of the other side is repeated beyond each edge (radians, 0 to 3), dimmed.
@@ -78,7 +77,7 @@ def lumen_map(
         Which value of the band ``"wall"`` shows.
     calcium_level : float, optional
         From which level on something at the wall is calcium or metal, in the volume's unit; the lumen's level
-        and half of its contrast where not given, and at least 130.
+        and half of its contrast by default, and at least 130.
     profile : Profile, optional
         What :func:`lumencut.measure` found for this vessel, so that it need not be measured again.
     tree : VesselTree, optional
@@ -90,7 +89,7 @@ def lumen_map(
     settings : Settings, optional
         Window, opacity and background of ``"wall"``.
     degrees : float, optional
-        The angle in degrees, in the place of ``angle``.
+        The angle in degrees, instead of ``angle``.
     device : {"auto", "cpu", "gpu"}, default "auto"
         What computes, as for :class:`lumencut.Renderer`.
 
@@ -100,11 +99,11 @@ def lumen_map(
         For a vessel of another kind or without length, and for one without radii whose lumen cannot be
         measured either.
     CameraError
-        For a pixel spacing, angle, overlap or up that is none, or an image of too many pixels.
+        For a pixel spacing, angle, overlap or up that is invalid, or an image of too many pixels.
     SettingsError
         For another mode, a band that does not rise, or a smoothing out of range.
     MeasuringError
-        For a profile of another kind, and for ``"thickness"`` where nothing tells the level of calcium.
+        For an invalid profile, and for ``"thickness"`` if the level of calcium is unknown.
     VolumeError
         For an image that is no volume.
     """
@@ -187,7 +186,7 @@ def lumen_map_of(
 
 
 def _measured(volume: Any, vessel: Vessel, tree: VesselTree | None) -> Profile | None:
-    """The profile of the vessel; None where it has radii and no lumen can be measured."""
+    """The profile of the vessel; None if it has radii and no lumen can be measured."""
     from lumencut.measuring import measure
 
     try:

@@ -35,7 +35,7 @@ class MaskFile:
         FormatError
             For segments that overlap, and for damaged files.
         """
-        mask = self.file.volume(progress if progress is not None else _untold)
+        mask = self.file.volume(progress if progress is not None else _silent)
         log_oddities(self.file)
         return mask
 
@@ -46,7 +46,7 @@ def open_mask(path: str | os.PathLike[str], words: Iterable[str] = ()) -> MaskFi
     Parameters
     ----------
     path : path-like
-        Whatever :func:`lumencut.read_volume` reads.
+        Any file that :func:`lumencut.read_volume` reads.
     words : iterable of str
         The labels that are lumen, as ``52``, ``52=aorta`` or by a name that the file has; by default all that
         have a name, or every value but 0.
@@ -56,7 +56,7 @@ def open_mask(path: str | os.PathLike[str], words: Iterable[str] = ()) -> MaskFi
     SettingsError
         For a word that is no value and no name of the file.
     FormatError
-        For what is no mask that can be read.
+        For an unreadable mask.
     FileError
         For a file that is missing or cannot be read.
     """
@@ -68,5 +68,5 @@ def open_mask(path: str | os.PathLike[str], words: Iterable[str] = ()) -> MaskFi
     return MaskFile(file, labels or known or None)
 
 
-def _untold(done: int, total: int) -> None:
+def _silent(done: int, total: int) -> None:
     """Report progress to nobody."""

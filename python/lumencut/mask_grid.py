@@ -1,4 +1,4 @@
-"""A mask on the grid of its scan, of which it may hold a part of the voxels alone."""
+"""A mask on the grid of its scan; it may cover only a part of the voxels."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _ANOTHER = "take the segmentation that was made on this scan, or write it on the
 
 
 class Grid(Protocol):
-    """What a volume, or a file of one, tells of its grid."""
+    """The grid of a volume or of a file of one."""
 
     @property
     def size(self) -> tuple[int, int, int]:
@@ -46,7 +46,7 @@ class MaskPlace:
     low : tuple of 3 int
         The least index of the mask along each axis of the scan.
     note : str
-        What is told of a mask that holds a part of the scan.
+        The note on a mask that covers a part of the scan.
     """
 
     axes: tuple[int, int, int]
@@ -63,7 +63,7 @@ def on_grid_of(mask: Volume, volume: Grid) -> Volume:
     mask : Volume
         The mask.
     volume : Volume, or what has its grid
-        The scan; its voxels beside the mask become 0.
+        The scan; voxels outside the mask become 0.
 
     Returns
     -------
@@ -75,7 +75,7 @@ def on_grid_of(mask: Volume, volume: Grid) -> Volume:
     VolumeError
         As :func:`place_within` does.
     FormatError
-        Where the memory is too small.
+        If the memory is too small.
     """
     place = place_within(mask, volume, always=mask._is_segmentation)
     return mask if place is None else placed(mask, volume, place)

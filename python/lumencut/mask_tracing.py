@@ -80,8 +80,8 @@ def trace_mask(
     ------
     VolumeError
         For a mask that has no lumen or no background, holds floats that are no whole numbers, is a single
-        slice, is nowhere longer than wide, has voxels that are none of the volume, or lies in another frame
-        of reference.
+        slice, is nowhere longer than wide, has voxels that are not voxels of the volume, or lies in another
+        frame of reference.
     SettingsError
         For labels, a shortest branch or a bridge of another kind.
     KeyboardInterrupt
@@ -95,7 +95,7 @@ def trace_mask(
         warnings.warn(StudyWarning(words), stacklevel=2)
     notes: list[str] = []
     if shown is not None and (place := place_within(grid, shown, always=grid._is_segmentation)):
-        # Segmentations are cropped by custom; of other masks it is told.
+        # Segmentations are usually cropped; for other masks a note is added.
         notes = [] if grid._is_segmentation else [place.note]
         grid = placed(grid, shown, place)
     shortest, widest = _at_least_zero("shortest_branch", shortest_branch), _at_least_zero("bridge", bridge)

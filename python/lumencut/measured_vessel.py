@@ -1,4 +1,4 @@
-"""A vessel with its profile and what is said of it: places to look at, a stenosis that a reader marked."""
+"""A vessel with its profile, places to check, and a stenosis that a reader marked."""
 
 from __future__ import annotations
 
@@ -12,13 +12,12 @@ from lumencut.profile_sections import Mark
 from lumencut.stenosis import METHODS, Method, Stenosis
 from lumencut.vessel import Vessel
 
-#: The vessels whose stenoses have groups.
 GROUPS: tuple[Literal["carotid", "coronary"], ...] = ("carotid", "coronary")
 
 
 @dataclass(frozen=True)
 class Marked:
-    """What a reader marked on one vessel to have it graded; see :meth:`lumencut.Profile.stenosis`.
+    """The marks of a reader on one vessel for grading; see :meth:`lumencut.Profile.stenosis`.
 
     It may hold what another method than the chosen one needs: that is left aside.
 
@@ -35,7 +34,7 @@ class Marked:
     group : {"carotid", "coronary"} or None
         Which vessel it is, for the groups of the field.
     diameters : tuple of float
-        Places whose diameters are noted, whatever is graded (mm).
+        Places with noted diameters, regardless of grading (mm).
     """
 
     at: float | None = None
@@ -60,7 +59,7 @@ class MeasuredVessel:
     profile : Profile
         Its sections.
     marks : tuple of Mark
-        Places to look at: those that a reader marked, or suggestions.
+        Places to check: marked by a reader, or suggested.
     """
 
     number: str
@@ -71,7 +70,7 @@ class MeasuredVessel:
 
     @classmethod
     def of(cls, number: str, vessel: Vessel, profile: Profile, marked: Marked) -> MeasuredVessel:
-        """Return a measured vessel with what is told of the places that a reader marked on it.
+        """Return a measured vessel with the places that a reader marked on it.
 
         A place that cannot be graded is no error: :attr:`not_graded` says why there is no percentage.
 
@@ -85,7 +84,7 @@ class MeasuredVessel:
 
     @property
     def stenosis(self) -> Stenosis | None:
-        """The stenosis that a reader marked; None where nothing is marked, or it is not graded."""
+        """The stenosis that a reader marked; None if nothing is marked, or it is not graded."""
         graded = None if self._grade is None else self._grade.stenosis
         return None if graded is None else Stenosis(graded)
 
@@ -96,7 +95,7 @@ class MeasuredVessel:
 
     @property
     def not_graded(self) -> str | None:
-        """Why a marked place has no percentage: what is still missing, or what is wrong with a place."""
+        """Why a marked place has no percentage: what is missing, or what is wrong with a place."""
         return None if self._grade is None else self._grade.not_graded
 
     def unnamed(self) -> MeasuredVessel:
@@ -115,14 +114,14 @@ class MeasuredVessel:
 
     @property
     def _not_suggested(self) -> tuple[str, ...]:
-        """Why no place is suggested beside those that are marked; nothing where a reference is marked."""
+        """Why no place is suggested in addition to the marked ones; empty if a reference is marked."""
         marked = [mark.arc_length for mark in self.marks if not mark.is_suggestion]
         at = marked[0] if marked else None
         return () if len(marked) > 1 else self.profile.not_suggested(at)
 
     @property
-    def told(self) -> list[str]:
-        """What there is to say of it, in lines: each percentage with its method, its references and mm."""
+    def lines(self) -> list[str]:
+        """The findings, in lines: each percentage with its method, its references and mm."""
         lines = [] if self._grade is None else self._grade.lines
         if self.stenosis is None:
             lines = [*map(str, self.marks), *self._not_suggested, *lines]
@@ -132,7 +131,7 @@ class MeasuredVessel:
 def vessels_csv(measured: Sequence[MeasuredVessel]) -> str:
     """Return vessels as one table, a line for each section after the line of the names.
 
-    Columns that are the same in all lines of a vessel say which it is and what is told of the place that a
+    Columns that are the same in all lines of a vessel say which it is and give the place that a
     reader marked on it: ``stenosis``, ``doubts`` or ``not_graded``.
     """
     return _lumencut.vessels_csv([one.parts for one in measured])

@@ -30,7 +30,7 @@ class Measurements:
 
     Parameters
     ----------
-    volume : Volume, or whatever else :func:`lumencut.render` takes as one
+    volume : Volume, or anything :func:`lumencut.render` takes as one
         The angiography.
     tree : VesselTree
         The vessels; sections within the lumen of another one get :attr:`Flag.BRANCH`.
@@ -49,7 +49,7 @@ class Measurements:
     VesselTreeError
         For another kind of tree.
     VolumeError
-        For what is no volume.
+        For anything that is not a volume.
     """
 
     def __init__(

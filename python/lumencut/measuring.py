@@ -46,7 +46,7 @@ def measure(
 
     Parameters
     ----------
-    volume : Volume, or whatever else :func:`lumencut.render` takes as one
+    volume : Volume, or anything :func:`lumencut.render` takes as one
         The angiography, CT or MR; lumen may be brighter or darker than what is around it.
     vessel : Vessel
         The centerline. It need not be central; :meth:`VesselTree.path` makes one of several vessels that
@@ -61,12 +61,12 @@ def measure(
         it, also for a path through several vessels.
     tree : VesselTree, optional
         The tree that the vessel is of: sections within the lumen of its other vessels get
-        :attr:`Flag.BRANCH`, and what its eight widest vessels tell of the level of their walls helps those
-        whose own sections tell little.
+        :attr:`Flag.BRANCH`, and the level of walls of its eight widest vessels helps those
+        with too few sections.
     wall : pair of float or "off", optional
         The level of the vessel's wall and the standard deviation of that, in the unit of the volume. Without
         it, it is 45 ± 25 HU where the values of the volume are HU (some are below -20) and the lumen is
-        bright; elsewhere, and with "off", walls are not told apart from what is around the vessel. An artery
+        bright; elsewhere, and with "off", walls count as surroundings of the vessel. An artery
         in fat is then measured too wide, as a part of its wall is taken for lumen.
         :attr:`Profile.wall_source` says which.
     progress : callable, optional
@@ -86,7 +86,7 @@ def measure(
     VesselTreeError
         For another kind of vessel or tree, or a vessel without length.
     VolumeError
-        For what is no volume.
+        For anything that is not a volume.
     KeyboardInterrupt
         After Ctrl-C.
     """
@@ -98,13 +98,13 @@ def measure(
     others = None if tree is None else [(one.points, one.radius) for one in tree]
     level = wall_level(wall)
     callback(MeasuringError, "progress", progress)
-    told = None if others is None else _told_by_tree(grid, tree, others, along, given, level)
+    estimates = None if others is None else _tree_estimates(grid, tree, others, along, given, level)
     measured = (vessel.points, vessel.radius)
-    core = _lumencut.measure(grid, measured, along, given, others, level, told, progress)
+    core = _lumencut.measure(grid, measured, along, given, others, level, estimates, progress)
     return Profile(core, vessel, grid._origin)
 
 
-def _told_by_tree(
+def _tree_estimates(
     volume: Volume,
     tree: VesselTree | None,
     arrays: list[Any],
@@ -112,7 +112,7 @@ def _told_by_tree(
     fwhm: float | None,
     wall: tuple[float, float] | None,
 ) -> _lumencut.ToldByTree:
-    """What a tree tells in a volume, found once for all that is measured along it."""
+    """Estimates from a tree in a volume, computed once for all measurements along it."""
     name = f"step {step}, fwhm {fwhm}, wall {wall}"
     return volume._told_by_trees.once(
         volume._voxels, name, tree, lambda: _lumencut.told_by_tree(volume, arrays, step, fwhm, wall)
@@ -147,7 +147,7 @@ class CrossSection:
     def pixel_from_world(self, points: npt.ArrayLike) -> npt.NDArray[np.float64]:
         """Return column and row of points (n, 3) (mm, LPS), shape (n, 2); the first pixel is at (0, 0).
 
-        One point (3,) is taken as (1, 3). Points beside the plane are projected to it.
+        One point (3,) is taken as (1, 3). Points outside the plane are projected to it.
         """
         is_one = np.asarray(points, dtype=object).shape == (3,)
         several = [points] if is_one else points
@@ -180,7 +180,7 @@ def cross_section(
 
     Parameters
     ----------
-    volume : Volume, or whatever else :func:`lumencut.render` takes as one
+    volume : Volume, or anything :func:`lumencut.render` takes as one
         The angiography.
     vessel : Vessel
         The centerline. Its directions are smoothed by a Gaussian whose standard deviation is half of the
@@ -191,7 +191,7 @@ def cross_section(
     size : float, default 30
         The side of the image (mm).
     pixel_spacing : float, optional
-        The side of a pixel (mm); half of the smallest side of a voxel where not given.
+        The side of a pixel (mm); half of the smallest side of a voxel by default.
     profile : Profile, optional
         What :func:`lumencut.measure` found for this vessel.
 
@@ -204,7 +204,7 @@ def cross_section(
     VesselTreeError
         For another kind of vessel, or one without length.
     VolumeError
-        For what is no volume.
+        For anything that is not a volume.
     """
     _check_vessel(vessel)
     grid = as_volume(volume)

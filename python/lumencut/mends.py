@@ -34,7 +34,6 @@ class Option(NamedTuple):
     form: Literal["whole", "again", "quoted", "plain"] = "whole"
 
 
-#: How a host writes an option.
 Write: TypeAlias = Callable[[Option], str]
 
 _Parts: TypeAlias = tuple[str | Option, ...]
@@ -127,7 +126,6 @@ def _windows(_: Sequence[str]) -> _Parts:
 
 _THRESHOLD = "compare the values with a threshold first, as --threshold of the command line does"
 
-#: The words for each mend, of its values.
 WORDS: dict[MendName, Callable[[Sequence[str]], _Parts]] = {
     "bridge": lambda _: ("ask for a bridge where it is occluded",),
     "every_second": lambda _: ("take every second voxel along each axis, an eighth of all",),
@@ -153,14 +151,14 @@ WORDS: dict[MendName, Callable[[Sequence[str]], _Parts]] = {
 
 
 class Told(str):
-    """A text in the words of Python that other hosts can write with options of their own.
+    """A text with Python arguments that other hosts can write with their own options.
 
     Attributes
     ----------
     advice : str
         The words that name no options.
     mends : tuple of Mend
-        What mends the error that the text belongs to; empty of a text that only tells something.
+        The mends of the error; empty for text without an error.
     """
 
     advice: str
@@ -189,7 +187,7 @@ def _remade(parts: _Parts, advice: str, mends: tuple[Mend, ...]) -> Told:
     return Told(*parts, advice=advice, mends=mends)
 
 
-def told(advice: str, mends: Sequence[tuple[MendName, Sequence[str]]]) -> Told:
+def advised(advice: str, mends: Sequence[tuple[MendName, Sequence[str]]]) -> Told:
     """Return advice and mends, given by their names and values, in one text."""
     typed = tuple(Mend(name, tuple(values)) for name, values in mends)
     parts: list[str | Option] = [advice] if advice else []

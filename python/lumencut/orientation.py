@@ -46,7 +46,7 @@ def view_name(camera: Camera) -> str:
     named = (name for name, (ahead, _) in VIEWS.items() if _angle(camera.direction, ahead) < _SAME_ANGLE)
     name = next(named, None)
     top = VIEWS["anterior" if name is None else name][1]
-    # Where the head lies in the picture, counterclockwise from its top.
+    # Direction of the head in the picture, counterclockwise from its top.
     turned = _whole_degrees(-np.dot(top, camera.right_axis), np.dot(top, camera.up))
     return (name or c_arm_angles(camera)) + (f" turned {turned}°" if turned else "")
 

@@ -28,7 +28,7 @@ def brightest(
 
     Parameters
     ----------
-    volume : Volume, or whatever else :func:`lumencut.render` takes as one
+    volume : Volume, or anything :func:`lumencut.render` takes as one
         The angiography.
     camera : Camera
         The view.
@@ -50,7 +50,7 @@ def brightest(
     CameraError
         For another kind of camera, pixel or depths.
     VolumeError
-        For what is no volume.
+        For anything that is not a volume.
     """
     if not isinstance(camera, Camera):
         raise CameraError("camera", type(camera).__name__, "a Camera")

@@ -14,7 +14,6 @@ from lumencut.slab import Slab
 from lumencut.transfer import TransferFunction
 from lumencut.window import Opacity, Window
 
-#: The keyword of the text.
 KEYWORD = "Lumencut"
 
 _LONGEST = 100_000
@@ -29,12 +28,12 @@ def text_of(path: Path, expected: str) -> str:
     path : Path
         The picture.
     expected : str
-        What the caller expects, for errors.
+        What was expected, for errors.
 
     Raises
     ------
     FormatError
-        For a file that is no whole PNG, or has no such text.
+        For an incomplete PNG, or one without such text.
     FileError
         For a file that cannot be read.
     """
@@ -52,7 +51,7 @@ def text_of(path: Path, expected: str) -> str:
     except (SyntaxError, ValueError, EOFError, struct.error, IndexError, KeyError, TypeError):
         text = _unreadable(path, expected)
     if not isinstance(text, str):
-        found = "a picture without the text that says how it was rendered"
+        found = "a picture without a description of its rendering"
         raise FormatError(str(path), found, expected, "programs that change a picture may drop its text")
     if len(text) > _LONGEST:
         raise FormatError(str(path), f"a text of {len(text)} letters", f"at most {_LONGEST}")
@@ -81,7 +80,7 @@ def settings_of(content: dict[str, Any]) -> Settings:
     KeyError
         For other settings than those of this version.
     TypeError, SettingsError
-        For values that are none of a setting.
+        For invalid values of a setting.
     """
     if content.keys() != _lumencut.SETTINGS.keys():
         raise KeyError("other settings than those of this version")

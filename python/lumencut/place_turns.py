@@ -41,13 +41,13 @@ def turn_about(
     camera : Camera
         The first view.
     radius : float
-        The radius of the vessel at the place (mm), as :func:`radius_at` tells it.
+        The radius of the vessel at the place (mm), from :func:`radius_at`.
     settings : Settings, optional
-        The knobs; their defaults where not given.
+        The settings; defaults if omitted.
     frames : int, default 72
-        How many frames.
+        Number of frames.
     degrees : float, default 360
-        How far the viewer moves in all (degrees).
+        Total rotation of the viewer (degrees).
 
     Raises
     ------
@@ -60,13 +60,13 @@ def turn_about(
         The next view. Its picture says the diameter of this cut, and the least and the largest so far (mm).
     """
     if renderer.volume is None:
-        raise VolumeError("turn about a place", "no volume", "an angiography, whose diameters are told")
+        raise VolumeError("turn about a place", "no volume", "an angiography, to measure diameters")
     turn = turntable(renderer, camera, settings, frames, degrees, "up")
     return _written(turn, renderer.volume, radius)
 
 
 def radius_at(vessel: Vessel, at: float) -> float:
-    """Return the radius of a vessel (mm) at an arc length (mm), 1 mm where it is not known."""
+    """Return the radius of a vessel (mm) at an arc length (mm); 1 mm if unknown."""
     return _lumencut.radius_at((vessel.points, vessel.radius), at)
 
 

@@ -1,6 +1,6 @@
-"""Space and unit of centerlines: what their file states, else what fits the volume, else what is asked for.
+"""Space and unit of centerlines: as stated in the file, otherwise by the volume, otherwise an error.
 
-A volume tells by its extent, and between two spaces by its values along the lines where those are evident.
+A volume decides by its extent, and between two spaces by its values along the lines if they are evident.
 
 Nothing is decided in silence: every choice that the file does not state is noted with the counts behind it.
 """
@@ -40,7 +40,7 @@ SMALLEST, LARGEST = _lumencut.SMALLEST_EXTENT, _lumencut.LARGEST_EXTENT
 
 @dataclass(frozen=True)
 class Stated:
-    """What a file says of its coordinates, and the unit that files of its format usually have."""
+    """The statements of a file on its coordinates, and the usual unit of its format."""
 
     space: Coordinates | None
     unit: Unit | None
@@ -49,7 +49,7 @@ class Stated:
 
 @dataclass(frozen=True)
 class Placement:
-    """How the coordinates of a file are to be understood.
+    """Space and unit of the coordinates of a file.
 
     Attributes
     ----------
@@ -58,13 +58,13 @@ class Placement:
     space_from, unit_from : "asked", "stated", "volume", "values" or "assumed"
         Who said so: the caller, the file, the extent of the volume, its values along the lines, or nobody.
     decision : Told
-        What was decided, by what, and what confirms it; empty where the file or the caller said everything.
+        The decision, its reason, and how to confirm it; empty if file or caller stated everything.
     is_unusual : bool
         Whether the volume decided against LPS or the usual unit, or the space by its values alone.
     also : tuple of str
-        Units that would fit the volume too, where it decided for the usual one.
+        Other units that would also fit the volume, if the usual one was chosen.
     doubt : Told
-        What speaks against the unit that the file states, or that was assumed; empty where nothing does.
+        Reasons against the stated or assumed unit; empty if there are none.
     """
 
     space: Coordinates
@@ -107,12 +107,12 @@ def placement(
     unit: Unit | None,
     volume: Volume | None,
 ) -> Placement:
-    """Decide how the lines of a file, as they stand in it, are to be understood.
+    """Decide space and unit of the lines of a file.
 
     Raises
     ------
     FormatError
-        Where the volume is there to decide and cannot: several places fit it alike, or none does.
+        If the volume cannot decide: several places fit it equally, or none does.
     """
     known = {
         "asked_space": coordinates,
@@ -129,7 +129,7 @@ def placement(
 
 
 def _units(units: Sequence[Unit]) -> list[str | Option]:
-    """The options for units, one of which is to be given."""
+    """The options for units, of which the user must give one."""
     parts = [part for unit in units for part in (" or ", Option("unit", unit))]
     return parts[1:]
 
@@ -143,7 +143,7 @@ def _doubt(found: tuple[str, Sequence[Unit]] | None) -> Told:
 
 
 def _decision(words: str, space: Coordinates | None, unit: Unit | None, also: Sequence[Unit]) -> Told:
-    """What was decided, and what the caller would state to confirm it, or to have it otherwise."""
+    """The decision, and the options to confirm or change it."""
     if also:
         return Told(words, "; ", *_units(also), " reads them so")
     stated = [Option(name, value) for name, value in (("coordinates", space), ("unit", unit)) if value]
@@ -154,12 +154,12 @@ def _decision(words: str, space: Coordinates | None, unit: Unit | None, also: Se
 
 
 def fits_nowhere(points: npt.NDArray[np.float64], volume: Volume) -> bool:
-    """Tell whether points in LPS and mm miss the volume, in whatever space and unit they might be meant."""
+    """Return whether points miss the volume in every space and unit."""
     return _lumencut.fits_nowhere(points, volume)
 
 
 def check_choice(coordinates: object, unit: object) -> None:
-    """Refuse what is no space or unit."""
+    """Reject invalid spaces and units."""
     if not (coordinates is None or (isinstance(coordinates, str) and coordinates in _lumencut.SIGNS)):
         raise SettingsError("coordinates", repr(coordinates), '"lps", "ras" or None')
     if not (unit is None or (isinstance(unit, str) and unit in MILLIMETRES)):
@@ -177,7 +177,6 @@ def check_space(tree: VesselTree, volume: Volume, subject: str = "vessel tree") 
         times as many points look like lumen with x and y negated. The text names both counts and the option
         that mends it.
     """
-    # Whoever was warned once knows.
     tree._space_settled |= _warn_if_another_fits(tree, volume, subject)
 
 
@@ -190,12 +189,12 @@ def check_space_once(
 
 
 def check_meeting(volume: Volume, tree: VesselTree) -> None:
-    """Refuse a tree wholly outside the volume, and warn once of doubtful lines and space.
+    """Reject a tree wholly outside the volume, and warn once of doubtful lines and space.
 
     Raises
     ------
     VesselTreeError
-        Where no point lies inside the volume.
+        If no point lies inside the volume.
     """
     check_lines_once(tree[:])
     points = tree.points
@@ -218,7 +217,7 @@ def _warn_if_another_fits(tree: VesselTree, volume: Volume, subject: str, stackl
     """Warn where another place brings twice as many points into the volume, and a tenth of all more.
 
     Or where the values of the volume evidently speak for the other space. Returns whether it warned.
-    `stacklevel` counts as for `warnings.warn` from whoever calls this.
+    `stacklevel` counts as for `warnings.warn` from the caller.
     """
     lines = Lines.of((vessel.points, vessel.radius) for vessel in tree)
     better = _lumencut.better_place(lines.points, lines.radii, volume)

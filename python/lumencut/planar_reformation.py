@@ -30,23 +30,19 @@ MODES = ("projected", "stretched", "straightened")
 #: The mode that shows the vessel in the pixels of a camera.
 TANGENTIAL: Final = "tangential"
 
-#: All modes of :func:`cpr`.
 ALL_MODES = (*MODES, TANGENTIAL)
 
-#: How wide the strip is that tells the angle of each row (pixels).
+#: Width of the strip that shows the angle of each row (pixels).
 _STRIP = 32
 
 #: Arc lengths (mm) and the angle at each (radians).
 _Rolled: TypeAlias = tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]
 
-#: Which side of the lumen a straightened vessel can follow.
 ROLLS = ("narrowest", "widest")
 
-#: The patient's head.
 _HEAD = (0.0, 0.0, 1.0)
 
 
-#: What rows and columns of a CPR are.
 _AXES = {
     "projected": "Down: height as it is seen. Across: through the vessel; distances are not true.",
     "stretched": "Down: along the unrolled surface. Across: the lines through the vessel, in mm.",
@@ -110,7 +106,7 @@ class PlanarReformation(Reformation):
             By how much more the viewer moves to the right (radians): around up as with
             :meth:`Camera.rotated`, and around the vessel where it is straightened.
         degrees : float
-            The angle in degrees, in the place of ``angle``.
+            The angle in degrees, instead of ``angle``.
 
         Raises
         ------
@@ -135,7 +131,7 @@ class PlanarReformation(Reformation):
     def annotated(self, *, vessel_names: bool = True) -> npt.NDArray[np.uint8]:
         """Return the picture with labels as every reformation has them; see `Reformation.annotated`.
 
-        Where the rows follow a side of the lumen, a strip to the right of the picture tells their angle: from
+        Where the rows follow a side of the lumen, a strip to the right of the picture shows their angle: from
         0 at its left edge to half of a turn at its right one.
         """
         image = super().annotated(vessel_names=vessel_names)
@@ -145,7 +141,7 @@ class PlanarReformation(Reformation):
         """The sides of the patient that edges look to, as far as they do so in all rows."""
         if self.mode == "straightened":
             return {}
-        # Above the image it goes on straight, and no two points of the vessel share a row.
+        # Above the image it continues straight, and no two points of the vessel share a row.
         origin, *ends = self.world_from_pixel([[0, -2], [1, -2], [0, -1]])
         right, down = np.array(ends) - origin
         named = ("left", "right", "top", "bottom") if self.mode == "projected" else ("left", "right")
@@ -153,7 +149,7 @@ class PlanarReformation(Reformation):
 
 
 def _strip(roll: npt.NDArray[np.float64]) -> npt.NDArray[np.uint8]:
-    """A strip that tells angles (H,) as a light line on grey, RGBA, shape (H, 32, 4)."""
+    """A strip that shows angles (H,) as a light line on grey, RGBA, shape (H, 32, 4)."""
     strip = np.full((len(roll), _STRIP, 4), (40, 40, 40, 255), np.uint8)
     columns = (np.mod(roll, math.pi) / math.pi * _STRIP).astype(int) % _STRIP
     strip[np.arange(len(roll)), columns] = 255
@@ -185,7 +181,7 @@ def cpr(
 
     Parameters
     ----------
-    volume : Volume, or whatever else :func:`lumencut.render` takes as a volume
+    volume : Volume, or anything :func:`lumencut.render` takes as a volume
         The angiography.
     vessel : Vessel
         The centerline; :meth:`VesselTree.path` makes one of several vessels that meet.
@@ -197,10 +193,10 @@ def cpr(
         the vessel in the pixels of ``camera``, and beside it what lies at the depth of its nearest place
         (named by Mistelbauer et al. 2012, the definition is ours); see :class:`TangentialReformation`.
     width : float, optional
-        Distance of the outermost columns (mm), at most; an odd number of pixels is taken. Where not given,
+        Distance of the outermost columns (mm), at most; an odd number of pixels is taken. By default,
         the image shows 25 mm on each side of the vessel: 50 mm where it is straightened.
     pixel_spacing : float, optional
-        Side of a pixel (mm); the smallest side of a voxel where not given.
+        Side of a pixel (mm); the smallest side of a voxel by default.
     angle : float, default 0
         By how much the viewer moves to the right (radians), from the front of the patient where ``up`` is the
         head: around ``up``, or around the vessel where it is straightened.
@@ -208,7 +204,7 @@ def cpr(
         Upwards in space (LPS); any length. At angle 0 the view runs to the patient's back as far as that is
         perpendicular to up; where up is the patient's front or back, to the head.
     slab : Slab, (mm, mode) or mm, optional
-        How thick the surface is, and what is shown of its thickness; that of the settings where not given. It
+        How thick the surface is, and what is shown of its thickness; that of the settings by default. It
         is thick along the view where projected, else perpendicular to the surface.
     smoothing : float, default 0
         Standard deviation of the Gaussian that smooths the centerline along its length (mm, 0 to 1000); its
@@ -219,30 +215,30 @@ def cpr(
     device : {"auto", "cpu", "gpu"}, default "auto"
         What computes, as for :class:`lumencut.Renderer`.
     degrees : float, optional
-        The angle in degrees, in the place of ``angle``.
+        The angle in degrees, instead of ``angle``.
     normal : array_like, shape (3,), optional
         Towards the viewer at the vessel's first point, at angle 0, where it is straightened (LPS); any
-        length. Where not given it is the viewer's side as ``up`` says it. A vessel that begins along the view
+        length. By default it is the viewer's side as ``up`` says it. A vessel that begins along the view
         is seen against ``up`` there.
     roll : {"narrowest", "widest"}, optional
-        Each section of the straightened vessel is seen from an angle of its own: from that at which its
+        Each section of the straightened vessel is seen from its own angle: from that at which its
         lumen is narrowest, or widest, through the vessel, so that no eccentric stenosis or slit hides in the
         wrong angle (ours). The vessel is measured for it. The angle changes by at most 3.75° each 0.5 mm, and
         is smoothed along the vessel by a Gaussian with a standard deviation of 2 mm;
-        :attr:`PlanarReformation.roll` tells it.
+        :attr:`PlanarReformation.roll` holds it.
     profile : Profile, optional
         What :func:`lumencut.measure` found for this vessel, so that it need not be measured again for a roll.
 
     camera : Camera, optional
         The view of ``"tangential"``, which takes no width, pixel spacing, angle, up, normal or roll; from the
-        front, fitted to the vessel, where not given.
+        front, fitted to the vessel by default.
 
     Raises
     ------
     VesselTreeError
         For a vessel of another kind, without length, or wholly outside the volume.
     CameraError
-        For vectors, an angle, a width or a pixel spacing that are none, a width beyond the diagonal of the
+        For vectors, an angle, a width or a pixel spacing that are invalid, a width beyond the diagonal of the
         volume, an image of too many pixels, a vessel that lies in one row of it, or a roll of another mode or
         beside an angle.
     SettingsError
@@ -258,7 +254,7 @@ def cpr(
         placed = (width, pixel_spacing, angle, tuple(np.ravel(up).tolist()), degrees, normal, roll)
         if placed != (None, None, 0.0, _HEAD, None, None, None):
             found = "a width, pixel spacing, angle, up, normal or roll with the mode 'tangential'"
-            raise CameraError("view of the CPR", found, "camera= alone, which says all of them")
+            raise CameraError("view of the CPR", found, "camera= alone, which sets all of them")
         return tangential_of(renderer, vessel, camera, slab=slab, smoothing=smoothing, settings=settings)
     if camera is not None:
         found = f"a camera with the mode {mode!r}"

@@ -54,13 +54,13 @@ class Angle(float):
 
 @by_name
 class CArm(NamedTuple):
-    """How a C-arm is turned (radians): LAO and cranial above 0, RAO and caudal below."""
+    """The angles of a C-arm (radians): LAO and cranial above 0, RAO and caudal below."""
 
     lao: Angle
     cranial: Angle
 
     def __str__(self) -> str:
-        """The angles as they stand on a C-arm."""
+        """The angles as displayed on a C-arm."""
         return _lumencut.c_arm_words(self.lao, self.cranial)
 
 
@@ -96,12 +96,12 @@ class Profile(ProfileNumbers, ProfileOutputs):
 
     @property
     def scan(self) -> ScanDetails:
-        """How the scan was made that was measured, as its file tells it; :attr:`fwhm_source` has its blur."""
+        """Acquisition details of the measured scan, from its file; :attr:`fwhm_source` has its blur."""
         return ScanDetails(*_lumencut.scan_of(self._core))
 
     @property
     def wall_source(self) -> str:
-        """The level that walls were expected to have, or why they were not told apart."""
+        """The assumed level of walls, or why walls were not distinguished."""
         return self._core.wall_source
 
     def stenosis(
@@ -186,14 +186,14 @@ class Profile(ProfileNumbers, ProfileOutputs):
 
         A line that runs on where nothing tells lumen from tissue is measured as far as there is a wall: over
         its longest stretch of pieces of 10 mm each of which has one. Sections elsewhere are NaN. Ends of
-        10 mm and more in which no wall was found are told, too.
+        10 mm and more without a wall are reported as well.
         """
         return tuple(_lumencut.not_measured_stretches(self._core))
 
     def widest(self) -> Spot | None:
         """Return the place of the longest diameter of all sections that count, and that diameter.
 
-        It is the largest number whatever the flags say: an odd outline, a branch beside it, or a spike of the
+        It is the largest number regardless of flags: an odd outline, a nearby branch, or an outlier of the
         fit may be what makes it so. Files, reports and the viewer leave it out where a section within 1 mm
         is not round or lies in a branch; and a section that is more than 1.3 times as long as wide counts
         for them only where its neighbours agree, else that with the largest area does.
@@ -250,7 +250,7 @@ class Profile(ProfileNumbers, ProfileOutputs):
         return np.array(self._core.direction(_ends((start, end))))
 
     def angle_between(self, first: tuple[float, float], second: tuple[float, float]) -> Angle:
-        """Return the angle between two stretches, 0 where the second goes on as the first does.
+        """Return the angle between two stretches, 0 where the second continues as the first does.
 
         Parameters
         ----------

@@ -14,14 +14,13 @@ from lumencut.frame import check_dicom_alone
 from lumencut.profile_sections import Sections
 from lumencut.stenosis import Stenosis
 
-#: What every file says of itself.
 NOTICE = _lumencut.MEASURING_NOTICE
 
 _ENDINGS = (".csv", ".json")
 
 
 def is_profile_file(path: Path) -> bool:
-    """Tell whether the ending of a path is that of a profile."""
+    """Return whether the ending of a path is that of a profile."""
     return path.suffix.lower() in _ENDINGS
 
 
@@ -34,7 +33,7 @@ def csv_text(sections: Sections) -> str:
 
 
 def json_text(sections: Sections) -> str:
-    """Return a profile as JSON, with the version of the software and what it is not.
+    """Return a profile as JSON, with the version of the software and a disclaimer.
 
     What could not be measured is null.
     """
@@ -64,7 +63,7 @@ def save_object(
 
 
 def save(sections: Sections, path: str | os.PathLike[str], **of_objects: Any) -> None:
-    """Write one profile as its ending says: ``.csv`` or ``.json``; refuse what only DICOM holds."""
+    """Write one profile as ``.csv`` or ``.json``; reject options of DICOM."""
     checked = checked_path(path, WRITABLE)
     if not is_profile_file(checked):
         raise FormatError(str(checked), f"the ending {checked.suffix!r}", ", ".join((*_ENDINGS, ".dcm")))

@@ -13,7 +13,7 @@ from lumencut.errors import MeasuringError
 from lumencut.scan_details import ScanDetails
 from lumencut.vessel import Vessel
 
-#: The version of what is pickled of a profile.
+#: The version of the pickle of a profile.
 _VERSION = 1
 
 _Floats = npt.NDArray[np.float64]
@@ -35,7 +35,7 @@ class ProfileNumbers:
         self._contour, self._levels = _locked(core.contour), _locked(core.levels)
 
     def __getstate__(self) -> dict[str, Any]:
-        """Return what is copied or pickled: plain values, by names that stay."""
+        """Return the state to copy or pickle: plain values by stable names."""
         return {
             "version": _VERSION,
             "stored": _lumencut.stored_profile(self._core),
@@ -102,7 +102,7 @@ class ProfileNumbers:
 
     @property
     def wall(self) -> _Floats:
-        """The thickness of the wall, shape (n,), mm; NaN where it is not told from what is around it."""
+        """The thickness of the wall, shape (n,), mm; NaN if it is not distinct from its surroundings."""
         return self._numbers["wall"]
 
     @property
@@ -145,7 +145,7 @@ class ProfileNumbers:
 
     @property
     def flags(self) -> npt.NDArray[np.uint32]:
-        """What there is to know of each section, bits of :class:`lumencut.Flag`, shape (n,)."""
+        """The flags of each section, bits of :class:`lumencut.Flag`, shape (n,)."""
         return self._flags
 
     @property

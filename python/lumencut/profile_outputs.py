@@ -1,4 +1,4 @@
-"""What a profile leaves behind: a table, JSON, a plot."""
+"""Files of a profile: a table, JSON, a plot."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ class ProfileOutputs:
     ) -> None:
         """Write the sections as a table (``.csv``), for programs (``.json``) or as DICOM (``.dcm``).
 
-        The file appears once it is whole.
+        The file appears when complete.
 
         The table has a line for each section. Names of columns state the unit, flags are words separated by
         ``"; "``, ``counts`` says whether a section counts for what is narrowest, widest or suggested, numbers
@@ -54,7 +54,7 @@ class ProfileOutputs:
         FormatError
             For another ending; for ``.dcm`` where there is no one study with a frame of reference.
         MeasuringError
-            For stenoses that are none of this vessel.
+            For stenoses of another vessel.
         SettingsError
             For what only ``.dcm`` can hold.
         MissingPackageError
@@ -89,7 +89,7 @@ class ProfileOutputs:
         Parameters
         ----------
         axes : matplotlib.axes.Axes, optional
-            Where to draw; axes of a new figure of ``matplotlib.pyplot`` where not given.
+            Where to draw; axes of a new figure of ``matplotlib.pyplot`` by default.
 
         Returns
         -------
@@ -101,7 +101,7 @@ class ProfileOutputs:
         MissingPackageError
             Without matplotlib.
         MeasuringError
-            For what is no axes.
+            For invalid axes.
         """
         from lumencut.profile_plot import draw, new_axes
         from lumencut.profile_sections import marks

@@ -31,7 +31,7 @@ _FLAGS = {Flag(bit): color for _, bit, _, _, color, _ in _lumencut.MEASURING_FLA
 
 
 def check_matplotlib() -> None:
-    """Refuse to draw without matplotlib.
+    """Raise an error without matplotlib.
 
     Raises
     ------

@@ -55,7 +55,7 @@ class Sections(Protocol):
 
 @dataclass(frozen=True)
 class Mark:
-    """A place on a vessel that somebody should look at.
+    """A place on a vessel to check.
 
     Attributes
     ----------
@@ -79,12 +79,12 @@ class Mark:
 
     @property
     def is_noted(self) -> bool:
-        """Whether a reader noted the diameter alone, whatever is graded."""
+        """Whether a reader only noted the diameter, regardless of grading."""
         return self.name == "noted diameter"
 
     @property
     def title(self) -> str:
-        """What it is, and whether it is but a suggestion."""
+        """What it is, and whether it is only a suggestion."""
         return f"{self.name} (suggestion)" if self.is_suggestion else self.name
 
     def __str__(self) -> str:
@@ -113,7 +113,7 @@ def nearest(sections: Sections, at: float) -> int:
 
 
 def marks(sections: Sections, at: float | None = None, references: Sequence[float] = ()) -> list[Mark]:
-    """Return the places to look at: those that a reader named, and suggestions for what was not named.
+    """Return the places to check: those that a reader marked, and suggestions for the others.
 
     Raises
     ------

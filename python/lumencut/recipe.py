@@ -1,4 +1,4 @@
-"""The text in a PNG that says how the picture was rendered, and the way back from it.
+"""The text in a PNG that describes how the picture was rendered, and its parser.
 
 It holds the camera, the settings with the windows that were used, what is labelled, the number of vessels,
 and the version. It names no file and no vessel, and takes over nothing that the files say of the patient or
@@ -21,7 +21,6 @@ from lumencut.errors import CameraError, FormatError, SettingsError
 from lumencut.picture_text import KEYWORD, plain_settings, settings_of, text_of
 from lumencut.settings import Settings
 
-#: The version of what the text holds.
 _FORMAT = 1
 
 _EXPECTED = "a PNG picture that Lumencut wrote"
@@ -30,7 +29,7 @@ _PLACE = ("center", "direction", "right_axis", "up", "pixel_spacing")
 
 @dataclass(frozen=True)
 class Recipe:
-    """All of a picture but its volume and its vessel tree, of which it has the number of vessels."""
+    """A picture without its volume and vessel tree, except for the number of vessels."""
 
     camera: Camera
     settings: Settings
@@ -76,7 +75,7 @@ def read_recipe(path: str | Path) -> Recipe:
     Raises
     ------
     FormatError
-        For a file that is no whole PNG, was not written by Lumencut, or says what cannot be rendered.
+        For an incomplete PNG, one not written by Lumencut, or one that cannot be rendered.
     FileError
         For a file that cannot be read.
     """
@@ -119,7 +118,7 @@ def _recipe(content: dict[str, Any]) -> Recipe:
 
 
 def _camera(content: dict[str, Any]) -> Camera:
-    """The camera to the last bit: its axes are unit vectors already, which making one anew would round."""
+    """The camera to the last bit; normalizing its unit axes again would round them."""
     made = Camera(**{name: content[name] for name in ("center", "direction", "up", "size", "pixel_spacing")})
     stated = {name: np.asarray(content[name], dtype=np.float64) for name in _PLACE[:-1]}
     for name in ("direction", "right_axis", "up"):

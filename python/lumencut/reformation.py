@@ -32,7 +32,7 @@ _WIDE = 400
 
 
 class Reformation:
-    """Vessels as an image (H, W) of their surroundings; every pixel looks at a place of its own.
+    """Vessels as an image (H, W) of their surroundings; every pixel looks at its own place.
 
     Each image is made when it is first asked for, from the volume, whose voxels must not be changed
     meanwhile. :func:`lumencut.cpr` and the other reformations return one, some with more attributes.
@@ -55,7 +55,6 @@ class Reformation:
 
     #: Whether distances in the image are those that a viewer sees, so that a ruler may measure them.
     is_projection: bool = False
-    #: What a file of arrays holds.
     _arrays: tuple[str, ...] = ("image", "value", "position", "arc_length", "folded")
 
     def __init__(
@@ -104,7 +103,6 @@ class Reformation:
     def image(self) -> npt.NDArray[np.uint8]:
         """RGBA picture, uint8, shape (H, W, 4); what lies outside the volume is transparent."""
         made = self._look(self.settings, "image", "value")
-        # One look gives both.
         self.__dict__.setdefault("value", made["value"])
         image: npt.NDArray[np.uint8] = made["image"]
         return image
@@ -202,7 +200,7 @@ class Reformation:
         volume, window = self._renderer.volume, self.shown_window
         words = [self._title()]
         words += [] if window is None else [window_words(window)]
-        # On a narrow picture the sentence would cover what it is about; the file tells it too.
+        # On a narrow picture the sentence would cover what it is about; the file states it too.
         words += [self.recipe.axes] if self.size[0] >= _WIDE else []
         letters = self._edges() if volume is not None and volume.states_orientation else {}
         has_scale = self.measurable and volume is not None and volume.states_spacing
@@ -226,7 +224,7 @@ class Reformation:
         other_patient: bool = False,
         compress: bool = False,
     ) -> None:
-        """Write the picture, or with the ending ``.npz`` all arrays; a file appears only once it is whole.
+        """Write the picture, or with the ending ``.npz`` all arrays; a file appears only when complete.
 
         Parameters
         ----------

@@ -1,4 +1,4 @@
-"""What a picture of a reformation says of itself: in words what its axes are, and how it was made.
+"""The text in a picture of a reformation: its axes, and how it was made.
 
 It names no file and no vessel, and takes over nothing that the files say of the patient or the scan.
 """
@@ -19,7 +19,6 @@ from lumencut.errors import CameraError, FormatError, SettingsError
 from lumencut.picture_text import KEYWORD, plain_settings, settings_of, text_of
 from lumencut.settings import Settings
 
-#: The version of what the text holds.
 _FORMAT = 1
 
 
@@ -30,7 +29,7 @@ class ReformationRecipe:
     Attributes
     ----------
     name : str
-        What the reformation is called, such as ``"straightened CPR"``.
+        The name of the reformation, such as ``"straightened CPR"``.
     axes : str
         What rows and columns are, in words.
     parameters : dict
@@ -46,7 +45,7 @@ class ReformationRecipe:
 
 
 def camera_parameters(camera: Camera) -> dict[str, Any]:
-    """Return a camera as the parameters of a recipe hold it: the arguments that make it anew."""
+    """Return a camera as parameters of a recipe: the arguments of its constructor."""
     vectors = {name: np.asarray(getattr(camera, name)).tolist() for name in ("center", "direction", "up")}
     return {**vectors, "size": list(camera.size), "pixel_spacing": camera.pixel_spacing}
 
@@ -96,7 +95,7 @@ def read_reformation_recipe(path: str | Path) -> tuple[ReformationRecipe, Settin
     Raises
     ------
     FormatError
-        For a file that is no whole PNG, was not written by Lumencut, or shows no reformation.
+        For an incomplete PNG, one not written by Lumencut, or one without a reformation.
     FileError
         For a file that cannot be read.
     """

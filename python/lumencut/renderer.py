@@ -46,7 +46,7 @@ class Renderer:
     device : {"auto", "cpu", "gpu"}, default "auto"
         What computes. ``"auto"`` takes the first GPU of :func:`lumencut.devices` that is hardware, and the
         CPU where there is none; where the GPU fails, or has no room for the scene, the CPU renders that view
-        and all further ones, and says so once with a :class:`DeviceWarning`. ``"gpu"`` takes the first GPU,
+        and all further ones, and warns once with a :class:`DeviceWarning`. ``"gpu"`` takes the first GPU,
         software too, and raises what goes wrong on it. The pictures are the same but for rounding.
 
     Raises
@@ -156,18 +156,18 @@ class Renderer:
         Parameters
         ----------
         camera : Camera, optional
-            The view; from the front, fitted to the tree or else the volume, where not given.
+            The view; from the front, fitted to the tree or else the volume by default.
         settings : Settings, optional
-            The knobs; their defaults where not given. Without a tree those of the cut surface do nothing.
+            The settings; defaults if omitted. Without a tree those of the cut surface do nothing.
         images : iterable of str, optional
             The images that the frame is to have, of ``"image"``, ``"depth"``, ``"vessel"``, ``"distance"``,
-            ``"value"`` and ``"context"``; all where not given. On a GPU each one that is not asked for saves
+            ``"value"`` and ``"context"``; all by default. On a GPU each one that is not asked for saves
             its way back. ``Frame.position`` needs the depth. The distance is computed at once where it is
             named here; where nothing is, ``Frame.distance`` may compute it when it is first asked for.
         progress : callable, optional
             Called with (done, total) about every 50 ms, and once at the end: how much of the view is
-            rendered, in parts of which the total is always 1000. A GPU tells nothing before the end of each
-            sample. What it raises ends the rendering.
+            rendered, in parts of which the total is always 1000. A GPU reports nothing before the end of each
+            sample. An exception from it ends the rendering.
 
         Raises
         ------
@@ -179,7 +179,7 @@ class Renderer:
             For an image of another name, without a tree for settings without a context, or for a
             ``context_step`` too small for the volume.
         DeviceError
-            With the device ``"gpu"`` where the GPU fails or has no room; a further view starts it anew.
+            With the device ``"gpu"`` where the GPU fails or has no room; a further view starts it again.
         KeyboardInterrupt
             At Ctrl-C; the renderer can be used again.
         """
@@ -235,8 +235,8 @@ class Renderer:
         arrays = {f"_{name}": array for name, array in buffers.items() if name != "timings"}
         if asked is None:
             arrays["_distance"] = lambda: core.render(None, camera, used, ["distance"])["distance"]
-        told = None if asked is None else tuple(asked)
-        return Frame(camera, buffers["timings"], **arrays, _asked=told, _source=source)
+        requested = None if asked is None else tuple(asked)
+        return Frame(camera, buffers["timings"], **arrays, _asked=requested, _source=source)
 
     def _with_source(
         self, settings: Settings, asked: list[str] | None, method: str = "csr"
@@ -284,7 +284,7 @@ class Renderer:
         return camera or Camera.anterior(self._scene), self._choosing(settings or Settings())
 
     def _choosing(self, settings: Settings) -> Settings:
-        """The settings with ids in the place of names of chosen vessels; a word that is a name is no id."""
+        """The settings with ids instead of names of chosen vessels; a word that is a name is no id."""
         words, tree = settings.focus_vessels, self._tree
         if not words:
             return settings
@@ -322,7 +322,7 @@ class Renderer:
 
 
 def check_renderer(renderer: Any) -> None:
-    """Refuse what is no renderer."""
+    """Reject anything but a renderer."""
     if not isinstance(renderer, Renderer):
         raise SettingsError("renderer", type(renderer).__name__, "a Renderer")
 
@@ -342,11 +342,11 @@ def render(
     volume : Volume, an image of SimpleITK, itk, nibabel or vtk, or datasets of pydicom
         The angiography.
     tree : VesselTree, optional
-        Its centerlines; the context alone is shown where not given.
+        Its centerlines; the context alone is shown by default.
     camera : Camera, optional
-        The view; from the front, fitted to the tree or else the volume, where not given.
+        The view; from the front, fitted to the tree or else the volume by default.
     settings : Settings, optional
-        The knobs; their defaults, with windows from the data, where not given.
+        The settings; by default with windows from the data.
     progress : callable, optional
         Called with (done, total) while it renders, as by :meth:`Renderer.render`.
     """

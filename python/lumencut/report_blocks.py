@@ -1,4 +1,4 @@
-"""A report of measured vessels as what it consists of: headings, paragraphs, tables and pictures in order."""
+"""A report of measured vessels as a list of headings, paragraphs, tables and pictures."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ def blocks_of(html: str) -> list[Block]:
 
 
 class _Reader(HTMLParser):
-    """Follows the report; what its plots draw is left to whoever shows them."""
+    """Lays out the report; the host draws its plots."""
 
     def __init__(self) -> None:
         super().__init__()

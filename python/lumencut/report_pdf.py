@@ -55,7 +55,7 @@ def report_pdf(html: str, measured: Sequence[Plotted]) -> bytes:
     html : str
         What :func:`lumencut.measure_report.report` wrote of the vessels.
     measured : sequence of Plotted
-        The vessels, such as MeasuredVessel, whose plots are drawn anew.
+        The vessels, such as MeasuredVessel, whose plots are drawn again.
 
     Raises
     ------
@@ -71,7 +71,7 @@ def report_pdf(html: str, measured: Sequence[Plotted]) -> bytes:
     about = {"Title": "Lumencut: measured vessels", "Creator": software, "CreationDate": None}
     # Fonts as they are, not as drawings of letters; text in them is found and copied.
     with mpl.rc_context({"pdf.fonttype": 42}), warnings.catch_warnings():
-        # A letter that the font lacks is a box; readers are not told of fonts.
+        # A letter that the font lacks becomes a box, without a warning of the font library.
         warnings.filterwarnings("ignore", message="Glyph .* missing")
         with PdfPages(content, metadata=about) as pages:
             sheet = _Sheet(pages)
@@ -182,7 +182,7 @@ class _Sheet:
         self._top -= 0.45
 
     def pictures(self, blocks: list[Block]) -> None:
-        """Put pictures beside each other, each above its caption."""
+        """Put pictures side by side, each above its caption."""
         wide = (_WIDTH - 2 * _MARGIN) / _IN_A_ROW - 0.1
         for start in range(0, len(blocks), _IN_A_ROW):
             row = blocks[start : start + _IN_A_ROW]

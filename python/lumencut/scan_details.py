@@ -1,4 +1,4 @@
-"""How a scan was made, as far as numbers measured in it depend on that."""
+"""Acquisition details of a scan that affect measured numbers."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ from lumencut._pickles import by_name
 @by_name
 @dataclass(frozen=True)
 class ScanDetails:
-    """What a file tells of how its scan was made; None of what it does not tell, or not alike for all slices.
+    """Acquisition details from a file; None for those that are missing or differ between slices.
 
-    DICOM tells it, other formats do not, and of anonymised files a part may be missing. Nothing of it names a
-    patient; the description of a series is what the scanner or somebody at it wrote.
+    Only DICOM has them, and anonymised files may lack some. They do not name a patient; the description of a
+    series was written at the scanner.
 
     Attributes
     ----------

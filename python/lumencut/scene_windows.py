@@ -35,7 +35,7 @@ class SceneWindows:
         return Window.from_data(self._shown, self._tree)
 
     def used(self, settings: Settings, *, has_tree: bool) -> Settings:
-        """Return the settings with a window in the place of each that is left to the data or has a name."""
+        """Return the settings with a window for each that is a name or left to the data."""
         window, context_window = map(self._known, (settings.window, settings.context_window))
         if window is None and has_tree:
             window = self.main

@@ -1,4 +1,4 @@
-"""The vessels that hang together with the one that a seed lies in."""
+"""The vessels that are connected to the one that a seed lies in."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ def trace_from(
     smallest_radius: float = 1.0,
     progress: Callable[[int, int], object] | None = None,
 ) -> VesselTree:
-    """Find the vessels that hang together with the one that a point lies in.
+    """Find the vessels that are connected to the one that a point lies in.
 
     All vessels of the scan are found as :func:`lumencut.find_vessels` does, and the seed chooses among them:
     the part that has the vessel nearest to it, up to 1.5 radii or a voxel away. So every seed in one part
@@ -32,7 +32,7 @@ def trace_from(
 
     Parameters
     ----------
-    volume : Volume, or whatever else :func:`lumencut.render` takes as one
+    volume : Volume, or anything :func:`lumencut.render` takes as one
         The angiography; lumen must be brighter than the tissue around it.
     seed : array_like, shape (3,)
         A point in a vessel (mm, LPS). It need not be central.
@@ -59,7 +59,7 @@ def trace_from(
     SettingsError
         For a smallest radius below 0.
     VolumeError
-        For what is no volume.
+        For anything that is not a volume.
     """
     place = numbers(TracingError, "seed", seed, (3,))
     smallest = checked_radius(smallest_radius)

@@ -1,7 +1,7 @@
-"""Session files: what a reader made of a scan in the viewer, for the command line to go on with.
+"""Session files: the work of a reader on a scan in the viewer, for use on the command line.
 
-A session file is a 3D Slicer markups file, so :func:`lumencut.read_centerlines` reads its vessels. Beside
-them it holds colours, marks and the view, which are read here. The core checks the whole of it.
+A session file is a 3D Slicer markups file, so :func:`lumencut.read_centerlines` reads its vessels. It
+also holds colours, marks and the view, which are read here. The core checks the whole of it.
 """
 
 from __future__ import annotations
@@ -28,14 +28,14 @@ _MEND = "save the session again in the viewer"
 
 @dataclass(frozen=True)
 class SessionFile:
-    """What a session file holds beside the lines of its vessels.
+    """The content of a session file other than the lines of its vessels.
 
     Attributes
     ----------
     path : Path
         The file.
     recipe : Recipe or None
-        How the scan was looked at; None where the file does not say.
+        The view; None if the file has none.
     marks : tuple of Marked
         What was marked on each vessel, in the order of the file.
     hidden : tuple of int
@@ -53,7 +53,7 @@ class SessionFile:
 
 
 def is_session_file(path: Path) -> bool:
-    """Tell whether a file that can be read is a session file; others are for their own readers to refuse."""
+    """Return whether a readable file is a session file; other readers report the rest."""
     if path.suffix.lower() != ".json":
         return False
     try:
@@ -63,7 +63,7 @@ def is_session_file(path: Path) -> bool:
 
 
 def read_session(path: str | Path) -> SessionFile:
-    """Return what a session file holds beside its vessels.
+    """Return the content of a session file other than its vessels.
 
     Raises
     ------
@@ -111,7 +111,7 @@ def _recipe(path: Path, view: dict[str, Any], vessels: int) -> Recipe:
 
 
 def view_settings(method: str, given: dict[str, Any]) -> Settings:
-    """Return the settings of a view of the viewer, which tells those that differ from the usual ones.
+    """Return the settings of a view of the viewer, which lists those that differ from the defaults.
 
     Parameters
     ----------
@@ -123,7 +123,7 @@ def view_settings(method: str, given: dict[str, Any]) -> Settings:
     Raises
     ------
     SettingsError, TypeError, ValueError
-        For values that are none of a setting.
+        For invalid values of a setting.
     """
     make = Settings.paper if method == "csr-paper" else Settings
     return make(**{name: _made(name, value) for name, value in given.items()})

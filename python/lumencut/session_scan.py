@@ -1,4 +1,4 @@
-"""Whether a session file was made of the scan that it is read beside."""
+"""Whether a session file belongs to the scan that it is read with."""
 
 from __future__ import annotations
 
@@ -17,16 +17,16 @@ _STEPS = 2.0
 
 
 def other_scan(content: bytes, name: str, volume: Volume) -> str | None:
-    """Say in a sentence that a session is of another scan; None where it is not, or does not say of which.
+    """Return a sentence if a session belongs to another scan; None otherwise, or if unknown.
 
     Parameters
     ----------
     content : bytes
         The content of the file.
     name : str
-        What the file is called.
+        The name of the file.
     volume : Volume
-        The scan that it is read beside.
+        The scan that it is read with.
     """
     if not _lumencut.is_session_file(content):
         return None

@@ -25,11 +25,9 @@ _Settings = TypeVar("_Settings")
 _HEAD = "# Settings of Lumencut. A setting that is left out has its default."
 _LARGEST = 1 << 20
 _WIDTH = 100
-#: Stands for None.
 _NONE = "none"
 _EXPECTED = "a settings file, such as lumencut settings writes"
 
-#: What is written as a table, and the names in it.
 _TABLES: dict[str, tuple[Callable[..., Any], tuple[str, ...]]] = {
     "window": (Window, ("level", "width")),
     "opacity": (Opacity, ("transparent", "opaque")),
@@ -64,7 +62,7 @@ def settings_text(settings: Any) -> str:
 
 
 def write_settings(settings: Any, path: str | os.PathLike[str]) -> None:
-    """Write settings as a file, which appears only once it is whole."""
+    """Write settings as a file, which appears only when complete."""
     text = settings_text(settings)
     replace_whole(checked_path(path, WRITABLE), lambda place: place.write_text(text, "utf-8"))
 

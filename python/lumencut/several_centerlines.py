@@ -54,13 +54,13 @@ class CenterlineFiles:
     ) -> VesselTree:
         """Give the vessels of all files in world space, as `read_centerlines` does."""
         volume = None if volume is None else as_volume(volume)
-        return self.joined([file.beside(volume, coordinates, unit, reorder=reorder) for file in self._files])
+        return self.joined([file.within(volume, coordinates, unit, reorder=reorder) for file in self._files])
 
     def __iter__(self) -> Iterator[CenterlineFile]:
         return iter(self._files)
 
     def joined(self, read: Sequence[tuple[VesselTree, CenterlineReport]]) -> VesselTree:
-        """Return one tree of what was read of each file."""
+        """Return one tree of all files."""
         self._compare([report for _, report in read])
         tree = VesselTree(
             vessel
@@ -70,12 +70,12 @@ class CenterlineFiles:
         tree._space_settled = all(part._space_settled for part, _ in read)
         settle(tree)
         owner = [number for number, (part, _) in enumerate(read) for _ in part]
-        across = [doubt for doubt in line_doubts(tree, beside=True) if _is_across(doubt, owner)]
+        across = [doubt for doubt in line_doubts(tree, parallel=True) if _is_across(doubt, owner)]
         warn_of(across, "centerline files")
         return tree
 
     def _compare(self, reports: Sequence[CenterlineReport]) -> None:
-        """Say where a file was taken for LPS for want of anything better, beside files that are not LPS."""
+        """Warn if a file was assumed to be LPS while others are not LPS."""
         pairs = list(zip(self._files, reports, strict=True))
         assumed = [file for file, report in pairs if report.space_from == "assumed"]
         for other, report in pairs:
@@ -88,7 +88,7 @@ class CenterlineFiles:
 
 
 def _called(part: VesselTree, path: Path) -> Iterable[Vessel]:
-    """The vessels of a file, of which a single one without a name is called as the file."""
+    """The vessels of a file; a single one without a name gets the name of the file."""
     if len(part) > 1 or part[0].name is not None:
         return part
     name = path.name.removesuffix(path.suffix)

@@ -19,7 +19,6 @@ from lumencut.settings import Settings
 from lumencut.vessel import Vessel
 from lumencut.vessel_tree import VesselTree
 
-#: How samples lie on the spirals.
 SAMPLINGS = ("arc", "angle")
 
 #: The areas that a ruler can have (mm²), and the widest ruler as a share of the picture.
@@ -29,7 +28,7 @@ _AREAS, _WIDEST = (1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000), 0.4
 #: The most columns that a default pitch makes.
 _MOST_COLUMNS = 16_000
 
-#: The coarsest pixels where the caller names none (mm).
+#: Largest default pixel side (mm).
 _COARSEST = 0.5
 
 
@@ -62,7 +61,7 @@ class SpiralReformation(Reformation):
         super().__init__(renderer, core, given, recipe, measurable=False)
 
     def area(self, columns: int) -> float:
-        """Return the area in a section (mm²) that so many columns of a row stand for.
+        """Return the area in a section (mm²) that this number of columns of a row represents.
 
         Raises
         ------
@@ -120,12 +119,12 @@ def spiral(
 
     Parameters
     ----------
-    volume : Volume, or whatever else :func:`lumencut.render` takes as a volume
+    volume : Volume, or anything :func:`lumencut.render` takes as a volume
         The angiography.
     vessel : Vessel
         The centerline; :meth:`VesselTree.path` makes one of several vessels that meet.
     pitch : float, optional
-        The distance of neighbouring windings (mm); a quarter of the vessel's median radius where not given,
+        The distance of neighbouring windings (mm); a quarter of the vessel's median radius by default,
         but no less than the smallest side of a voxel, and no finer than fits into 16,000 columns.
     radius : float, optional
         How far from the vessel the windings reach (mm); 1.25 times its largest radius and 2 mm more where not
@@ -134,7 +133,7 @@ def spiral(
         ``"arc"``: samples are a pixel apart along the spirals. ``"angle"``: they are an even angle apart, so
         that every winding has the same width.
     pixel_spacing : float, optional
-        Side of a pixel (mm); the smallest side of a voxel where not given, but no more than 0.5 mm.
+        Side of a pixel (mm); the smallest side of a voxel by default, at most 0.5 mm.
     angle : float, default 0
         The angle by which sections are turned (radians): 0 begins to the right of the straightened CPR.
     up : array_like, shape (3,), default (0, 0, 1)
@@ -147,7 +146,7 @@ def spiral(
     settings : Settings, optional
         Window, opacity, background and slab.
     degrees : float, optional
-        The angle in degrees, in the place of ``angle``.
+        The angle in degrees, instead of ``angle``.
     device : {"auto", "cpu", "gpu"}, default "auto"
         What computes, as for :class:`lumencut.Renderer`.
 
@@ -156,7 +155,7 @@ def spiral(
     VesselTreeError
         For a vessel of another kind, without length, or without radii where pitch or radius is not given.
     CameraError
-        For lengths that are none, and for an image of too many pixels: it names a pitch that fits.
+        For lengths that are invalid, and for an image of too many pixels: it names a pitch that fits.
     SettingsError
         For another sampling, or a smoothing out of range.
     VolumeError

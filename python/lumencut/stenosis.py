@@ -11,7 +11,6 @@ from lumencut.errors import SettingsError
 
 Method: TypeAlias = Literal["nascet", "ecst", "area"]
 
-#: How a stenosis can be graded.
 METHODS: tuple[Method, ...] = ("nascet", "ecst", "area")
 
 
@@ -27,7 +26,7 @@ class Stenosis:
         self._numbers = graded.numbers()
 
     def __getstate__(self) -> Any:
-        """Return what is copied or pickled: plain values."""
+        """Return the state to copy or pickle: plain values."""
         return _lumencut.stored_stenosis(self._graded)
 
     def __setstate__(self, state: Any) -> None:
@@ -40,7 +39,7 @@ class Stenosis:
 
     @property
     def percent_uncertainty(self) -> float:
-        """The standard deviation of the percentage, in percent; NaN where nothing tells it.
+        """The standard deviation of the percentage, in percent; NaN if unknown.
 
         What is wrong of the point spread or of the wall is wrong at the place and its reference together.
         """
@@ -81,7 +80,7 @@ class Stenosis:
 
     @property
     def doubts(self) -> tuple[str, ...]:
-        """What makes the percentage doubtful, a sentence each; empty where nothing does.
+        """Doubts about the percentage, a sentence each; empty if none.
 
         The flags of the sections at the places that it comes from (:class:`lumencut.Flag`), and a branch
         between the place and a reference. With ``"ecst"`` the percentage comes from the place alone.

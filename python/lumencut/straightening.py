@@ -15,7 +15,7 @@ from lumencut._files import WRITABLE, checked_path
 from lumencut._reformation_checks import check_vessel
 from lumencut.errors import CameraError
 from lumencut.frame import check_dicom_alone
-from lumencut.mends import told
+from lumencut.mends import advised
 from lumencut.planar_reformation import PlanarReformation, cpr_of, one_angle
 from lumencut.renderer import Renderer
 from lumencut.vessel import Vessel
@@ -55,7 +55,7 @@ class StraightenedVolume:
     def __init__(self, volume: Volume, surface: PlanarReformation, mark: str) -> None:
         self.volume: Volume = volume
         found = _lumencut.straightened_mark(mark)
-        assert found is not None, "the core reads what it writes"
+        assert found is not None, "the core reads its own output"
         self.sides: str = found[0]
         self.notes: tuple[str, ...] = tuple(found[1])
         self._core, self._surface, self._mark = surface._core, surface, mark
@@ -89,10 +89,10 @@ class StraightenedVolume:
         anonymous: bool = False,
         other_patient: bool = False,
     ) -> None:
-        """Write the volume as ``.nrrd``, ``.nii`` or ``.nii.gz``; the file appears only once it is whole.
+        """Write the volume as ``.nrrd``, ``.nii`` or ``.nii.gz``; the file appears only when complete.
 
         A name without an ending is a folder, which must not be there yet: a series of derived CT or MR images
-        is written into it, one for each section, with a frame of reference of its own. The letters of sides
+        is written into it, one for each section, with its own frame of reference. The letters of sides
         that viewers show on them are those of the straightened patient. Each file also says its
         :attr:`notes`, which ``lumencut info`` repeats.
 
@@ -184,7 +184,7 @@ def straightened_volume(
     columns, sections = surface.size
     if columns * columns * sections > _MOST_VOXELS:
         found = f"{columns} × {columns} × {sections} voxels"
-        mend = told("", [("fewer_pixels", ())])
+        mend = advised("", [("fewer_pixels", ())])
         raise CameraError("size of the straightened volume", found, f"at most {_MOST_VOXELS}", mend)
     step = surface.pixel_spacing
     side = (np.arange(columns) - columns // 2) * step

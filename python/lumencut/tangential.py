@@ -1,4 +1,4 @@
-"""Tangential CPR: one vessel as a camera sees it, with what lies beside each of its places, as deep as it."""
+"""Tangential CPR: one vessel in a camera view, with the tissue at the same depth next to each place."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ class TangentialReformation(Reformation):
         angle : float
             By how much (radians), as for :meth:`Camera.rotated`.
         degrees : float
-            The angle in degrees, in the place of ``angle``.
+            The angle in degrees, instead of ``angle``.
 
         Raises
         ------

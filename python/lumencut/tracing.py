@@ -44,7 +44,7 @@ def trace(
 
     Parameters
     ----------
-    volume : Volume, or whatever else :func:`lumencut.render` takes as one
+    volume : Volume, or anything :func:`lumencut.render` takes as one
         The angiography; lumen must be brighter than the tissue around it.
     points : array_like, shape (n, 3), or a sequence of several such
         Two or more points in order along one vessel (mm, LPS), or a list of them for each of several vessels.
@@ -55,8 +55,8 @@ def trace(
     stopper_radius : float, default 3.0
         How far around a stopper is forbidden (mm).
     bridge : bool, default False
-        Whether vessels may go on where no lumen is to be seen, as in an occlusion. Without it a stretch of
-        more than 5 mm is an error, and one of more than 1.2 mm where the vessel does not go on in the same
+        Whether vessels may continue where no lumen is to be seen, as in an occlusion. Without it a stretch of
+        more than 5 mm is an error, and one of more than 1.2 mm where the vessel does not continue in the same
         direction.
     names : sequence of str or None, optional
         The names of the vessels.
@@ -74,7 +74,7 @@ def trace(
         For points outside the volume or not in lumen, equal points, and points between which there is no
         lumen: the error names the weakest place, what the volume has there, and what was expected.
     VolumeError
-        For what is no volume.
+        For anything that is not a volume.
     """
     tracer = Tracer(volume, bridge=bridge)
     for vessel, listed in enumerate(_lists(points)):
@@ -93,12 +93,12 @@ class Tracer:
 
     Asked for its :attr:`tree` after a change, it finds the ways between points next to the change again and
     keeps those of all other points. Lines may differ from those of :func:`trace` by small parts of a voxel:
-    what lumen looks like is not judged anew as long as all points fit. Changes must not come from several
+    what lumen looks like is not judged again as long as all points fit. Changes must not come from several
     threads at a time.
 
     Parameters
     ----------
-    volume : Volume, or whatever else :func:`lumencut.render` takes as one
+    volume : Volume, or anything :func:`lumencut.render` takes as one
         The angiography. Its voxels must not change as long as the tracer is used.
     bridge : bool, default False
         As for :func:`trace`.
@@ -106,7 +106,7 @@ class Tracer:
     Raises
     ------
     VolumeError
-        For what is no volume.
+        For anything that is not a volume.
     """
 
     def __init__(self, volume: Volume | Any, *, bridge: bool = False) -> None:

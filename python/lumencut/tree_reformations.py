@@ -16,7 +16,6 @@ from lumencut.vessel_tree import VesselTree
 #: The thresholds of CR (pixels): those of the picture of the neck in the paper of CSR (its Fig. 8).
 RADIUS_OFFSET, ARC_THRESHOLD = 50.0, 150.0
 
-#: mpCPR as the renderer takes it.
 MPCPR = ("mpcpr",)
 
 
@@ -52,11 +51,11 @@ def mpcpr(
     tree : VesselTree
         Its centerlines.
     camera : Camera, optional
-        The view; from the front, fitted to the tree, where not given.
+        The view; from the front, fitted to the tree by default.
     settings : Settings, optional
-        The knobs; their defaults, with windows from the data, where not given. Those that make the cut
+        The settings; by default with windows from the data. Those that make the cut
         surface of CSR do nothing but for ``centerline_smoothing``, ``silhouette_rule``, and
-        ``unknown_radius``, which tells silhouettes what is lumen. There is no depth filter, silhouettes are
+        ``unknown_radius``, which defines the lumen for silhouettes. There is no depth filter, silhouettes are
         drawn everywhere, and a focus and chosen vessels are refused.
     device : {"auto", "cpu", "gpu"}, default "auto"
         What shows the volume, as for :class:`Renderer`; where the pixels look the CPU finds.
@@ -66,7 +65,7 @@ def mpcpr(
     Frame
         Its images are those of every frame, each (H, W). In rows that no vessel crosses there is nothing:
         ``vessel`` is -1, ``depth``, ``position`` and ``value`` are NaN, and the picture shows the context, or
-        else the background. ``folded`` tells where several points of one vessel share the row, of which the
+        else the background. ``folded`` shows where several points of one vessel share the row, of which the
         nearest along the row is shown.
 
     Raises
@@ -106,8 +105,8 @@ def cr(
         How much larger than the vessel its disc is (pixels), 0 or more.
     arc_threshold : float, default 150
         Up to how far from each other along the tree, through its junctions, two places belong to one stretch
-        (pixels of arc length), 0 or more. Within a stretch the nearer one in the image is shown, whatever the
-        depth.
+        (pixels of arc length), 0 or more. Within a stretch the nearer one in the image is shown, regardless
+        of the depth.
 
     Returns
     -------

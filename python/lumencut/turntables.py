@@ -41,9 +41,9 @@ def turntable(
         The scene.
     camera : Camera, optional
         The first view; it turns about its center. From the front and fitted to the turn of the renderer's
-        scene where not given.
+        scene by default.
     settings : Settings, optional
-        The knobs; their defaults where not given.
+        The settings; defaults if omitted.
     frames : int, default 72
         How many frames. Whole turns leave out the last one, which would repeat the first.
     degrees : float, default 360
@@ -80,7 +80,7 @@ def fitted_turn(camera: Camera, scene: Any, degrees: float = 360.0, axis: Axis =
     ----------
     camera : Camera
         The first view; its direction, up and size are kept.
-    scene : VesselTree, Vessel, Volume, or whatever else :func:`lumencut.render` takes as a volume
+    scene : VesselTree, Vessel, Volume, or anything :func:`lumencut.render` takes as a volume
         What is to fit.
     degrees, axis
         As for :func:`turntable`.
@@ -124,7 +124,7 @@ def save_animation(
     grey: bool = False,
     compress: bool = False,
 ) -> None:
-    """Write frames as an animation that appears only once it is whole.
+    """Write frames as an animation that appears only when complete.
 
     Parameters
     ----------

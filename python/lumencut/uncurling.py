@@ -1,4 +1,4 @@
-"""Uncurl: one vessel with its surroundings on the way from what a camera sees to the straightened CPR."""
+"""Uncurl: one vessel with its surroundings between the camera view and the straightened CPR."""
 
 from __future__ import annotations
 
@@ -21,7 +21,6 @@ from lumencut.settings import Settings
 from lumencut.vessel import Vessel
 from lumencut.vessel_tree import VesselTree
 
-#: The most frames of a film.
 _MOST_FRAMES = 10_000
 
 
@@ -40,7 +39,7 @@ class Uncurled(Reformation):
     camera : Camera
         The view.
     width : float or None
-        How far apart the outermost pixels beside the vessel are that show something (mm); None shows all.
+        Width around the vessel that shows something (mm); None shows all.
     """
 
     _core: _lumencut.Uncurl
@@ -97,18 +96,18 @@ def uncurl(
     """Return a vessel with its surroundings, straightened by an amount (ours).
 
     The curvature of the vessel, in the frame that does not turn about it, is made smaller by the amount, and
-    the vessel is drawn anew with it: its lengths stay true, and a helix stays a helix of the same torsion.
+    the vessel is drawn again with it: its lengths stay true, and a helix stays a helix of the same torsion.
     Its line from end to end turns from its own direction to downwards. Each pixel takes the nearest place of
     the bent vessel in the image, and what lies as far beside that place of the true one.
 
     Parameters
     ----------
-    volume : Volume, or whatever else :func:`lumencut.render` takes as a volume
+    volume : Volume, or anything :func:`lumencut.render` takes as a volume
         The angiography.
     vessel : Vessel
         The centerline; :meth:`VesselTree.path` makes one of several vessels that meet.
     camera : Camera, optional
-        The view; from the front where not given, with room for the vessel at every amount.
+        The view; from the front by default, with room for the vessel at every amount.
     amount : float, default 0.5
         From 0, the tangential CPR of ``cpr(mode="tangential", camera=camera)``, to 1, the straightened CPR of
         ``cpr(mode="straightened", normal=-camera.direction)``.
@@ -116,12 +115,12 @@ def uncurl(
         How far apart the outermost pixels beside the vessel are that show something (mm); all where not
         given.
     pixel_spacing : float, optional
-        Side of a pixel (mm) in the place of the camera's, whose image keeps the length of its sides.
+        Side of a pixel (mm) instead of the camera's, whose image keeps the length of its sides.
     smoothing : float, default 0
         Standard deviation of the Gaussian that smooths the centerline along its length (mm, 0 to 1000).
     slab : Slab, (mm, mode) or mm, optional
         How thick the image is along the view, in the true surroundings of each place; that of the settings
-        where not given.
+        by default.
     settings : Settings, optional
         Window, opacity and slab; a focus and chosen vessels are refused.
     device : {"auto", "cpu", "gpu"}, default "auto"
@@ -132,7 +131,7 @@ def uncurl(
     VesselTreeError
         For a vessel of another kind, without length, or wholly outside the volume.
     CameraError
-        For a camera of another kind, a width that is not above 0, or a pixel spacing that is none.
+        For a camera of another kind, a width that is not above 0, or a pixel spacing that is invalid.
     SettingsError
         For an amount outside 0 to 1, a smoothing out of range, an invalid slab, or a focus.
     VolumeError

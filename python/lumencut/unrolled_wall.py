@@ -129,11 +129,11 @@ class LumenMap(Reformation):
         Parameters
         ----------
         mode : {"wall", "radius", "thickness", "shaded"}, optional
-            What is shown; as it is where not given.
+            What is shown; as it is by default.
         angle : float, optional
-            The direction of the middle column (radians); as it is where not given.
+            The direction of the middle column (radians); as it is by default.
         degrees : float, optional
-            The angle in degrees, in the place of ``angle``.
+            The angle in degrees, instead of ``angle``.
 
         Raises
         ------
@@ -161,7 +161,7 @@ class LumenMap(Reformation):
 
     @property
     def shown_window(self) -> Window | None:
-        """The window of ``"wall"``; None in the other modes, whose picture has a scale of its own."""
+        """The window of ``"wall"``; None in the other modes, whose picture has its own scale."""
         return super().shown_window if self.mode == "wall" else None
 
     @functools.cached_property

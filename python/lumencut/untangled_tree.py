@@ -60,7 +60,7 @@ class UntangledTree(Reformation):
     Each pixel belongs to the nearest vessel in the image, up to the width on each side. A world point lies
     where the image shows it; NaN where it does not. A pixel is folded where lines across its vessel have met
     before they reach it, or where another part of the tree is nearer in the body: there the same tissue is
-    shown beside that part too.
+    shown next to that part too.
 
     Attributes
     ----------
@@ -162,7 +162,7 @@ def _draw_turn(sheet: Any, part: LaidOut) -> None:
     """Draw the arc from where a part would begin to where it begins, and its degrees."""
     line = part.pixels[::-1] if part.is_reversed else part.pixels
     (column, row), radius = line[0], _ARC * sheet.line_height
-    # The first place a radius away tells the direction in which the part begins.
+    # The first place a radius away gives the direction in which the part begins.
     distance = np.hypot(*(line - line[0]).T)
     along = line[min(int(np.argmax(distance >= radius)), len(line) - 1) or len(line) - 1] - line[0]
     now = math.atan2(-along[1], along[0])

@@ -40,14 +40,14 @@ def untangled(
 
     Parameters
     ----------
-    volume : Volume, or whatever else :func:`lumencut.render` takes as a volume
+    volume : Volume, or anything :func:`lumencut.render` takes as a volume
         The angiography.
     tree : VesselTree
-        Its centerlines. Cycles are cut open where their longer way ends; parts that do not hang together lie
+        Its centerlines. Cycles are cut open where their longer way ends; parts that are not connected lie
         side by side. Above some 15 vessels a selection, such as ``tree.select``, is easier to read.
     camera : Camera, optional
         From where the tree is seen; its direction and up count, not its place, size or pixels. From the front
-        where not given.
+        by default.
     width : float, default 25
         How far from each vessel the image shows what surrounds it (mm), on each side.
     hull_margin : float, default 2
@@ -56,13 +56,13 @@ def untangled(
         Standard deviation of the Gaussian that smooths the directions in which vessels are seen, along them
         (mm, 0 to 1000). Positions are not smoothed.
     pixel_spacing : float, optional
-        Side of a pixel (mm); the smallest side of a voxel where not given.
+        Side of a pixel (mm); the smallest side of a voxel by default.
     root : array_like, shape (3,), optional
-        A point (mm, LPS) near the end of the vessel from which the tree grows. Where not given, and for parts
+        A point (mm, LPS) near the end of the vessel from which the tree grows. By default, and for parts
         without it, the free end with the largest mean radius over 10 mm; on equal ones that of the smallest
         id, its first point before its last one.
     slab : Slab, (mm, mode) or mm, optional
-        How thick the surface is, and what is shown of its thickness; that of the settings where not given.
+        How thick the surface is, and what is shown of its thickness; that of the settings by default.
     settings : Settings, optional
         Window, opacity, background and slab, and ``unknown_radius`` for vessels without radii. A focus and
         chosen vessels are refused.
@@ -75,7 +75,7 @@ def untangled(
         For a tree of another kind, one that lies wholly outside the volume, a vessel without length, or a
         part that is one loop, without a free end to begin at, where ``root`` names none.
     CameraError
-        For a camera of another kind, a width, margin, smoothing, root or pixel spacing that is none, or an
+        For a camera of another kind, a width, margin, smoothing, root or pixel spacing that is invalid, or an
         image of too many pixels.
     SettingsError
         For another device, a slab that is invalid or not thicker than 0, or a focus.

@@ -1,4 +1,4 @@
-"""Colours for measured values, and what tells a reader which colour is which value."""
+"""Colours for measured values, and their legends."""
 
 from __future__ import annotations
 

@@ -23,13 +23,13 @@ def find_vessels(
     """Find all vessels of an angiography, with no point given.
 
     Tubes that are brighter than what is around them are found at all widths and followed along their middle,
-    each with levels of its own. Those that are bone, organ or noise are left out or told apart as doubtful,
-    the others are joined where they meet, and what hangs together is a part. docs/method/tracing.md
-    describes the steps.
+    each with its own levels. Those that are bone, organ or noise are left out or marked as doubtful,
+    the others are joined where they meet, and connected vessels form a part. The steps are in
+    docs/method/tracing.md.
 
     Parameters
     ----------
-    volume : Volume, or whatever else :func:`lumencut.render` takes as one
+    volume : Volume, or anything :func:`lumencut.render` takes as one
         The angiography; lumen must be brighter than the tissue around it. Nothing depends on the unit of its
         values.
     smallest_radius : float, default 1.0
@@ -42,8 +42,8 @@ def find_vessels(
     -------
     VesselTree
         Whole vessels from their roots outwards, with ``radius`` and ``confidence``, points at most 0.5 mm
-        apart; the first point of a branch is a point of its parent to the bit. :attr:`VesselTree.parts` tells
-        which hang together, the most important part first. :attr:`VesselTree.doubtful` has those that are not
+        apart; the first point of a branch is a point of its parent to the bit. :attr:`VesselTree.parts` lists
+        which are connected, the most important part first. :attr:`VesselTree.doubtful` has those that are not
         sure, :attr:`VesselTree.doubts` says why, and :attr:`VesselTree.notes` which level and contrast
         vessels were found to have. The result is the same for any number of threads.
 
@@ -54,7 +54,7 @@ def find_vessels(
     SettingsError
         For a smallest radius below 0.
     VolumeError
-        For what is no volume.
+        For anything that is not a volume.
     KeyboardInterrupt
         After Ctrl-C.
     """

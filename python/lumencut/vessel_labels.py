@@ -1,4 +1,4 @@
-"""The names of vessels, written beside their ends."""
+"""The names of vessels, written at their ends."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ _Place = tuple[float, float]
 
 
 def write_vessel_names(sheet: Sheet, camera: Camera, ends: tuple[VesselEnd, ...]) -> None:
-    """Write each name beside a dot where its vessel ends, in the order of the tree; see `write_names`."""
+    """Write each name next to a dot where its vessel ends, in the order of the tree; see `write_names`."""
     if ends:
         seen = camera.project(np.array([point for _, point in ends]))
         write_names(
@@ -26,7 +26,7 @@ def write_vessel_names(sheet: Sheet, camera: Camera, ends: tuple[VesselEnd, ...]
 
 
 def write_names(sheet: Sheet, ends: Sequence[tuple[str, _Place]]) -> None:
-    """Write each name beside a dot at its place (pixels), in their order.
+    """Write each name next to a dot at its place (pixels), in their order.
 
     A name stands to the right of its dot, or else to the left, above or below: the first place where it lies
     within the picture and over nothing that was written before, nor over the dot of another name. A name
@@ -46,7 +46,7 @@ def write_names(sheet: Sheet, ends: Sequence[tuple[str, _Place]]) -> None:
 
 
 def _places(dot: _Place, radius: float) -> Iterator[tuple[_Place, str]]:
-    """Where a name may stand beside a dot, the best place first, with Pillow's letters for its own point."""
+    """Possible places of a name next to a dot, the best first, with Pillow's anchors."""
     x, y = dot
     gap = 2 * radius
     yield (x + gap, y), "lm"

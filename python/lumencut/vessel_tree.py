@@ -30,7 +30,7 @@ class VesselTree(Value):
     Forests, cycles and loose pieces are legal. Trees of equal vessels in the same order are equal.
     ``tree[2]`` is the vessel with the id 2, ``tree["LAD"]`` the one with that name. Names need not be unique:
     one that several vessels have is a ``VesselTreeError`` that gives their ids, as is one that no vessel has;
-    it is a ``KeyError`` too. ``"LAD" in tree`` tells whether any vessel has the name.
+    it is a ``KeyError`` too. ``"LAD" in tree`` tests whether any vessel has the name.
 
     Parameters
     ----------
@@ -127,12 +127,12 @@ class VesselTree(Value):
 
         Parameters
         ----------
-        volume : Volume, or whatever else :func:`lumencut.render` takes as one
+        volume : Volume, or anything :func:`lumencut.render` takes as one
             The angiography.
         step : float, default 0.5
             The distance of sections (mm), at most.
         fwhm : float, optional
-            As for :func:`lumencut.measure`; where not given, the widest vessel that tells it does so for all.
+            As for :func:`lumencut.measure`; by default, estimated from the widest suitable vessel.
         wall : pair of float or "off", optional
             The level of walls, as for :func:`lumencut.measure`.
         progress : callable, optional
@@ -143,7 +143,7 @@ class VesselTree(Value):
         SettingsError
             For an invalid step, wall or width of the point spread.
         VolumeError
-            For what is no volume.
+            For anything that is not a volume.
         KeyboardInterrupt
             After Ctrl-C.
         """
@@ -163,7 +163,7 @@ class VesselTree(Value):
         return sorted(self._ids(vessels))
 
     def select(self, *vessels: SupportsIndex | str) -> VesselTree:
-        """Return a tree of these vessels alone; they keep their order in this tree, and their ids count anew.
+        """Return a tree of these vessels only, in their order in this tree, with new ids.
 
         Parameters
         ----------
@@ -190,7 +190,7 @@ class VesselTree(Value):
         ----------
         ids : iterable of int or str
             Ids and names in their order along the path. Each vessel begins where the one before ends,
-            whatever the order of its own points: ends no farther apart than 0.1 mm meet, and are one point.
+            regardless of the order of its points: ends at most 0.1 mm apart meet, and become one point.
             Where a branch begins at a point between the ends of its parent, the path leaves the parent there:
             it comes from the first point of the parent, or from the vessel before it.
 
@@ -227,7 +227,7 @@ class VesselTree(Value):
     def cut(self, vessel: SupportsIndex | str, at: float) -> VesselTree:
         """Return the tree with a vessel cut in two; both parts have the point where it was cut.
 
-        The parts stand in the place of the vessel, so that the ids of those after it are higher by 1. The
+        The parts replace the vessel, so that the ids of those after it are higher by 1. The
         first part keeps the name; where there is one, the second is called ``"<name> part 1"``, with the
         first number that is free.
 
@@ -280,7 +280,7 @@ class VesselTree(Value):
         return tree
 
     def _settle_lines_of(self, other: VesselTree) -> None:
-        """Keep in mind which lines were looked at in a tree of the same vessels."""
+        """Remember the checked lines of a tree of the same vessels."""
         for vessel, same in zip(self._vessels, other._vessels, strict=True):
             vessel._line_settled = same._line_settled
 
@@ -319,12 +319,12 @@ class VesselTree(Value):
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What there is to know of how the tree was found or traced, a sentence each."""
+        """Notes on how the tree was found or traced, a sentence each."""
         return self._notes
 
     @property
     def doubtful(self) -> VesselTree:
-        """What :func:`lumencut.find_vessels` and :func:`lumencut.trace_from` are not sure of, else none."""
+        """Uncertain vessels of :func:`lumencut.find_vessels` and :func:`lumencut.trace_from`, if any."""
         tree = VesselTree.__new__(VesselTree)
         tree._vessels = self._doubtful
         tree._space_settled = self._space_settled
@@ -337,7 +337,7 @@ class VesselTree(Value):
 
     @property
     def parts(self) -> tuple[tuple[int, ...], ...]:
-        """The ids of vessels that hang together, one tuple for each part, the most important part first.
+        """The ids of vessels that are connected, one tuple for each part, the most important part first.
 
         In a tree of :func:`lumencut.find_vessels` each part begins with its root. In other trees vessels hang
         together where an end of one is a point of the other, to 0.001 mm; ids rise, and the longest part is

@@ -48,11 +48,11 @@ class Volume(KeepsReadOnly):
     world_from_index : array_like, shape (4, 4), optional
         The general form instead of the three above: an affine that may be oblique, left-handed or sheared.
     states_spacing : bool, optional
-        Whether distances in mm are known, so that labelled pictures may have a scale bar. Where not given:
+        Whether distances in mm are known, so that labelled pictures may have a scale bar. Default:
         whether ``spacing`` or ``world_from_index`` is given.
     states_orientation : bool, optional
         Whether it is known where the patient's left, back and head are, so that labelled pictures may name
-        the sides. Where not given: whether ``direction`` or ``world_from_index`` is given.
+        the sides. Default: whether ``direction`` or ``world_from_index`` is given.
 
     Raises
     ------
@@ -166,7 +166,7 @@ class Volume(KeepsReadOnly):
 
     @property
     def scan(self) -> ScanDetails:
-        """How the scan was made, as the file tells it that the volume was read from."""
+        """Acquisition details of the scan, from the file of the volume."""
         return self._scan
 
     @property
@@ -189,8 +189,8 @@ class Volume(KeepsReadOnly):
 
     @functools.cached_property
     def _origin(self) -> Origin:
-        """Where what is made from the volume comes from."""
-        # Some thousand voxels, evenly spread, tell scans apart; to read all would take as long as a picture.
+        """The origin of objects made from the volume."""
+        # A few thousand evenly spread voxels distinguish scans; reading all would take as long as a picture.
         voxels = self._voxels
         some = voxels[:: max(1, len(voxels) // 4096)]
         grid = repr((self.size, self.dtype.str, self._affine_rows))
@@ -206,7 +206,7 @@ class Volume(KeepsReadOnly):
 
     @functools.cached_property
     def _told_by_trees(self) -> FoundOnce[_lumencut.ToldByTree]:
-        """What trees told of the point spread and of walls."""
+        """Estimates of point spread and walls from trees."""
         return FoundOnce()
 
     @property
@@ -227,7 +227,7 @@ class Volume(KeepsReadOnly):
         return rows
 
     def contains(self, points: npt.ArrayLike) -> npt.NDArray[np.bool_]:
-        """Tell which world points (n, 3) (mm, LPS) lie inside the grid's outer corners, shape (n,)."""
+        """Return which world points (n, 3) (mm, LPS) lie inside the grid's outer corners, shape (n,)."""
         from lumencut import _lumencut
 
         return _lumencut.contains(self, _points(points))

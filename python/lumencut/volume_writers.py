@@ -20,7 +20,7 @@ _FAST = 1
 
 
 def write_volume(volume: Volume, path: str | os.PathLike[str], mark: str = "") -> None:
-    """Write a volume as ``.nrrd``, ``.nii`` or ``.nii.gz``; the file appears only once it is whole.
+    """Write a volume as ``.nrrd``, ``.nii`` or ``.nii.gz``; the file appears only when complete.
 
     Parameters
     ----------

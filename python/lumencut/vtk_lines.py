@@ -7,7 +7,7 @@ from typing import Any
 
 
 def is_poly_data(source: Any) -> bool:
-    """Tell a vtkPolyData, which only exists where VTK is loaded, from all else."""
+    """Return whether an object is a vtkPolyData, which requires that VTK is loaded."""
     of_vtk = any(cls.__module__.partition(".")[0] == "vtkmodules" for cls in type(source).__mro__)
     return of_vtk and hasattr(source, "GetLines") and hasattr(source, "GetPolys")
 

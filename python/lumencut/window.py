@@ -35,7 +35,7 @@ class Window:
 
     @classmethod
     def from_data(cls, volume: Any, tree: VesselTree | None = None) -> Window:
-        """Return a window that tells lumen from its surroundings; ``"auto"`` by name.
+        """Return a window that distinguishes lumen from its surroundings; ``"auto"`` by name.
 
         With a tree the median along the centerlines stands for the lumen, the median 10 mm beyond the
         vessels' walls for the tissue. Black lies 1.5 times their difference below the lumen, up to 2.2 times
@@ -43,7 +43,7 @@ class Window:
         as far as the lumen stays at 60 to 72 % of the range. A lumen darker than its tissue has the mirrored
         window: it lies at 28 to 40 %, or is black where nothing is darker, and its surroundings are brighter.
 
-        Without a tree padding and air are left out first. Small cubes are told apart by their largest voxel:
+        Without a tree padding and air are left out first. The largest voxels of small cubes are compared:
         most are tissue, which becomes dark, and of the brighter ones the darker stand for the lumen, which
         lies at 67 % of the range; black is never below the smallest value. Where little but vessels is left,
         their edges stand for the tissue. A dark lumen cannot be found without a tree: the bright tissue is
@@ -51,7 +51,7 @@ class Window:
 
         Parameters
         ----------
-        volume : Volume, or whatever else :func:`lumencut.render` takes as one
+        volume : Volume, or anything :func:`lumencut.render` takes as one
             The angiography.
         tree : VesselTree, optional
             Its centerlines.
@@ -59,9 +59,9 @@ class Window:
         Raises
         ------
         VolumeError
-            For what is no volume, or values beyond all windows.
+            For anything that is not a volume, or values beyond all windows.
         VesselTreeError
-            For what is no tree.
+            For anything that is not a tree.
         """
         from lumencut.vessel_tree import VesselTree
 
@@ -79,13 +79,13 @@ class Window:
 
         Parameters
         ----------
-        volume : Volume, or whatever else :func:`lumencut.render` takes as one
+        volume : Volume, or anything :func:`lumencut.render` takes as one
             The angiography.
 
         Raises
         ------
         VolumeError
-            For what is no volume, or values beyond all windows.
+            For anything that is not a volume, or values beyond all windows.
         """
         return cls._found("mip", volume)
 
@@ -98,13 +98,13 @@ class Window:
 
         Parameters
         ----------
-        volume : Volume, or whatever else :func:`lumencut.render` takes as one
+        volume : Volume, or anything :func:`lumencut.render` takes as one
             The angiography.
 
         Raises
         ------
         VolumeError
-            For what is no volume, or values beyond all windows.
+            For anything that is not a volume, or values beyond all windows.
         """
         return cls._found("whole", volume)
 
@@ -122,8 +122,8 @@ class Window:
         Parameters
         ----------
         name : {"auto", "cta", "soft-tissue", "bone", "lung", "full", "mra", "stent"}
-            What the window is called.
-        volume : Volume, or whatever else :func:`lumencut.render` takes as one, optional
+            The name of the window.
+        volume : Volume, or anything :func:`lumencut.render` takes as one, optional
             The angiography; ``"cta"``, ``"soft-tissue"``, ``"bone"``, ``"lung"`` and ``"stent"`` need none.
         tree : VesselTree, optional
             Its centerlines, for ``"auto"``.
@@ -133,9 +133,9 @@ class Window:
         SettingsError
             For another name.
         VolumeError
-            For what is no volume, or values beyond all windows.
+            For anything that is not a volume, or values beyond all windows.
         VesselTreeError
-            For what is no tree.
+            For anything that is not a tree.
         """
         choice(SettingsError, "window", name, WINDOW_NAMES)
         if name in _FIXED:

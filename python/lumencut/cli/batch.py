@@ -1,4 +1,4 @@
-"""``lumencut batch``: many studies of a manifest, each in a process of its own."""
+"""``lumencut batch``: process many studies of a manifest, each in its own process."""
 
 from __future__ import annotations
 
@@ -22,7 +22,6 @@ if TYPE_CHECKING:
     from lumencut.cohort.manifest import Manifest, Study
     from lumencut.cohort.recipe import CohortRecipe
 else:
-    # Generic only in recent versions of click.
     _Type = click.ParamType
 
 _UNITS = {"": 1, "k": 1 << 10, "m": 1 << 20, "g": 1 << 30, "t": 1 << 40}
@@ -30,7 +29,7 @@ _TIMES = {"": 1, "s": 1, "min": 60, "h": 3600}
 
 
 class _Quantity(_Type):
-    """A number with a unit behind it."""
+    """A number followed by a unit."""
 
     def __init__(self, name: str, units: dict[str, int], example: str) -> None:
         self.name, self._units, self._example = name, units, example
@@ -50,7 +49,7 @@ class _Quantity(_Type):
 
 
 class _Part(_Type):
-    """One part of how many."""
+    """One part of N."""
 
     name = "K/N"
 
@@ -66,42 +65,44 @@ class _Part(_Type):
         return int(found[1]), int(found[2])
 
 
-@click.command(short_help="Do many studies, and write tables of all.")
+@click.command(short_help="Process many studies, and write tables of all.")
 @click.argument("manifest")
-@click.option("-o", "--output", type=FILE, help="The folder of the results; made where it is missing.")
-@click.option("--recipe", type=FILE, help="A TOML file that says what is done with each study.")
-@click.option("--centerlines", metavar="PATTERN", help="Beside a pattern of volumes that of centerlines.")
-@click.option("--mask", metavar="PATTERN", help="The same of masks of the lumen.")
-@click.option("--points", metavar="PATTERN", help="The same of files of points along vessels.")
-@click.option("--seeds", metavar="PATTERN", help="The same of files of seeds.")
-@click.option("--check", is_flag=True, help="Name studies that will fail, by headers and sizes; do none.")
+@click.option("-o", "--output", type=FILE, help="The folder of the results; created if missing.")
+@click.option("--recipe", type=FILE, help="A TOML file that defines what to do with each study.")
+@click.option("--centerlines", metavar="PATTERN", help="With a pattern of volumes: that of centerlines.")
+@click.option("--mask", metavar="PATTERN", help="The same for masks of the lumen.")
+@click.option("--points", metavar="PATTERN", help="The same for files of points along vessels.")
+@click.option("--seeds", metavar="PATTERN", help="The same for files of seeds.")
+@click.option(
+    "--check", is_flag=True, help="List studies that will fail, by headers and sizes; process none."
+)
 @click.option("--jobs", type=click.IntRange(1, 1024), default=1, show_default=True, metavar="N",
-              help="How many studies are done at once.")  # fmt: skip
-@click.option("--shard", type=_Part(), help="Do one part of N; several may work beside each other.")
-@click.option("--retry", type=click.Choice(["failed", "all"]), help="Do these again in any case.")
+              help="How many studies to process at once.")  # fmt: skip
+@click.option("--shard", type=_Part(), help="Process one part of N; parts may run at the same time.")
+@click.option("--retry", type=click.Choice(["failed", "all"]), help="Process these again in any case.")
 @click.option("--threads", type=click.IntRange(1, 1024), metavar="N",
-              help="How many threads compute in each study; default: a fair part of the cores.")  # fmt: skip
-@click.option("--memory", type=_Quantity("SIZE", _UNITS, "8GB"), help="The most memory of each study.")
+              help="Threads per study; default: a fair share of the cores.")  # fmt: skip
+@click.option("--memory", type=_Quantity("SIZE", _UNITS, "8GB"), help="Memory limit per study.")
 @click.option("--time-limit", type=_Quantity("TIME", _TIMES, "90min"), default="1h", show_default=True,
-              help="The longest time of each study; 0 for no limit.")  # fmt: skip
-@click.option("--dask", metavar="ADDRESS", help="Do them on the workers of this scheduler of dask.")
+              help="Time limit per study; 0 for no limit.")  # fmt: skip
+@click.option("--dask", metavar="ADDRESS", help="Run on the workers of this dask scheduler.")
 @click.option(
     "--slurm",
     metavar="NAME=VALUE,…",
-    help="Do them in --jobs jobs of SLURM, such as partition=long,memory=8GB,walltime=24:00:00,cores=2.",
+    help="Run in --jobs jobs of SLURM, such as partition=long,memory=8GB,walltime=24:00:00,cores=2.",
 )
 @click.option("--parquet", is_flag=True, help="Write the tables as Parquet too; needs pyarrow.")
-@click.option("--one", metavar="ID", help="Do this study alone, in this process.")
+@click.option("--one", metavar="ID", help="Process this study alone, in this process.")
 @device_option
 @verbose_option
 def batch(manifest: str, output: Path | None, **chosen: Any) -> None:
-    """Do each study of MANIFEST in a process of its own, and write tables of all.
+    """Process each study of MANIFEST in its own process, and write tables of all.
 
     MANIFEST is a table (.csv or .tsv) with the columns id and volume, and centerlines, mask, points or seeds
-    where a study has some; without them its vessels are found. Or it is a pattern such as
-    'scans/{id}.nii.gz'. Without --recipe the tree is written, one picture is made from the front, and all
-    vessels are measured. Studies that are done are not done again: a batch that was ended in any way goes on
-    when the same command is given. The exit code is 0 where all are done, and 3 where some failed.
+    if a study has them; without them Lumencut finds its vessels. MANIFEST may also be a pattern such as
+    'scans/{id}.nii.gz'. Without --recipe, Lumencut writes the tree, renders one picture from the front, and
+    measures all vessels. Completed studies are skipped: to continue a batch that was interrupted, give the
+    same command again. The exit code is 0 if all studies succeed, and 3 if some fail.
 
     \b
     lumencut batch studies.csv --check
@@ -136,12 +137,11 @@ def batch(manifest: str, output: Path | None, **chosen: Any) -> None:
     _all(manifest, output, given, chosen)
 
 
-#: What speaks of all studies.
 _OF_ALL = ("shard", "retry", "dask", "slurm", "parquet")
 
 
 def _refuse(chosen: dict[str, Any], beside: str, names: Sequence[str]) -> None:
-    """Refuse options that do nothing beside another one."""
+    """Reject options that have no effect with another one."""
     for name in names:
         if chosen.get(name):
             raise click.UsageError(f"--{name} with {beside} does nothing; leave it out")
@@ -154,7 +154,7 @@ def _manifest(manifest: str, sources: dict[str, str]) -> Manifest:
 
 
 def _one(found: Manifest, recipe: CohortRecipe, output: Path, study_id: str, chosen: dict[str, Any]) -> None:
-    """Do one study in this process."""
+    """Process one study in this process."""
     from lumencut.cohort.layout import Layout
     from lumencut.cohort.one import do_one, limit_memory
     from lumencut.cohort.parent import end_with_parent
@@ -176,7 +176,7 @@ def _one(found: Manifest, recipe: CohortRecipe, output: Path, study_id: str, cho
 
 
 def tell_ended(layout: Layout, study: Study, code: int) -> None:
-    """Say how a study ended, with the reason where it failed."""
+    """Report how a study ended, with the reason if it failed."""
     from lumencut.cohort.job import DONE
     from lumencut.cohort.record import read_record
 
@@ -188,7 +188,7 @@ def tell_ended(layout: Layout, study: Study, code: int) -> None:
 
 
 def _check(found: Manifest, recipe: CohortRecipe, memory: float | None) -> None:
-    """Name every study that will fail, what only the run can tell of others, and how many there are."""
+    """List the studies that will fail, those that only the run can decide, and their number."""
     from lumencut.cohort.checking import verdict_of
 
     for note in found.notes:
@@ -201,18 +201,18 @@ def _check(found: Manifest, recipe: CohortRecipe, memory: float | None) -> None:
         for words in (verdict.trouble, *verdict.unsure):
             if words:
                 say(f"{study.id}: {words}")
-    more = f", of {unsure} only the run can tell" if unsure else ""
+    more = f", of {unsure} only the run can decide" if unsure else ""
     say(f"{len(found.studies)} studies, {failing} will fail{more}")
     if failing:
         click.get_current_context().exit(SOME_FAILED)
 
 
 def _all(manifest: str, output: Path, sources: dict[str, str], chosen: dict[str, Any]) -> None:
-    """Do all studies, and tell how far they are."""
+    """Process all studies, and show the progress."""
     from lumencut.cohort.batch import batch as library
 
     memory, seconds = chosen.pop("memory"), chosen.pop("time_limit")
-    with batch_progress() as told:
+    with batch_progress() as progress:
         summary = library(
             manifest,
             output,
@@ -220,7 +220,7 @@ def _all(manifest: str, output: Path, sources: dict[str, str], chosen: dict[str,
             memory=None if memory is None else int(memory),
             time_limit=seconds or None,
             sources=sources,
-            progress=told,
+            progress=progress,
         )
     skipped = f", {summary.skipped} not done yet" if summary.skipped else ""
     say(f"{output}: {summary.done} done, {summary.failed} failed{skipped}; {summary.worked} of them now")

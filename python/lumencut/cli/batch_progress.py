@@ -1,4 +1,4 @@
-"""How far a batch is: a bar with rate and remaining time on a terminal, elsewhere a line now and then."""
+"""Progress of a batch: a bar with rate and remaining time on a terminal, otherwise a line at intervals."""
 
 from __future__ import annotations
 
@@ -7,19 +7,19 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
-from lumencut.cli.report import tell
+from lumencut.cli.report import inform
 
 if TYPE_CHECKING:
     from tqdm import tqdm
 
     from lumencut.cohort.child import Outcome
 
-#: Where there is no terminal, as in the log of a cluster's job, a line is written so often (s).
+#: Interval between lines without a terminal, as in the log of a cluster job (s).
 EVERY = 60.0
 
 
 class BatchProgress:
-    """Tells of each study that failed, and how many have ended."""
+    """Reports each study that failed, and how many have ended."""
 
     def __init__(self, bar: tqdm) -> None:
         self._bar = bar
@@ -27,19 +27,19 @@ class BatchProgress:
         self._failed = 0
 
     def __call__(self, done: int, total: int, outcome: Outcome) -> None:
-        """Tell that a study has ended, as the `done`-th of `total`."""
+        """Report that a study has ended, as the `done`-th of `total`."""
         self._bar.total = total
         self._bar.update(done - self._bar.n)
         if outcome.state != "done":
             self._failed += 1
             with self._bar.external_write_mode():
-                tell(f"{outcome.id}: {outcome.state}: {outcome.reason}")
+                inform(f"{outcome.id}: {outcome.state}: {outcome.reason}")
         now = time.monotonic()
         if self._bar.disable and now - self._last >= EVERY and done < total:
             self._last = now
             rate = done / (now - self._begin)
             minutes = (total - done) / rate / 60
-            tell(
+            inform(
                 f"{done} of {total} studies, {self._failed} failed, {rate * 3600:.0f} an hour, "
                 f"about {minutes:.0f} min left"
             )
@@ -47,7 +47,7 @@ class BatchProgress:
 
 @contextmanager
 def batch_progress() -> Iterator[BatchProgress]:
-    """Yield what a batch tells of each study that has ended."""
+    """Yield the function that a batch calls for each study that has ended."""
     from tqdm import tqdm
 
     with tqdm(desc="studies", unit="study", disable=None, leave=False, smoothing=0.1) as bar:

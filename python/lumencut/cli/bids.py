@@ -1,4 +1,4 @@
-"""``lumencut bids``: the participants of a data set of BIDS, and the tables of all, as apps of BIDS do."""
+"""``lumencut bids``: process the participants of a BIDS data set, and write their tables, as a BIDS app."""
 
 from __future__ import annotations
 
@@ -20,19 +20,21 @@ if TYPE_CHECKING:
 SUFFIXES = ("angio", "cta", "ct")
 
 
-@click.command(short_help="Do the participants of a data set of BIDS.")
+@click.command(short_help="Process the participants of a BIDS data set.")
 @click.argument("data", type=FILE)
 @click.argument("out", type=FILE)
 @click.argument("level", type=click.Choice(["participant", "group"]))
-@click.option("--participant-label", multiple=True, metavar="LABEL", help="Do this one; may be repeated.")
+@click.option(
+    "--participant-label", multiple=True, metavar="LABEL", help="Process this one; may be repeated."
+)
 @click.option(
     "--suffix",
     multiple=True,
     default=SUFFIXES,
     show_default=True,
-    help="How names of angiographies end before .nii.gz; may be repeated.",
+    help="How the names of angiographies end before .nii.gz; may be repeated.",
 )
-@click.option("--recipe", type=FILE, help="A TOML file that says what is done with each study.")
+@click.option("--recipe", type=FILE, help="A TOML file that defines what to do with each study.")
 @device_option
 @threads_option
 @verbose_option
@@ -45,12 +47,12 @@ def bids(
     recipe: Path | None,
     device: Literal["auto", "cpu", "gpu"],
 ) -> None:
-    """Do the angiographies of participants of DATA, a data set of BIDS, or write the tables of all to OUT.
+    """Process the angiographies of participants of DATA, a BIDS data set, or write the tables of all to OUT.
 
-    With "participant" each session of the participants is done, one after the other, in this process: a
-    cluster runs one job for each, side by side. With "group" the tables and the contact sheet of all are
-    written. A participant or session without an angiography is named, and has a row in the tables. Results
-    are those of lumencut batch.
+    "participant" processes each session of the participants, one after the other, in this process; a
+    cluster runs one job for each participant. "group" writes the tables and the contact sheet of all. A
+    participant or session without an angiography is reported, and has a row in the tables. The results have
+    the form of lumencut batch.
 
     \b
     lumencut bids data derivatives/lumencut participant --participant-label 01
@@ -89,7 +91,7 @@ def bids(
 
 
 def _participants(cohort: Cohort, device: Literal["auto", "cpu", "gpu"]) -> int:
-    """Do the studies that are not done yet, and return how many failed."""
+    """Process the studies that are not done yet, and return how many failed."""
     from lumencut.cohort.one import do_one
 
     failed = 0

@@ -1,4 +1,4 @@
-"""The browser of the viewer: opened where the user sits, and else explained how to get there."""
+"""The browser of the viewer: opened on the user's screen, or instructions on how to reach it."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from lumencut.cli.browser_file import leading_to
-from lumencut.cli.report import tell
+from lumencut.cli.report import inform
 
 if TYPE_CHECKING:
     from lumencut.viewer.guard import Place
@@ -21,17 +21,17 @@ if TYPE_CHECKING:
 
 @contextmanager
 def open_or_explain(place: Place, *, is_wanted: bool) -> Iterator[None]:
-    """Open the page in a browser, or say what the user has to do; the address is printed already.
+    """Open the page in a browser, or print what the user has to do; the address is printed already.
 
-    What leads the browser there is a file, which is removed at the end.
+    A temporary file leads the browser there; it is removed at the end.
     """
     if os.environ.get("SSH_CONNECTION"):
-        tell(f"on your own machine, open a tunnel with: {_tunnel(place.port)}")
-        tell("then open the address above in its browser; Ctrl-C here ends the viewer")
+        inform(f"on your own machine, open a tunnel with: {_tunnel(place.port)}")
+        inform("then open the address above in its browser; Ctrl-C here ends the viewer")
     elif not is_wanted:
-        tell("open the address above in a browser of this machine; Ctrl-C ends the viewer")
+        inform("open the address above in a browser of this machine; Ctrl-C ends the viewer")
     elif not _has_screen():
-        tell(
+        inform(
             "no screen was found: open the address above in a browser of this machine; Ctrl-C ends the viewer"
         )
     else:
@@ -45,18 +45,18 @@ def open_or_explain(place: Place, *, is_wanted: bool) -> Iterator[None]:
 def _open(file: Path | None) -> None:
     """Open a file in the browser of the user."""
     if file is None:
-        tell(
+        inform(
             "no folder is closed to other users: open the address above in a browser; Ctrl-C ends the viewer"
         )
         return
-    tell("the address opens in your browser; Ctrl-C ends the viewer")
-    # Some ways to a browser come back only once it is closed.
+    inform("the address opens in your browser; Ctrl-C ends the viewer")
+    # Some launchers return only once the browser is closed.
     threading.Thread(target=webbrowser.open, args=(file.as_uri(),), daemon=True).start()
 
 
 def _tunnel(port: int) -> str:
-    """The command that makes the port of this machine one of the machine that the user sits at."""
-    # As SSH has it: address and port of the client, then address and port here, as the client reached it.
+    """The command that forwards the port of this machine to the user's own machine."""
+    # SSH_CONNECTION: address and port of the client, then address and port of this machine.
     words = os.environ["SSH_CONNECTION"].split()
     host = words[2] if len(words) == 4 else "HOST"
     return f"ssh -L {port}:127.0.0.1:{port} {_user()}{host}"
@@ -66,12 +66,12 @@ def _user() -> str:
     try:
         return f"{getpass.getuser()}@"
     except (KeyError, OSError):
-        # A process need not belong to any user that has a name.
+        # The user of a process may have no name.
         return ""
 
 
 def _has_screen() -> bool:
-    """Tell whether a browser with windows can be: without, Python would start one within the terminal."""
+    """Return whether a graphical browser can open; otherwise Python would start one in the terminal."""
     if sys.platform in ("win32", "darwin"):
         return True
     return bool(os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY") or os.environ.get("BROWSER"))

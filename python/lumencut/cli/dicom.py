@@ -1,4 +1,4 @@
-"""Options for what is written as DICOM, and sheets of several pictures written so."""
+"""Options for DICOM output, and sheets of several pictures as DICOM."""
 
 from __future__ import annotations
 
@@ -21,12 +21,12 @@ _OPTIONS = ("like_study", "anonymous", "other_patient", "compress", "grey", "val
 
 
 def dicom_options(command: Command) -> Command:
-    """Add the options that say into which study a .dcm is put, and how its pixels are stored."""
+    """Add the options for the study of a .dcm, and for how its pixels are stored."""
     return added((study_options, compress_option), command)
 
 
 def study_options(command: Command) -> Command:
-    """Add the options that say into which study a .dcm is put."""
+    """Add the options for the study of a .dcm."""
     parts = (
         click.option(
             "--like-study",
@@ -60,14 +60,14 @@ grey_option = click.option(
 
 
 def is_object(path: Path) -> bool:
-    """Tell whether a file is to be DICOM."""
+    """Return whether the file name asks for DICOM."""
     return path.suffix.lower() == ".dcm"
 
 
 def check_objects(chosen: dict[str, Any], outputs: Iterable[Path], *, has_series: bool = False) -> None:
-    """Refuse options of DICOM objects that exclude each other, or where none is written.
+    """Reject options of DICOM objects that exclude each other, or that have no DICOM output.
 
-    With `has_series` a series is written beside the outputs.
+    With `has_series` a series is written as well.
     """
     asked = [f"--{name.replace('_', '-')}" for name in _OPTIONS if chosen.get(name)]
     if asked and not has_series and not any(is_object(path) for path in outputs):
@@ -76,7 +76,7 @@ def check_objects(chosen: dict[str, Any], outputs: Iterable[Path], *, has_series
 
 
 def check_study_options(chosen: dict[str, Any]) -> None:
-    """Refuse options of a study that exclude or need each other."""
+    """Reject options of a study that exclude or need each other."""
     if chosen["like_study"] is not None and chosen["anonymous"]:
         raise click.UsageError("--like-study and --anonymous exclude each other; leave one of them out")
     if chosen["other_patient"] and chosen["like_study"] is None:
@@ -84,13 +84,13 @@ def check_study_options(chosen: dict[str, Any]) -> None:
 
 
 def study_of(chosen: dict[str, Any]) -> dict[str, Any]:
-    """Return the study that objects are put into, as the functions of the package take it."""
+    """Return the study of the objects, in the form that the package accepts."""
     named = {name: chosen[name] for name in ("anonymous", "other_patient")}
     return {"study": chosen["like_study"], **named}
 
 
 def object_options(path: Path, chosen: dict[str, Any]) -> dict[str, Any]:
-    """Return what `save` takes for a DICOM file, nothing for others."""
+    """Return the arguments of `save` for a DICOM file; none for other files."""
     return {**study_of(chosen), "compress": chosen["compress"]} if is_object(path) else {}
 
 
@@ -103,7 +103,7 @@ def save_sheet(
 ) -> None:
     """Write several pictures on one sheet in the format that the ending names.
 
-    `about` is in short what the sheet shows, in words how it was made, and the settings.
+    `about` holds a short title, a description of how the sheet was made, and the settings.
     """
     from lumencut.frame import save_picture
 

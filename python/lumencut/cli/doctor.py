@@ -1,4 +1,4 @@
-"""``lumencut doctor``: whether this installation works, and what a report of a fault should say of it."""
+"""``lumencut doctor``: whether this installation works, for bug reports."""
 
 from __future__ import annotations
 
@@ -11,17 +11,17 @@ import click
 from lumencut.cli.report import FAILED, busy, complain, say, verbose_option
 
 
-@click.command(short_help="Examine this installation, for reports of faults.")
+@click.command(short_help="Examine this installation, for bug reports.")
 @click.option("--json", "as_json", is_flag=True, help="Print JSON.")
 @verbose_option
 def doctor(as_json: bool) -> None:
-    """Tell the versions of all parts, the GPUs and what computes, whether the viewer's page is there and
-    isolated from other pages (so that it may use all cores), and which extras are installed.
+    """Show the versions of all parts, the GPUs, the device that computes, whether the viewer's page is there
+    and isolated from other pages (so that it may use all cores), and which extras are installed.
 
-    A small picture is rendered by the CPU, and by a GPU where there is one. Nothing is sent anywhere, and no
-    file of yours is named: all of it can be put into a report of a fault. The exit code is 1 where something
-    is wrong, and each of these has a line.
-    """  # noqa: D205 - the command line wraps the paragraph anew
+    The CPU renders a small picture, and so does a GPU if there is one. Nothing is sent anywhere, and none of
+    your files is named: you can put all of the output into a bug report. The exit code is 1 if there is a
+    problem, and each problem has a line.
+    """  # noqa: D205 - the command line wraps the paragraph itself
     from lumencut.doctor import examined
 
     with busy("examining"):
@@ -52,7 +52,7 @@ def _lines(found: dict[str, Any]) -> Iterator[str]:
     for name, value in facts:
         yield f"{name:<{width}}  {value}"
     count = len(found["problems"])
-    yield "all is well" if not count else f"{count} problem{'' if count == 1 else 's'}, told below"
+    yield "all is well" if not count else f"{count} problem{'' if count == 1 else 's'}, listed below"
 
 
 def _gpu(one: dict[str, Any]) -> str:

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from lumencut.vessel_tree import VesselTree
 
 
-@click.command(short_help="Measure how much of the truth methods show.")
+@click.command(short_help="Measure how much of the true lumen each method shows.")
 @click.argument("files", type=options.FILE, nargs=-1, required=True, metavar="[VOLUME] CENTERLINES...")
 @options.reading_options
 @click.option(
@@ -28,16 +28,16 @@ if TYPE_CHECKING:
     default="csr,csr-paper,cpr,mpcpr,cr",
     show_default=True,
     metavar="NAME,...",
-    help="csr: with the settings given; csr-paper: with the paper's rules in their place; cpr: the projected "
-    "CPR of each vessel by itself; mpcpr: multipath CPR; cr: Centerline Reformation; untangled: the tree "
-    "without overlap, of which tissue and centerline are counted.",
+    help="csr: with the settings given; csr-paper: with the paper's rules instead; cpr: the projected "
+    "CPR of each single vessel; mpcpr: multipath CPR; cr: Centerline Reformation; untangled: the tree "
+    "without overlap, evaluated for tissue and centerline.",
 )
 @click.option(
     "--views",
     type=click.IntRange(1, 10000),
     default=12,
     show_default=True,
-    help="How many views, spread evenly over the sphere.",
+    help="Number of views, spread evenly over the sphere.",
 )
 @click.option(
     "--size",
@@ -67,10 +67,10 @@ def evaluate(
     pictures: Path | None,
     **chosen: Any,
 ) -> None:
-    """Measure how much of the truth methods show of CENTERLINES, over views from all sides.
+    """Measure how much of the true lumen of CENTERLINES each method shows, over views from all sides.
 
-    The truth is, at each pixel, the depth of the nearest lumen along CENTERLINES as they are given. Without
-    VOLUME nothing is said of surroundings. The table is printed as Markdown where no file is named for it.
+    The truth at each pixel is the depth of the nearest lumen along CENTERLINES as given. Without VOLUME the
+    surroundings are not evaluated. Without an output file the table is printed as Markdown.
 
     \b
     lumencut evaluate centerlines.vtp
@@ -87,10 +87,9 @@ def evaluate(
 
     from lumencut.evaluation import evaluate as library
 
-    with bar("evaluate", "frame") as told:
+    with bar("evaluate", "frame") as progress:
         found = library(
             volume,
-            # The arguments of the command always name centerlines.
             cast("VesselTree", tree),
             names,
             chosen["views"],
@@ -98,7 +97,7 @@ def evaluate(
             chosen["size"],
             chosen["pixel_spacing"],
             device=scene.device,
-            progress=told,
+            progress=progress,
         )
     _write(found, csv, markdown, pictures)
 
@@ -126,9 +125,9 @@ def _checked_methods(names: str) -> tuple[str, ...]:
 
 
 def _check_outputs(scene: SceneFiles, csv: Path | None, markdown: Path | None, pictures: Path | None) -> None:
-    """Refuse outputs that cannot be written before any file is read."""
+    """Reject outputs that cannot be written before any file is read."""
     if pictures is not None and scene.volume is None:
-        raise click.UsageError("--pictures without VOLUME; give the volume that they are to show")
+        raise click.UsageError("--pictures without VOLUME; give the volume to show in them")
     for path in (csv, markdown, pictures):
         if path is not None:
             options.check_folder(path)
@@ -137,16 +136,16 @@ def _check_outputs(scene: SceneFiles, csv: Path | None, markdown: Path | None, p
 
 
 def _write(found: Evaluation, csv: Path | None, markdown: Path | None, pictures: Path | None) -> None:
-    """Write what was asked for, or print the table."""
+    """Write the requested outputs, or print the table."""
     from lumencut._files import write_text
 
-    told = f"{', '.join(found.settings)} in {len(found.cameras)} views"
+    summary = f"{', '.join(found.settings)} in {len(found.cameras)} views"
     if csv is not None:
         found.to_csv(csv)
-        say(f"{csv}: {told}")
+        say(f"{csv}: {summary}")
     if markdown is not None:
         write_text(markdown, found.to_markdown())
-        say(f"{markdown}: {told}")
+        say(f"{markdown}: {summary}")
     if csv is None and markdown is None:
         say(found.to_markdown().rstrip("\n"))
     if pictures is not None:

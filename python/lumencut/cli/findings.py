@@ -1,4 +1,4 @@
-"""What there is to say about a volume or a centerline file: facts, and notes on what is odd."""
+"""Facts about a volume or a centerline file, and notes on anything unusual."""
 
 from __future__ import annotations
 
@@ -17,24 +17,23 @@ if TYPE_CHECKING:
     from lumencut.mends import Told
     from lumencut.vessel_tree import VesselTree
 
-#: Who decided on a space or unit.
 _ORIGINS = {
     "asked": "as asked",
     "stated": "stated in the file",
     "volume": "the volume fits it",
-    "values": "the values of the volume tell it",
+    "values": "the values of the volume decide",
     "assumed": "assumed",
 }
-#: Of centerline smoothing: how much of it a tree is tried with (radii).
+#: Centerline smoothing that is tried on a tree (radii).
 _TRIED_SMOOTHING = 0.5
 
 
 def of_volume(path: Path, **chosen: Any) -> dict[str, Any]:
-    """Look into a volume file, of which the series, phase and filling of gaps may be chosen."""
+    """Inspect a volume file; series, phase and filling of gaps may be chosen."""
     from lumencut.volume_files import inspected_volume
 
-    with bar(f"reading {path.name}", "slice") as told:
-        report, volume = inspected_volume(path, progress=told, **chosen)
+    with bar(f"reading {path.name}", "slice") as progress:
+        report, volume = inspected_volume(path, progress=progress, **chosen)
     affine = report.world_from_index
     low_high = None if report.value_range is None else [float(value) for value in report.value_range]
     return {
@@ -57,7 +56,7 @@ def of_volume(path: Path, **chosen: Any) -> dict[str, Any]:
 
 
 def of_series(path: Path, error: SeriesError) -> dict[str, Any]:
-    """List the series of a folder of which none was chosen."""
+    """List the series of a folder when none was chosen."""
     from dataclasses import asdict
 
     return {
@@ -77,7 +76,7 @@ def of_centerlines(
     *,
     reorder: bool = False,
 ) -> dict[str, Any]:
-    """Look into a centerline file; the volume that it fits best decides what it leaves open."""
+    """Inspect a centerline file; the volume that it fits best decides what the file leaves open."""
     from lumencut.centerline_file import CenterlineFile
 
     file = CenterlineFile(path)
@@ -110,7 +109,7 @@ def of_centerlines(
 
 
 def of_devices() -> dict[str, Any]:
-    """List the GPUs, and name what a renderer takes where nothing is said."""
+    """List the GPUs, and the device that a renderer uses by default."""
     from dataclasses import asdict
 
     from lumencut import _lumencut
@@ -122,7 +121,7 @@ def of_devices() -> dict[str, Any]:
 
 
 def orientation(affine: npt.NDArray[np.float64]) -> str:
-    """Where i, j, k run, as letters: LPS is an axial stack from the feet to the head."""
+    """Directions of i, j, k as letters: LPS is an axial stack from the feet to the head."""
     import numpy as np
 
     from lumencut import _lumencut
@@ -175,7 +174,7 @@ def _odd_tree(tree: VesselTree) -> list[str]:
 
 
 def _largest_shift(tree: VesselTree) -> dict[str, Any] | None:
-    """How far a little centerline smoothing moves a point at most, and which; None where nothing moves."""
+    """The largest movement of a point by slight centerline smoothing, and its place; None if none."""
     import numpy as np
 
     smoothed = tree.smoothed(_TRIED_SMOOTHING)
@@ -200,14 +199,14 @@ def _largest_shift(tree: VesselTree) -> dict[str, Any] | None:
 
 
 def _with(read: Iterable[str], seen: Iterable[str]) -> list[str]:
-    """Both, but what the reader has said of a shear is not said twice."""
+    """Both, without repeating what the reader has said of a shear."""
     read = list(read)
     known = any("sheared" in note for note in read)
     return read + [note for note in seen if not (known and "sheared" in note)]
 
 
 def _ends(tree: VesselTree) -> list[int]:
-    """How many vessel ends meet at each place where vessels end."""
+    """Number of vessel ends that meet at each place where vessels end."""
     import numpy as np
 
     ends = np.concatenate([vessel.points[[0, -1]] for vessel in tree])

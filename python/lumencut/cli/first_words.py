@@ -1,4 +1,4 @@
-"""What ``lumencut`` says where nothing is asked of it: three things to try."""
+"""Output of ``lumencut`` without arguments: three things to try."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from pathlib import Path
 
 
 def program() -> str:
-    """How to call this program again: it need not be on the path."""
+    """How to call this program, which may not be on the path."""
     called = Path(sys.argv[0])
     on_path = shutil.which("lumencut")
     if called.name != "lumencut" or (on_path and Path(on_path).resolve() == called.resolve()):
@@ -17,14 +17,14 @@ def program() -> str:
 
 
 def first_words() -> str:
-    """Return what a newcomer can try at once; only what this installation can do."""
+    """Return what a new user can try at once with this installation."""
     from lumencut import __version__
     from lumencut.viewer.page import FOLDER
 
     name = program()
     has_page = (FOLDER / "index.html").is_file()
     scan = "your own scan: DICOM folder or zip, NIfTI, NRRD, MetaImage"
-    details = "what your own file holds, and what is odd about it"
+    details = "what your own file holds, and anything unusual about it"
     tries = (
         (f"{name} view --demo", "a CT of an aorta with a stent graft, in your browser")
         if has_page
@@ -40,7 +40,7 @@ def first_words() -> str:
             "Three things to try:",
             *(f"  {command:<{width}}   {what}" for command, what in tries),
             "",
-            f"All commands: {name} --help. Where something does not work: {name} doctor.",
+            f"All commands: {name} --help. If something does not work: {name} doctor.",
             "Files stay on this machine. Lumencut is not a medical device.",
         )
     )

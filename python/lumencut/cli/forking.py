@@ -1,7 +1,7 @@
-"""A process that has loaded all that studies need, and forks itself for each: a study then starts at once.
+"""A process with all modules loaded that forks itself for each study, so that a study starts at once.
 
-Loading takes most of a second, a fork some milliseconds. The process computes nothing and starts no threads,
-so that a fork of it is sound. It ends with the batch, and what it forked ends with it.
+Loading takes most of a second, a fork a few milliseconds. The process computes nothing and starts no threads,
+so it is safe to fork. It ends with the batch, together with its children.
 """
 
 from __future__ import annotations
@@ -18,9 +18,9 @@ from typing import Any, NoReturn
 from lumencut.cli import main
 from lumencut.cohort.parent import PARENT, end_with_parent
 
-#: How long the process sleeps between two looks at what it forked (s).
+#: Interval between checks of the children (s).
 _LOOK = 0.01
-#: Imported before the first fork; a study would import them by itself, each anew.
+#: Imported before the first fork; otherwise each study would import them.
 _LOADED = (
     *("lumencut.cohort.one", "lumencut.recipe", "nibabel", "pydicom", "tqdm", "numpy.ma"),
     *("PIL.Image", "PIL.ImageDraw", "PIL.ImageFont", "PIL.WebPImagePlugin"),
@@ -28,13 +28,13 @@ _LOADED = (
 
 
 def serve() -> NoReturn:
-    """Fork a process for each line of the standard input, and tell on the standard output who has ended."""
+    """Fork a process for each line of the standard input, and report on the standard output which ended."""
     end_with_parent()
     for name in _LOADED:
         importlib.import_module(name)
     # The formats that it writes, of which the library has many.
     sys.modules["PIL.Image"].init()
-    # What is loaded is never collected, so that forks share its memory.
+    # Loaded objects are never collected, so that forks share their memory.
     gc.freeze()
     numbers: dict[int, int] = {}
     asked = b""
@@ -63,10 +63,9 @@ def _tell_ended(numbers: dict[int, int]) -> None:
 
 
 def _become(order: dict[str, Any]) -> NoReturn:
-    """Be the process of a study from here on, as if it had been started by its words."""
+    """Become the process of a study, as if started by its command line."""
     code = 1
     try:
-        # All of this comes before anything of the study runs.
         os.environ[PARENT] = str(os.getppid())
         os.environ["RAYON_NUM_THREADS"] = str(order["threads"])
         os.setsid()

@@ -28,32 +28,32 @@ def found_options(command: _Command) -> _Command:
     """Add the options of vessels that are found, from a seed or without one."""
     parts = (
         click.option(
-            "--seed", type=VECTOR, help="A point in a vessel (mm, LPS): find all that hangs together with it."
+            "--seed", type=VECTOR, help="A point in a vessel (mm, LPS): find all vessels connected to it."
         ),
         click.option(
             "--seed-index",
             type=VECTOR,
             metavar="I,J,K",
-            help="The same as indices of voxels, from 0, in place of --seed.",
+            help="The same as voxel indices from 0, instead of --seed.",
         ),
-        click.option("--find", is_flag=True, help="Find all vessels, with no point given."),
+        click.option("--find", is_flag=True, help="Find all vessels, without any point."),
         click.option(
             "--smallest-radius",
             type=click.FloatRange(0),
             metavar="MM",
-            help="Vessels of --seed and --find end where they are narrower from there on; default: 1.",
+            help="Vessels of --seed and --find end where they become narrower than this; default: 1.",
         ),
         click.option(
             "--doubtful",
             is_flag=True,
-            help="Keep the vessels of --seed and --find that are not sure; they are counted in any case.",
+            help="Keep the uncertain vessels of --seed and --find; they are counted in any case.",
         ),
     )
     return added(parts, command)
 
 
 def found_by(chosen: dict[str, Any]) -> str | None:
-    """Return the option that says how vessels are found in the scan, if any does."""
+    """Return the option that selects how vessels are found in the scan, if any."""
     if chosen.get("find"):
         return "--find"
     has_seed = chosen.get("seed") is not None or chosen.get("seed_index") is not None
@@ -61,7 +61,7 @@ def found_by(chosen: dict[str, Any]) -> str | None:
 
 
 def check_found(chosen: dict[str, Any]) -> None:
-    """Refuse options of finding vessels that contradict each other or do nothing."""
+    """Reject options of finding vessels that contradict each other or have no effect."""
     seeds = [name for name in ("seed", "seed_index") if chosen[name] is not None]
     given = [f"--{name.replace('_', '-')}" for name in seeds] + ["--find"] * chosen["find"]
     if len(given) > 1:
@@ -76,7 +76,7 @@ def check_found(chosen: dict[str, Any]) -> None:
 
 
 def shown_vessels(chosen: dict[str, Any], voxels: Volume) -> VesselTree:
-    """Find what a picture shows: without ``--all-parts`` and ``--doubtful`` the most important part alone."""
+    """Find the vessels of a picture: only the most important part by default."""
     from lumencut.vessel_tree import VesselTree
 
     tree = found_vessels(chosen, voxels)
@@ -87,7 +87,7 @@ def shown_vessels(chosen: dict[str, Any], voxels: Volume) -> VesselTree:
 
 
 def found_vessels(chosen: dict[str, Any], voxels: Volume) -> VesselTree:
-    """Find what is asked for, and say what is doubtful."""
+    """Find the requested vessels, and report the doubtful ones."""
     from lumencut.vessel_tree import VesselTree
 
     tree = _tree(chosen, voxels)
@@ -95,21 +95,22 @@ def found_vessels(chosen: dict[str, Any], voxels: Volume) -> VesselTree:
         return tree
     length = sum(vessel.length for vessel in tree.doubtful)
     kept = "kept" if chosen["doubtful"] else "left out; --doubtful keeps them"
-    say(f"doubtful: {len(tree.doubtful)} vessels of {length:.0f} mm beside {len(tree)} that are sure; {kept}")
+    doubtful = f"{len(tree.doubtful)} vessels of {length:.0f} mm"
+    say(f"doubtful: {doubtful}, in addition to {len(tree)} certain ones; {kept}")
     return VesselTree([*tree, *tree.doubtful]) if chosen["doubtful"] else tree
 
 
 def _tree(chosen: dict[str, Any], voxels: Volume) -> VesselTree:
-    """The vessels, with what is told of them."""
+    """The vessels, and the report on them."""
     from lumencut.seed_tracing import trace_from
     from lumencut.vessel_finding import find_vessels
 
     smallest = {} if chosen["smallest_radius"] is None else {"smallest_radius": chosen["smallest_radius"]}
-    with bar("finding vessels", "share") as told:
+    with bar("finding vessels", "share") as progress:
         if chosen["find"]:
-            tree = find_vessels(voxels, **smallest, progress=told)
+            tree = find_vessels(voxels, **smallest, progress=progress)
         else:
-            tree = trace_from(voxels, _place(chosen, voxels), **smallest, progress=told)
+            tree = trace_from(voxels, _place(chosen, voxels), **smallest, progress=progress)
     for note in tree.notes:
         say(note)
     for number, part in enumerate(tree.parts):

@@ -1,4 +1,4 @@
-"""``lumencut info``: what a file holds, and what is odd about it."""
+"""``lumencut info``: what a file holds, and anything unusual about it."""
 
 from __future__ import annotations
 
@@ -24,12 +24,11 @@ from lumencut.errors import LumencutError, SeriesError
 
 FILE = click.Path(path_type=Path)
 _CENTERLINE_ENDINGS = (".vtp", ".vtk", ".json", ".fcsv", ".pth", ".swc", ".tre", ".csv", ".txt", ".npy")
-#: Found, but of use to programs only.
 _ONLY_IN_JSON = {"file", "name", "volume", "centerlines", "notes", "decisions", "world_from_index"}
 _ONLY_IN_JSON |= {"kind", "error"}
 
 
-@click.command(short_help="Tell what files hold, and what is odd.")
+@click.command(short_help="Show what files hold, and anything unusual.")
 @click.argument("files", type=FILE, nargs=-1, metavar="FILE…")
 @coordinates_option
 @unit_option
@@ -55,19 +54,19 @@ def info(
     with_devices: bool,
     as_json: bool,
 ) -> None:
-    """Tell what each FILE holds, what was decided and what is odd: volumes, DICOM folders and centerlines.
+    """Show what each FILE holds, what was decided and anything unusual: volumes, DICOM folders, centerlines.
 
-    A DICOM folder of several series lists them. Volumes and centerlines given together are compared, and a
-    volume decides the space and unit that a centerline file leaves open. A file that cannot be read does not
-    stop the rest; the exit code is 1 then.
-    With --devices the GPUs are listed first, and what --device auto takes: the CPU where no GPU is hardware.
+    For a DICOM folder of several series, all are listed. Volumes and centerlines given together are compared,
+    and a volume decides the space and unit that a centerline file leaves open. If a file cannot be read, the
+    others are still shown, and the exit code is 1.
+    --devices lists the GPUs first, and the device that --device auto uses: the CPU without a hardware GPU.
     """
     if not (files or with_devices):
         raise click.UsageError("Missing argument 'FILE…'.")
     _check(click.get_current_context().params, files)
     gpus = findings.of_devices() if with_devices else None
     found: dict[Path, dict[str, Any]] = {}
-    # The volumes first: they help to understand the centerlines.
+    # The volumes first: they decide the space of the centerlines.
     for path in sorted(dict.fromkeys(files), key=_holds_centerlines):
         volumes = [one for one in found.values() if one["kind"] == "volume"]
         try:
@@ -95,7 +94,7 @@ def info(
 
 
 def _check(chosen: dict[str, Any], files: tuple[Path, ...]) -> None:
-    """Refuse options that say how files are read of which there is none."""
+    """Reject options for kinds of files that are not given."""
     volumes = [path for path in files if not _holds_centerlines(path)]
     check_reading(chosen, volumes, has_centerlines=len(volumes) < len(files))
 
@@ -149,7 +148,7 @@ def _ranges(numbers: list[int]) -> str:
 
 
 def _lines(value: Any) -> list[str]:
-    """A value in one line, or what is a series in a line each."""
+    """A value in one line, or each item of a series in its own line."""
     if isinstance(value, dict):
         return [str(value["shown"])]
     if isinstance(value, list) and isinstance(value[0], dict):

@@ -16,27 +16,26 @@ if TYPE_CHECKING:
 
 
 def label_options(command: Command) -> Command:
-    """Add the options that say which labels a picture has."""
+    """Add the options for the labels of a picture."""
     parts = (
         click.option(
             "--annotate/--no-annotate",
             default=None,
             help="Letters at the edges for the sides of the patient (R, L, A, P, S, I), the view, the window "
             "and a scale bar; default: on for .png and .dcm pictures, off for other files and turntables. "
-            "Sides below 200 pixels get none.",
+            "Pictures below 200 pixels on a side get none.",
         ),
         click.option(
             "--vessel-names/--no-vessel-names",
             default=None,
-            help="Among the labels the names of the vessels, beside their ends, as far as there is room; "
-            "default: off.",
+            help="Add the names of the vessels at their ends, as far as there is room; default: off.",
         ),
     )
     return added(parts, command)
 
 
 def check_labels(chosen: dict[str, Any], outputs: Iterable[Path], size: tuple[int, int]) -> None:
-    """Refuse labels that no file could show, and warn where the picture is too small for them."""
+    """Reject labels that no output can show, and warn if the picture is too small for them."""
     from lumencut.annotation import SMALLEST_SIDE
 
     asked = [name for name in ("annotate", "vessel_names") if chosen[name]]

@@ -1,4 +1,4 @@
-"""``--like``: a picture rendered as another one was, but for the options beside it."""
+"""``--like``: render a picture like another one, except for the options given."""
 
 from __future__ import annotations
 
@@ -28,10 +28,10 @@ like_option = click.option(
     type=options.FILE,
     metavar="PICTURE.png|SESSION.mrk.json",
     help="Render with the view, the settings and the labels of a .png that lumencut wrote, or of a session "
-    "that the viewer saved, whose vessels are shown where no CENTERLINES are given. Options beside it "
-    "come on top: --view and --up turn it, --rotate, --tilt and --zoom go on from it, --size keeps what is "
-    "in view, --zoom-to fits it anew. The picture names no vessels: --vessel and --exclude are to be given "
-    "again.",
+    "that the viewer saved, whose vessels are shown if no CENTERLINES are given. Other options change it "
+    "further: --view and --up turn it, --rotate, --tilt and --zoom start from it, --size keeps what is in "
+    "view, --zoom-to fits it again. The picture does not store the choice of vessels: give --vessel and "
+    "--exclude again.",
 )
 
 
@@ -47,12 +47,12 @@ def recipe_from(path: Path | None) -> Recipe | None:
     recipe = read_session(path).recipe
     if recipe is None:
         found = "a session without a view"
-        raise FormatError(str(path), found, "one that says how the scan is looked at", "name --view")
+        raise FormatError(str(path), found, "one that stores a view", "name --view")
     return recipe
 
 
 def beside_session(chosen: dict[str, Any]) -> dict[str, Any]:
-    """Return the options, with what a session of ``--like`` says of its vessels where they do not say it."""
+    """Return the options, completed by the vessels of a session of ``--like``."""
     from lumencut.session_file import is_session_file, read_session
 
     like = chosen["like"]
@@ -68,23 +68,23 @@ def beside_session(chosen: dict[str, Any]) -> dict[str, Any]:
 
 
 def typed(chosen: dict[str, Any]) -> dict[str, Any]:
-    """Return the options that the user typed: no default may change the picture."""
+    """Return the options that the user typed: defaults must not change the picture."""
     context = click.get_current_context()
     given = (ParameterSource.COMMANDLINE, ParameterSource.ENVIRONMENT)
     return {name: value for name, value in chosen.items() if context.get_parameter_source(name) in given}
 
 
 def views_of(chosen: dict[str, Any], recipe: Recipe | None) -> list[tuple[Any, Camera]]:
-    """Return each view that is asked for and its camera, whose place is open unless a recipe says it.
+    """Return each requested view and its camera, whose place is open unless a recipe gives it.
 
-    The one view of a recipe is None where no ``--view`` is beside it.
+    The view of a recipe is None without ``--view``.
     """
     if recipe is None:
         return [(view, options.view_from({**chosen, "view": view})) for view in chosen["view"]]
     given = typed(chosen)
     views = given.pop("view", (None,))
     if len(views) > 1:
-        found = f"--view is given {len(views)} times beside --like, which renders the view of one picture"
+        found = f"--view is given {len(views)} times with --like, which renders the view of one picture"
         raise click.UsageError(f"{found}; give it once or not at all, or leave --like out")
     if views[0] is not None:
         given["view"] = views[0]
@@ -94,21 +94,21 @@ def views_of(chosen: dict[str, Any], recipe: Recipe | None) -> list[tuple[Any, C
 def camera_of(
     view: Camera, scene: VesselTree | Volume, chosen: dict[str, Any], recipe: Recipe | None
 ) -> Camera:
-    """Return the camera of a view: a recipe says its place too, unless it is to fit other vessels."""
+    """Return the camera of a view: a recipe also gives its place, unless it is to fit other vessels."""
     return options.placed(view, scene, chosen) if recipe is None or chosen["zoom_to"] else view
 
 
 def warn_of_vessels(chosen: dict[str, Any], recipe: Recipe | None, renderer: Renderer) -> None:
-    """Say where a picture showed another number of vessels, whose choice it does not tell.
+    """Warn if a picture showed another number of vessels, because it does not store their choice.
 
-    Whoever chooses vessels now knows.
+    There is no warning if the user chooses vessels.
     """
     if recipe is None or chosen["vessel"] or chosen["exclude"]:
         return
     count = 0 if renderer.tree is None else len(renderer.tree)
     if recipe.vessels != count:
         shown = f"{chosen['like']} shows {counted(recipe.vessels, 'vessel')}, the new picture {count}"
-        warn(f"{shown}; --vessel and --exclude choose vessels, beside --like too")
+        warn(f"{shown}; --vessel and --exclude choose vessels, also with --like")
 
 
 def camera_like(camera: Camera, given: dict[str, Any]) -> Camera:
@@ -123,7 +123,7 @@ def camera_like(camera: Camera, given: dict[str, Any]) -> Camera:
 
 
 def _resized(camera: Camera, given: dict[str, Any]) -> Camera:
-    """With other pixels, all that was in view stays in view."""
+    """With another size in pixels, everything that was in view stays in view."""
     if "size" not in given:
         return camera
     larger = min(new / old for new, old in zip(given["size"], camera.size, strict=True))

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from lumencut.reformation import Reformation
     from lumencut.vessel import Vessel
 
-#: The names of ``lumencut.unrolled_wall.MODES``, here so that ``--help`` need not import numpy.
+#: The names of ``lumencut.unrolled_wall.MODES``; copied so that ``--help`` does not import numpy.
 MODES = ("wall", "radius", "thickness", "shaded")
 
 
@@ -27,7 +27,7 @@ MODES = ("wall", "radius", "thickness", "shaded")
     default="wall",
     show_default=True,
     help="wall: the volume at the wall, such as calcium and struts; radius: how far the wall is from the "
-    "centerline, in colour; thickness: how thick calcium or metal lies at the wall, in colour; shaded: the "
+    "centerline, in colour; thickness: thickness of calcium or metal at the wall, in colour; shaded: the "
     "wall as a surface lit from within.",
 )
 @reformations.vessel_options
@@ -51,20 +51,20 @@ MODES = ("wall", "radius", "thickness", "shaded")
     type=Parts("FROM:TO", ":", float),
     default="-1:3",
     show_default=True,
-    help="From where to where beyond the wall it is looked (mm).",
+    help="The band beyond the wall that is searched (mm).",
 )
 @click.option(
     "--show",
     type=click.Choice(("max", "mean", "min")),
     default="max",
     show_default=True,
-    help="Which value of that band is shown by --mode wall.",
+    help="The value of that band that --mode wall shows.",
 )
 @click.option(
     "--calcium-level",
     type=float,
     metavar="LEVEL",
-    help="From which level on something at the wall is calcium or metal; default: the lumen's level and half "
+    help="Calcium or metal at the wall begins at this level; default: the lumen's level plus half "
     "of its contrast, at least 130.",
 )
 @reformations.up_option
@@ -72,7 +72,7 @@ MODES = ("wall", "radius", "thickness", "shaded")
     "--pixel-spacing",
     type=float,
     metavar="MM",
-    help="Side of a pixel (mm); default: half of the smallest side of a voxel, but no more than 0.25 mm.",
+    help="Side of a pixel (mm); default: half of the smallest side of a voxel, at most 0.25 mm.",
 )
 @reformations.smoothing_option
 @reformations.picture_options

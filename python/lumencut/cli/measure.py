@@ -28,11 +28,10 @@ if TYPE_CHECKING:
     from lumencut.vessel_tree import VesselTree
     from lumencut.volume import Volume
 
-#: The names of `lumencut.stenosis.METHODS` and `lumencut.measured_vessel.GROUPS`, here so that `--help`
-#: need not import numpy.
+#: The names of `lumencut.stenosis.METHODS` and `lumencut.measured_vessel.GROUPS`; copied so that `--help`
+#: does not import numpy.
 METHODS, GROUPS = ("nascet", "ecst", "area"), ("carotid", "coronary")
 
-#: What speaks of a place on one vessel.
 _OF_A_PLACE = ("reference", "method", "original", "comparison", "group")
 
 
@@ -45,7 +44,7 @@ _OF_A_PLACE = ("reference", "method", "original", "comparison", "group")
     type=options.FILE,
     multiple=True,
     required=True,
-    help="The sections as a table (.csv) or for programs (.json); may be repeated.",
+    help="The sections as a table (.csv) or as JSON (.json); may be repeated.",
 )
 @options.shown_vessel_options
 @path_option
@@ -55,14 +54,14 @@ _OF_A_PLACE = ("reference", "method", "original", "comparison", "group")
     default=0.5,
     show_default=True,
     metavar="MM",
-    help="The distance of sections (mm), at most.",
+    help="The largest distance between sections (mm).",
 )
 @click.option(
     "--fwhm",
     type=click.FloatRange(min=0, min_open=True, max=20),
     metavar="MM",
-    help="The full width at half maximum of the scanner's point spread (mm); default: estimated where the "
-    "vessel is wide, else assumed, and said which; a session file may give one.",
+    help="Full width at half maximum of the scanner's point spread (mm); default: estimated from wide "
+    "vessels, otherwise assumed, and stated which; a session file may give one.",
 )
 @click.option(
     "--wall",
@@ -71,7 +70,7 @@ _OF_A_PLACE = ("reference", "method", "original", "comparison", "group")
     default="auto",
     show_default=True,
     help="The level of the walls of vessels and its deviation, in the unit of the volume; 'auto' takes "
-    "45,25 where the volume is in HU, and no wall elsewhere; with 'off' no wall is told apart.",
+    "45,25 where the volume is in HU, otherwise no wall; 'off' does not distinguish walls.",
 )
 @click.option("--at", type=float, metavar="MM", help="The place of a stenosis: its arc length on the vessel.")
 @click.option(
@@ -86,7 +85,7 @@ _OF_A_PLACE = ("reference", "method", "original", "comparison", "group")
 @click.option(
     "--method",
     type=click.Choice(METHODS),
-    help="How the stenosis is graded: by the diameter of the reference (nascet, the default), by --original "
+    help="The grading of the stenosis: by the diameter of the reference (nascet, the default), by --original "
     "(ecst), or by the area of the reference.",
 )
 @click.option(
@@ -96,24 +95,24 @@ _OF_A_PLACE = ("reference", "method", "original", "comparison", "group")
     "--comparison",
     type=float,
     metavar="MM",
-    help="The diameter of a vessel like the normal one, such as that of the other side: a much narrower "
+    help="The diameter of a comparable normal vessel, such as that of the other side: a much narrower "
     "reference is a near-occlusion.",
 )
 @click.option(
     "--group",
     type=click.Choice(GROUPS),
-    help="Which vessel it is, to name the group of the field that the stenosis falls into.",
+    help="The kind of vessel, to name the clinical group of the stenosis.",
 )
 @click.option("--plot", type=options.FILE, help="Draw diameters by arc length (.png or .svg).")
 @click.option(
     "--sections", type=options.FILE, help="Sections with their contours side by side, as a picture."
 )
-@click.option("--report", type=options.FILE, help="A page for each vessel with all of it (.html).")
+@click.option("--report", type=options.FILE, help="A report with a page for each vessel (.html).")
 @click.option(
     "--dicom",
     type=options.FILE,
     metavar="FOLDER",
-    help="Write DICOM objects of the scan's study: a structured report (needs lumencut[dicom]), the report "
+    help="Write DICOM objects into the scan's study: a structured report (needs lumencut[dicom]), the report "
     "as a PDF (needs lumencut[plot]) and pictures.",
 )
 @study_options
@@ -122,10 +121,10 @@ _OF_A_PLACE = ("reference", "method", "original", "comparison", "group")
 def measure(output: tuple[Path, ...], **chosen: Any) -> None:
     """Measure the lumen of the vessels of CENTERLINES in VOLUME, in sections across them.
 
-    All vessels are measured unless --vessel, --exclude or --path choose among them. Nothing is called a
-    stenosis unless --at marks it, or a reader did in the session file that stands for CENTERLINES; the
-    narrowest place and references are suggestions to look at. A lumen
-    is not the vessel: thrombus and plaque are not lumen. --plot needs matplotlib.
+    All vessels are measured unless --vessel, --exclude or --path choose among them. Only a place that --at
+    marks, or that a reader marked in a session file given as CENTERLINES, is called a stenosis; the narrowest
+    place and the references are suggestions to check. The lumen excludes thrombus and plaque. --plot needs
+    matplotlib.
 
     \b
     lumencut measure ct.nii.gz centerlines.vtp -o profile.csv --plot profile.png
@@ -152,7 +151,7 @@ def measure(output: tuple[Path, ...], **chosen: Any) -> None:
     measured = _measured(voxels, tree, vessels, chosen)
     for one in measured:
         say(f"{one.name}: {_described(one.profile)}")
-        for line in one.told:
+        for line in one.lines:
             say(f"  {line}")
     write_outputs(voxels, tree, measured, output, chosen)
     if study is not None:
@@ -160,13 +159,13 @@ def measure(output: tuple[Path, ...], **chosen: Any) -> None:
 
 
 def _described(profile: Profile) -> str:
-    """How a vessel was measured, in words."""
+    """A description of how a vessel was measured."""
     length = f"{len(profile)} sections over {profile.arc_length[-1]:.1f} mm"
     return f"{length}, FWHM {profile.fwhm:.2f} mm {profile.fwhm_source}"
 
 
 def _check_places(chosen: dict[str, Any]) -> None:
-    """Refuse what speaks of a stenosis where no place is marked, and what its method has no use for."""
+    """Reject options of a stenosis without a marked place, and those that its method does not use."""
     if chosen["at"] is None:
         for name in _OF_A_PLACE:
             if chosen[name] is not None:
@@ -182,20 +181,20 @@ def _check_places(chosen: dict[str, Any]) -> None:
 def _measured(
     voxels: Volume, tree: VesselTree, vessels: Sequence[tuple[str, Vessel]], chosen: dict[str, Any]
 ) -> list[MeasuredVessel]:
-    """The vessels that can be measured, with a warning of each other one; the error where there is none."""
+    """The vessels that can be measured, with a warning for each other one; an error if there is none."""
     from lumencut.measured_vessel import MeasuredVessel
     from lumencut.measuring import measure as library
 
     found, marked = [], _marked(chosen)
     session = _session(chosen)
-    # Options that mark a place or give the blur count more than the file.
+    # Options that mark a place or give the blur take precedence over the file.
     marks = session.marks if session and chosen["at"] is None else ()
     marks_of = {str(number): each for number, each in enumerate(marks)}
     fwhm = session.fwhm if session and chosen["fwhm"] is None else chosen["fwhm"]
-    with bar("measuring", "share") as told:
+    with bar("measuring", "share") as progress:
         for number, (ids, vessel) in enumerate(vessels, 1):
             try:
-                part = partial(_tell, told, number - 1, len(vessels))
+                part = partial(_report_share, progress, number - 1, len(vessels))
                 how = {"tree": tree, "wall": chosen["wall"], "progress": part}
                 profile = library(voxels, vessel, chosen["step"], fwhm, **how)
                 if marked.at is not None:
@@ -208,13 +207,15 @@ def _measured(
     return found
 
 
-def _tell(told: Callable[[int, int], None], before: int, count: int, done: int, total: int) -> None:
-    """Tell how much of all vessels is measured, where a part of one is and those before it are."""
-    told(before * total + done, count * total)
+def _report_share(
+    progress: Callable[[int, int], None], before: int, count: int, done: int, total: int
+) -> None:
+    """Report the progress over all vessels from the progress of one."""
+    progress(before * total + done, count * total)
 
 
 def _refuse(profile: Profile, at: float, marked: Marked) -> None:
-    """Refuse options that cannot be graded; of what a session file marks the reason is told instead."""
+    """Reject options that cannot be graded; for marks of a session file the reason is reported instead."""
     profile.diameter_at(at)
     if marked.references or marked.method == "ecst":
         of = (marked.references or None, marked.method, marked.original)
@@ -224,7 +225,7 @@ def _refuse(profile: Profile, at: float, marked: Marked) -> None:
 
 
 def _session(chosen: dict[str, Any]) -> SessionFile | None:
-    """The session file that stands for CENTERLINES, where it is one."""
+    """The session file given as CENTERLINES, if it is one."""
     from lumencut.session_file import is_session_file, read_session
 
     files = chosen["centerlines"]

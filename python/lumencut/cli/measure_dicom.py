@@ -1,4 +1,4 @@
-"""What ``lumencut measure --dicom`` writes: numbers, report and pictures beside the scan in its study."""
+"""Output of ``lumencut measure --dicom``: numbers, report and pictures in the study of the scan."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ if TYPE_CHECKING:
     from lumencut.vessel_tree import VesselTree
     from lumencut.volume import Volume
 
-#: Columns of a straightened vessel (mm), and the coarsest of its pixels.
+#: Width of a straightened vessel, and its largest pixel side (mm).
 _WIDTH, _COARSEST = 50.0, 0.25
 
 
 def check_dicom(chosen: dict[str, Any]) -> None:
-    """Refuse what cannot be written as DICOM, before any file is read."""
+    """Reject what cannot be written as DICOM before any file is read."""
     if chosen["dicom"] is None:
         for name in ("like_study", "anonymous", "other_patient"):
             if chosen[name]:
@@ -43,7 +43,7 @@ def check_dicom(chosen: dict[str, Any]) -> None:
 
 
 def study_for(voxels: Volume, chosen: dict[str, Any]) -> Study:
-    """Return the study that objects are put into, before anything is measured."""
+    """Return the study of the objects, before anything is measured."""
     from lumencut.dicom_objects.chosen_study import chosen_study
 
     return chosen_study(voxels._origin, **study_of(chosen))
@@ -90,7 +90,7 @@ def _write_pdf(
 
 
 def _write_pictures(folder: Path, shown: list[MeasuredVessel], study: Study, renderer: Renderer) -> int:
-    """Write the view from the front, and each vessel straightened; return how many pictures there are."""
+    """Write the view from the front, and each vessel straightened; return the number of pictures."""
     from lumencut.camera import Camera
     from lumencut.dicom_objects.picture import write_picture
     from lumencut.planar_reformation import cpr_of

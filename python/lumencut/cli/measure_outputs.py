@@ -1,4 +1,4 @@
-"""What ``lumencut measure`` writes beside its words: tables, JSON, plots, sections and reports."""
+"""Files that ``lumencut measure`` writes: tables, JSON, plots, sections and reports."""
 
 from __future__ import annotations
 
@@ -16,22 +16,21 @@ if TYPE_CHECKING:
     from lumencut.vessel_tree import VesselTree
     from lumencut.volume import Volume
 
-#: The endings of each output.
 _ENDINGS = {
     "output": (".csv", ".json"),
     "plot": (".png", ".svg"),
     "report": (".html", ".htm"),
 }
 
-#: Sections of a sheet: the most of a vessel, and the most in all unless there are more vessels.
+#: Largest number of sections on a sheet: per vessel, and in all unless there are more vessels.
 _SECTIONS, _IN_ALL, _LEAST = 20, 240, 4
 
-#: The most vessels of a plot: each takes 4 inches of its height.
+#: Largest number of vessels in a plot: each adds 4 inches to its height.
 _PLOTTED = 40
 
 
 def check_outputs(output: Sequence[Path], chosen: dict[str, Any]) -> None:
-    """Refuse files that could not be written, before any is read."""
+    """Reject outputs that cannot be written before any file is read."""
     named = [("output", path) for path in output]
     named += [(name, chosen[name]) for name in ("plot", "report") if chosen[name] is not None]
     for name, path in named:
@@ -59,7 +58,7 @@ def write_outputs(
     output: Sequence[Path],
     chosen: dict[str, Any],
 ) -> None:
-    """Write what was asked for, and say it."""
+    """Write the requested outputs, and report them."""
     for path in output:
         _write_profiles(path, measured, chosen)
     if chosen["plot"] is not None:
@@ -77,7 +76,7 @@ def _check_sheet(path: Path) -> None:
 
 
 def _check_twice(paths: Sequence[Path | None]) -> None:
-    """Refuse two outputs in one file."""
+    """Reject two outputs in one file."""
     places = [path.resolve() for path in paths if path is not None]
     twice = next((place for place in places if places.count(place) > 1), None)
     if twice is not None:
@@ -109,7 +108,7 @@ def _write_plot(path: Path, measured: Sequence[MeasuredVessel]) -> None:
 
 def _title(one: MeasuredVessel) -> str:
     name = f"vessel {one.name}, {one.profile.arc_length[-1]:.1f} mm"
-    lines = [] if one.stenosis is None else one.told
+    lines = [] if one.stenosis is None else one.lines
     return "\n".join([name, *lines])
 
 
@@ -119,9 +118,9 @@ def _write_sheet(path: Path, voxels: Volume, tree: VesselTree, measured: Sequenc
     from lumencut.window import Window
 
     count = min(_SECTIONS, max(_LEAST, _IN_ALL // len(measured)))
-    with bar("sections", "vessel") as told:
+    with bar("sections", "vessel") as progress:
         view = SectionView(voxels, Window.from_data(voxels, tree))
-        save_picture(sections_sheet(view, measured, count, told), path)
+        save_picture(sections_sheet(view, measured, count, progress), path)
     say(str(path))
 
 
@@ -136,6 +135,6 @@ def _write_report(
     from lumencut.measure_report import report
     from lumencut.renderer import Renderer
 
-    with bar("report", "page") as told:
-        write_text(path, report(Renderer(voxels, tree, chosen["device"]), voxels, measured, chosen, told))
+    with bar("report", "page") as progress:
+        write_text(path, report(Renderer(voxels, tree, chosen["device"]), voxels, measured, chosen, progress))
     say(str(path))

@@ -1,7 +1,7 @@
-"""What a user cannot mean: files in each other's place, and options that do nothing with what is given.
+"""User mistakes: files in each other's place, and options without effect.
 
-An option for a case that may or may not arise, such as ``--fill-gaps`` for missing DICOM slices, is no
-mistake where it does not arise. A switch that is off and a number that is 0 ask for nothing.
+An option for a case that may or may not arise, such as ``--fill-gaps`` for missing DICOM slices, is not a
+mistake. A switch that is off and a number of 0 request nothing.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 _CONTEXT = tuple(name for name in SETTINGS if name.startswith("context"))
 _OF_ALL = ("background", "samples", *_CONTEXT)
-#: ``--paper`` and ``--look`` choose settings of the cut surface; they are no settings of the table.
+#: ``--paper`` and ``--look`` choose settings of the cut surface but are not in the table of settings.
 _CUT_SURFACE = (*(name for name in SETTINGS if name not in _OF_ALL), "paper", "look")
 _DICOM = ("series", "phase", "fill_gaps", "resample_slices")
 _NOTHING = (None, False, 0, ())
@@ -29,7 +29,7 @@ _PICTURE = ("window", "opacity", "silhouette_color", "background", "samples", *_
 
 
 def check_files(volume: Path | None, centerlines: Sequence[Path]) -> None:
-    """Refuse a volume and centerlines in each other's place."""
+    """Reject a volume and centerlines in each other's place."""
     from lumencut.file_kinds import kind_of
 
     first = None if volume is None else kind_of(volume)
@@ -51,7 +51,7 @@ def check_files(volume: Path | None, centerlines: Sequence[Path]) -> None:
 
 
 def check_reading(chosen: dict[str, Any], volumes: Iterable[Path], *, has_centerlines: bool) -> None:
-    """Refuse options that say how DICOM or centerlines are read where none are given."""
+    """Reject options for reading DICOM or centerlines if none are given."""
     from lumencut.file_kinds import kind_of
 
     kinds = {path: kind_of(path) for path in volumes}
@@ -60,13 +60,13 @@ def check_reading(chosen: dict[str, Any], volumes: Iterable[Path], *, has_center
         why = f"with {with_what}" if with_what else "without VOLUME"
         _refuse(chosen, _DICOM, f"{why}: it is for DICOM series", "leave it out")
     if not has_centerlines:
-        why = "without CENTERLINES; it says how they are to be understood"
+        why = "without CENTERLINES, which it interprets"
         _refuse(chosen, ("coordinates", "unit", "reorder"), why, "name their file, or leave it out")
         _refuse(chosen, _VESSELS, "without CENTERLINES", "name their file, or leave it out")
 
 
 def check_options(chosen: dict[str, Any], settings: Settings, *, has_centerlines: bool) -> None:
-    """Refuse options of settings that change nothing in a picture with these settings."""
+    """Reject options of settings that have no effect with these settings."""
     if not has_centerlines:
         _refuse(
             chosen,
@@ -81,14 +81,14 @@ def check_options(chosen: dict[str, Any], settings: Settings, *, has_centerlines
 
 
 def check_measured(chosen: dict[str, Any]) -> None:
-    """Refuse options of looks where nothing is shown and only the cut surface is measured."""
+    """Reject options of looks if no picture is written and only the cut surface is measured."""
     _refuse(
         chosen, _PICTURE, "without --pictures: it changes no measure", "ask for pictures, or leave it out"
     )
 
 
 def check_radii(chosen: dict[str, Any], tree: VesselTree | None) -> None:
-    """Refuse options that need radii for a tree without any."""
+    """Reject options that need radii for a tree without radii."""
     if tree is None or any(vessel.radius is not None for vessel in tree):
         return
     why = "with centerlines without radius"
@@ -96,7 +96,7 @@ def check_radii(chosen: dict[str, Any], tree: VesselTree | None) -> None:
     _refuse(chosen, ("preserve_lumen",), f"{why}, from which no wall is known", "leave it out")
 
 
-#: Names of settings that do nothing beside others, why, and what lets them do something.
+#: Names of settings without effect with others, the reason, and the mend.
 _Idle: TypeAlias = tuple[tuple[str, ...], str, str]
 
 
@@ -115,7 +115,7 @@ def _idle_context(settings: Settings) -> Iterator[_Idle]:
         yield ("context_shading",), why, "choose --context mida or dvr"
     has_differences = settings.context not in ("dvr", "mip") or settings.context_shading
     if not isinstance(settings.context_transfer, str | None) and not has_differences:
-        why = f"with --context {settings.context} and control points, which have intensities of their own"
+        why = f"with --context {settings.context} and control points, which have their own intensities"
         yield ("context_window",), why, "choose --context mida or a transfer function by name"
 
 
@@ -136,7 +136,7 @@ def _idle_rules(settings: Settings) -> Iterator[_Idle]:
     if not settings.zone_filter:
         yield ("depth_leap",), "without the zone filter", "give --zone-filter"
     if settings.levels == 0:
-        yield ("level_distance",), "with --levels 0, the finest alone", "give more levels"
+        yield ("level_distance",), "with --levels 0, which uses only the finest level", "give more levels"
     if not settings.lumen_first:
         yield ("unknown_radius",), "without the rule lumen-first", "give --lumen-first"
         if settings.level_choice == "nearest":

@@ -1,4 +1,4 @@
-"""Options shared by the commands that make pictures, and the camera they stand for."""
+"""Options shared by the commands that make pictures, and their camera."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 Command = TypeVar("Command", bound=Callable[..., Any])
 
-#: The names of ``lumencut.VIEWS``, here so that ``--help`` need not import numpy.
+#: The names of ``lumencut.VIEWS``; copied so that ``--help`` does not import numpy.
 VIEW_NAMES = ("anterior", "posterior", "left", "right", "superior", "inferior")
 
 
@@ -30,66 +30,61 @@ VIEW = Named(VIEW_NAMES)
 FILE = click.Path(path_type=Path)
 
 
-#: Which of several DICOM series to read.
 series_option = click.option(
     "--series",
     metavar="NUMBER|UID",
-    help="Which DICOM series to read where a folder holds several; lumencut info lists them.",
+    help="The DICOM series to read from a folder of several; lumencut info lists them.",
 )
 
 
-#: Which of several phases of one DICOM series to read.
 phase_option = click.option(
     "--phase",
     metavar="VALUE",
-    help="Which phase of a DICOM series that mixes several: the value that tells it apart, "
-    "as the error without it lists them.",
+    help="The phase of a DICOM series that mixes several: the value that distinguishes it, "
+    "as listed by the error without this option.",
 )
 
 
-#: What becomes of a DICOM series from which slices are missing.
 fill_gaps_option = click.option(
     "--fill-gaps",
     is_flag=True,
-    help="Interpolate missing DICOM slices between their neighbours instead of refusing the series.",
+    help="Interpolate missing DICOM slices between their neighbours instead of rejecting the series.",
 )
 
 
-#: What becomes of a DICOM series whose slices lie at uneven distances.
 resample_slices_option = click.option(
     "--resample-slices",
     is_flag=True,
-    help="Put DICOM slices of uneven distances on a regular grid, linearly between neighbours, instead of "
-    "refusing the series.",
+    help="Resample DICOM slices of uneven spacing to a regular grid, linearly between neighbours, instead of "
+    "rejecting the series.",
 )
 
 
-#: How the coordinates of centerline files are to be understood.
 coordinates_option = click.option(
     "--coordinates",
     type=click.Choice(["lps", "ras"]),
-    help="Space of the centerline file; default: the one it states, else the one that fits the volume.",
+    help="Space of the centerline file; default: as stated in the file, otherwise the one that fits the "
+    "volume.",
 )
 unit_option = click.option(
     "--unit",
     type=click.Choice(["um", "mm", "cm", "dm", "m"]),
-    help="Unit of the centerline file; default: the one it states, else the one that fits the volume, "
-    "first of all that of its format (.pth cm, others mm).",
+    help="Unit of the centerline file; default: as stated in the file, otherwise the one that fits the "
+    "volume, trying that of its format first (.pth cm, others mm).",
 )
 reorder_option = click.option(
     "--reorder",
     is_flag=True,
-    help="Put the points of each centerline into their order along the vessel; refused where it is in doubt.",
+    help="Sort the points of each centerline along the vessel; an error if the order is in doubt.",
 )
 
 
-#: What computes.
 device_option = click.option(
     "--device",
     type=click.Choice(["auto", "cpu", "gpu"]),
     default="auto",
     show_default=True,
-    help="What computes: auto takes a GPU where there is a hardware one, else the CPU; "
+    help="The device that computes: auto uses a hardware GPU if there is one, otherwise the CPU; "
     "lumencut info --devices lists the GPUs.",
 )
 
@@ -101,21 +96,18 @@ def _remember_threads(ctx: click.Context, _: click.Parameter, count: int | None)
         set_threads(count)
 
 
-#: How many threads compute.
 threads_option = click.option(
     "--threads",
     type=click.IntRange(1, 1024),
     metavar="N",
     expose_value=False,
     callback=_remember_threads,
-    help="How many threads compute on the CPU; default: as many as it runs at once. "
-    "Results do not depend on it.",
+    help="Number of CPU threads; default: as many as the CPU runs at once. Results do not depend on it.",
 )
 
 
-#: From which direction one looks.
 _DIRECTION = (
-    click.option("--up", type=VECTOR, help="What points upwards (LPS); default: the patient's head."),
+    click.option("--up", type=VECTOR, help="The direction that points up (LPS); default: towards the head."),
     click.option(
         "--rotate",
         type=float,
@@ -134,7 +126,7 @@ _DIRECTION = (
 
 
 def scene_arguments(command: Command) -> Command:
-    """Add the files that every picture is made from."""
+    """Add the input files of a picture."""
     parts = (
         click.argument("volume", type=FILE),
         click.argument("centerlines", type=FILE, nargs=-1),
@@ -145,12 +137,12 @@ def scene_arguments(command: Command) -> Command:
 
 
 def reading_options(command: Command) -> Command:
-    """Add the options that say how the files are read, and what computes."""
+    """Add the options for reading the files, and for the device."""
     return added((file_options, device_option, threads_option), command)
 
 
 def file_options(command: Command) -> Command:
-    """Add the options that say how the files are read."""
+    """Add the options for reading the files."""
     parts = (
         coordinates_option,
         unit_option,
@@ -163,22 +155,21 @@ def file_options(command: Command) -> Command:
     return added(parts, command)
 
 
-#: How vessels are named.
 _NAMED: dict[str, Any] = {"metavar": "NAME|ID", "multiple": True}
 
 
 def vessel_options(command: Command) -> Command:
     """Add the options that choose among the vessels."""
     zoom = click.option(
-        "--zoom-to", help="Fit the view to this vessel, whatever else is shown; may be repeated.", **_NAMED
+        "--zoom-to", help="Fit the view to this vessel, with any others shown; may be repeated.", **_NAMED
     )
     return added((shown_vessel_options, zoom), command)
 
 
 def shown_vessel_options(command: Command) -> Command:
-    """Add the options that say which vessels are shown."""
+    """Add the options that select vessels."""
     parts = (
-        click.option("--vessel", help="Show this vessel and no other; may be repeated.", **_NAMED),
+        click.option("--vessel", help="Show only this vessel; may be repeated.", **_NAMED),
         click.option("--exclude", help="Leave this vessel out; may be repeated.", **_NAMED),
     )
     return added(parts, command)
@@ -190,7 +181,7 @@ def view_options(command: Command) -> Command:
 
 
 def direction_options(command: Command) -> Command:
-    """Add the options that say from where one looks, without a place or pixels."""
+    """Add the options for the viewing direction, without a place or pixels."""
     return added((_view_option(default="anterior"), *_DIRECTION), command)
 
 
@@ -241,7 +232,7 @@ def _camera_options(command: Command) -> Command:
 
 
 def view_from(chosen: dict[str, Any]) -> Camera:
-    """Return a camera with the direction, up and size that the options stand for; its place is still open."""
+    """Return a camera with the direction, up and size of the options; its place is still open."""
     import numpy as np
 
     from lumencut.camera import VIEWS, Camera, upright
@@ -258,14 +249,14 @@ def view_from(chosen: dict[str, Any]) -> Camera:
 
 
 def placed(view: Camera, scene: VesselTree | Volume, chosen: dict[str, Any]) -> Camera:
-    """Return the camera of this view where all of the scene fits, as far as the options leave that open."""
+    """Return the camera of this view, fitted to the scene as far as the options leave that open."""
     from lumencut.camera import Camera
 
     return placed_like(Camera.fitted(scene, view.direction, view.up, view.size), chosen)
 
 
 def placed_like(fitted: Camera, chosen: dict[str, Any]) -> Camera:
-    """Return a fitted camera with the place and magnification that the options name."""
+    """Return a fitted camera with the place and magnification of the options."""
     if chosen["center"] is not None:
         fitted = replace(fitted, center=chosen["center"])
     return _magnified(fitted, chosen)
@@ -278,14 +269,14 @@ def _magnified(camera: Camera, chosen: dict[str, Any]) -> Camera:
 
 
 def described(camera: Camera, name: str, window: Window) -> str:
-    """Say what a picture shows, in words that --size, --pixel-spacing and --NAME take back."""
+    """Describe a picture, in words that --size, --pixel-spacing and --NAME accept."""
     width, height = camera.size
     spacing, intensities = f"{camera.pixel_spacing:.4g} mm", f"{window.width:.4g}/{window.level:.4g}"
     return f"{width} × {height} pixels of {spacing}, {name} {intensities}"
 
 
 def check_picture(path: Path) -> None:
-    """Refuse a picture that could not be written before any work is done for it."""
+    """Reject a picture that cannot be written before any work is done for it."""
     from PIL import Image
 
     kind = Image.registered_extensions().get(path.suffix.lower())
@@ -296,7 +287,7 @@ def check_picture(path: Path) -> None:
 
 
 def check_folder(path: Path) -> None:
-    """Refuse a file in a folder that does not exist."""
+    """Reject a file in a folder that does not exist."""
     if not path.parent.is_dir():
         raise FileError(str(path), f"no folder {path.parent}", "a folder to write into", "make it first")
 

@@ -1,4 +1,4 @@
-"""Which pictures a run writes: every view into every output, under names that tell the views apart."""
+"""The pictures that a run writes: every view into every output, under names that distinguish the views."""
 
 from __future__ import annotations
 
@@ -11,7 +11,6 @@ import click
 
 from lumencut.cli.options import check_picture
 
-#: Stands for the name of the view in the name of an output.
 PLACE = "{view}"
 
 
@@ -32,10 +31,10 @@ class Picture:
 
 
 def pictures(views: Sequence[Any], outputs: Sequence[Path]) -> list[Picture]:
-    """Give the files of each view, and refuse those that cannot be written before any file is read.
+    """Return the files of each view, and reject those that cannot be written before any file is read.
 
-    The name of the view takes the place of ``{view}`` in an output. Of several views it comes before the
-    ending of an output without ``{view}``.
+    The name of the view replaces ``{view}`` in an output. With several views it comes before the ending of an
+    output without ``{view}``.
     """
     planned = [
         Picture(view, tuple(_path(output, view, is_one=len(views) == 1) for output in outputs))
@@ -52,15 +51,15 @@ def pictures(views: Sequence[Any], outputs: Sequence[Path]) -> list[Picture]:
 
 
 def name_of(view: Any) -> str:
-    """How a view is called in the name of a file: a direction by its three numbers."""
+    """The name of a view in file names: a direction by its three numbers."""
     return view if isinstance(view, str) else "_".join(f"{number:g}" for number in view)
 
 
 def _path(output: Path, view: Any, *, is_one: bool) -> Path:
     if view is None:
         if PLACE in output.name:
-            found = f"{PLACE} in {output} stands for the name of the view, and a picture tells none"
-            raise click.UsageError(f"{found}; give --view beside --like, or another name")
+            found = f"{PLACE} in {output} stands for the name of the view, which a picture does not store"
+            raise click.UsageError(f"{found}; give --view with --like, or another name")
         return output
     name = name_of(view)
     if PLACE in output.name:

@@ -1,4 +1,4 @@
-"""How options are written: vectors, sizes, colours, slabs and transfer functions as one word."""
+"""Syntax of options: vectors, sizes, colours, slabs and transfer functions as one word."""
 
 from __future__ import annotations
 
@@ -10,19 +10,18 @@ import click
 if TYPE_CHECKING:
     _Type = click.ParamType[Any]
 else:
-    # Generic only in recent versions of click.
     _Type = click.ParamType
 
 _Parameter: TypeAlias = "click.Parameter | None"
 _Context: TypeAlias = "click.Context | None"
 
 
-#: The names of ``lumencut.window.WINDOW_NAMES``, here so that ``--help`` need not import numpy.
+#: The names of ``lumencut.window.WINDOW_NAMES``; copied so that ``--help`` does not import numpy.
 WINDOW_NAMES = ("auto", "cta", "soft-tissue", "bone", "lung", "full", "mra", "stent")
 
 
 class Parts(_Type):
-    """Numbers with a separator between them; ``form`` shows the user how to write them."""
+    """Numbers with a separator; ``form`` shows the user how to write them."""
 
     def __init__(self, form: str, separator: str, kind: type[float] | type[int]) -> None:
         self.name, self._separator, self._kind = form, separator, kind
@@ -94,13 +93,13 @@ class PlaceOnVessel(_Type):
 
 
 class WallOption(Parts):
-    """The level of walls and its standard deviation, no wall, or what the volume says."""
+    """The level of walls and its standard deviation, no wall, or automatic."""
 
     def __init__(self) -> None:
         super().__init__("LEVEL,DEVIATION", ",", float)
 
     def convert(self, value: Any, param: _Parameter, ctx: _Context) -> Any:
-        """Return the two numbers, "off", or None for what the volume says."""
+        """Return the two numbers, "off", or None for automatic."""
         if value in ("auto", "off"):
             return None if value == "auto" else value
         try:
@@ -112,7 +111,7 @@ class WallOption(Parts):
 def joined_places(
     ctx: click.Context, param: click.Parameter, given: tuple[tuple[float, ...], ...]
 ) -> tuple[float, ...] | None:
-    """Return the places of all times that an option was given; None where it was not.
+    """Return the places of all uses of an option; None if it was not given.
 
     Raises
     ------
@@ -184,13 +183,13 @@ class Color(_Type):
 
 
 class Thickness(_Type):
-    """A thickness in mm and, after a colon, what is shown of it."""
+    """A thickness in mm and, after a colon, how its values are combined."""
 
     def __init__(self, names: tuple[str, ...]) -> None:
         self.names, self.name = names, "MM[:" + "|".join(names) + "]"
 
     def convert(self, value: Any, param: _Parameter, ctx: _Context) -> tuple[float, str]:
-        """Return the thickness and the name, the first one where none is given."""
+        """Return the thickness and the name, by default the first one."""
         length, colon, name = str(value).lower().partition(":")
         try:
             thickness = float(length.removesuffix("mm"))

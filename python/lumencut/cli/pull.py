@@ -9,34 +9,34 @@ from typing import TYPE_CHECKING
 import click
 
 from lumencut.cli.options import FILE, Command, added
-from lumencut.cli.report import INCOMPLETE, bar, say, tell, verbose_option, warn
+from lumencut.cli.report import INCOMPLETE, bar, inform, say, verbose_option, warn
 
 if TYPE_CHECKING:
     from lumencut.dicomweb.address import Address
     from lumencut.dicomweb.client import Client
     from lumencut.dicomweb.queries import Found
 
-#: As many studies as a table has where nobody asks for more.
+#: Default number of studies in a table.
 _MOST_STUDIES = 100
 _STUDY_COLUMNS = ("date", "patient", "modalities", "description", "series", "instances")
 _SERIES_COLUMNS = ("number", "modality", "description", "instances")
 
 
 def server_options(command: Command) -> Command:
-    """Add the options that say whom a PACS trusts, and whom it is trusted by."""
+    """Add the options for credentials and certificates of a PACS."""
     parts = (
         click.option(
             "--token-file",
             type=FILE,
             metavar="FILE",
-            help="A file that holds a token, read anew where it has expired. Else the environment's "
-            "LUMENCUT_DICOMWEB_TOKEN is sent, or name and password of ~/.netrc.",
+            help="A file that holds a token; it is read again after the token expires. Default: the "
+            "environment's LUMENCUT_DICOMWEB_TOKEN, or name and password from ~/.netrc.",
         ),
         click.option(
             "--ca",
             type=FILE,
             metavar="FILE",
-            help="The certificate of a private authority (PEM), trusted in place of the usual ones.",
+            help="The certificate of a private authority (PEM), trusted instead of the usual ones.",
         ),
     )
     return added(parts, command)
@@ -56,7 +56,7 @@ def server_options(command: Command) -> Command:
     default=_MOST_STUDIES,
     show_default=True,
     metavar="N",
-    help="As many studies are listed at most.",
+    help="The largest number of studies to list.",
 )
 @server_options
 @verbose_option
@@ -72,14 +72,14 @@ def pull(
     token_file: Path | None,
     ca: Path | None,
 ) -> None:
-    """Fetch what ADDRESS names from a PACS, or list what is there.
+    """Fetch the study or series at ADDRESS from a PACS, or list what is there.
 
-    ADDRESS is that of a server of DICOMweb, of a study of it or of a series: https://HOST/ROOT/studies/UID
+    ADDRESS names a DICOMweb server, a study or a series: https://HOST/ROOT/studies/UID
     or https://HOST/ROOT/studies/UID/series/UID. Without a study the studies are listed with their addresses;
     with one and without -o its series.
 
-    Each file appears only once it is whole. Run again, pull fetches what is missing alone. It leaves with 3
-    where something is still missing.
+    Each file appears only when it is complete. Run pull again to fetch only what is missing. The exit code is
+    3 if something is still missing.
 
     \b
     lumencut pull https://pacs.example/dicom-web --patient 'Doe*' --modality CT
@@ -113,13 +113,13 @@ def _list(client: Client, place: Address, wanted: dict[str, str], most: int) -> 
     found = find_studies(client, place, wanted, most + 1)
     _table(found[:most], _STUDY_COLUMNS, "studies")
     if len(found) > most:
-        tell(f"there are more than {most}: --patient, --date and --modality narrow them down")
+        inform(f"there are more than {most}: --patient, --date and --modality narrow them down")
 
 
 def _table(found: list[Found], columns: tuple[str, ...], what: str) -> None:
-    """Print a table, its addresses last: they are long, and what is copied."""
+    """Print a table with the addresses last: they are long, and users copy them."""
     if not found:
-        tell(f"no {what} found")
+        inform(f"no {what} found")
         return
     rows = [columns, *(tuple(one.texts[name] for name in columns) for one in found)]
     widths = [min(max(len(row[n]) for row in rows), 40) for n in range(len(columns))]
@@ -135,17 +135,17 @@ def _pull(client: Client, place: Address, folder: Path) -> bool:
 
     instances = find_instances(client, place)
     _warn_of_patients(client, place)
-    with bar(f"fetching {len(instances)} instances", "instance") as told:
-        done = pull_instances(client, instances, folder, told)
+    with bar(f"fetching {len(instances)} instances", "instance") as progress:
+        done = pull_instances(client, instances, folder, progress)
     already = f", {done.before} were there" if done.before else ""
     say(f"{folder}: {done.fetched} of {done.listed} instances fetched{already}")
     if not done.is_complete:
-        warn(f"{len(done.missing)} instances are missing: {done.reasons}; run it again to fetch them alone")
+        warn(f"{len(done.missing)} instances are missing: {done.reasons}; run it again to fetch only these")
     return done.is_complete
 
 
 def _warn_of_patients(client: Client, place: Address) -> None:
-    """Say where the PACS has one study under several patients; one that cannot be asked is pulled from."""
+    """Warn if the PACS has one study under several patients; if it cannot be asked, continue."""
     from lumencut.dicomweb.queries import find_patients
     from lumencut.errors import PacsError
 

@@ -10,7 +10,7 @@ import click
 
 from lumencut.cli.options import FILE
 from lumencut.cli.pull import server_options
-from lumencut.cli.report import INCOMPLETE, bar, busy, complain, detail, say, tell, verbose_option, warn
+from lumencut.cli.report import INCOMPLETE, bar, busy, complain, detail, inform, say, verbose_option, warn
 from lumencut.errors import PacsError
 
 if TYPE_CHECKING:
@@ -18,13 +18,13 @@ if TYPE_CHECKING:
     from lumencut.dicomweb.client import Client
     from lumencut.dicomweb.objects import Outgoing
 
-_NOT_BACK = "what is in a PACS cannot be taken back from here"
+_NOT_BACK = "objects in a PACS cannot be removed from here"
 
 
 @click.command(short_help="Send DICOM objects to a PACS.")
 @click.argument("files", type=FILE, nargs=-1, required=True, metavar="FILES... ADDRESS")
-@click.option("--dry-run", is_flag=True, help="List the objects and the address, and ask nobody.")
-@click.option("--new-study", is_flag=True, help="Send objects of studies that the PACS does not have, too.")
+@click.option("--dry-run", is_flag=True, help="List the objects and the address; contact no server.")
+@click.option("--new-study", is_flag=True, help="Also send objects of studies that the PACS does not have.")
 @click.option("--yes", is_flag=True, help="Do not ask before the first push to an address.")
 @server_options
 @verbose_option
@@ -40,12 +40,12 @@ def push(
 ) -> None:
     """Send the DICOM objects in FILES to the PACS at ADDRESS.
 
-    FILES are files, folders or zip archives; ADDRESS is that of a server of DICOMweb: https://HOST/ROOT.
-    What is sent cannot be taken back from here. Studies that the PACS does not have are refused, since
-    results belong beside their scan, and objects of another PatientID than that of their study.
+    FILES are files, folders or zip archives; ADDRESS names a DICOMweb server: https://HOST/ROOT.
+    Sent objects cannot be removed from here. Push rejects studies that the PACS does not have, since results
+    belong to the study of their scan, and objects whose PatientID differs from that of their study.
 
-    Each object that the PACS refuses is named with the reason, and all others are looked up afterwards. Push
-    leaves with 3 where one is not there.
+    Each object that the PACS rejects is reported with the reason; afterwards push asks for all others. The
+    exit code is 3 if an object is missing in the PACS.
 
     \b
     lumencut push results/ https://pacs.example/dicom-web --dry-run
@@ -61,10 +61,10 @@ def push(
     address = parsed_address(files[-1])
     if address.study:
         raise click.UsageError("ADDRESS names a study; objects know theirs, so leave /studies/… out")
-    with busy("looking into files"):
+    with busy("reading files"):
         objects, left_out = outgoing_objects(files[:-1])
     if left_out:
-        tell(f"left out, no DICOM: {len(left_out)} files, such as {left_out[0]}")
+        inform(f"left out, no DICOM: {len(left_out)} files, such as {left_out[0]}")
     _list(objects, address, is_all=dry_run)
     _warn(check_objects(objects))
     if dry_run:
@@ -91,7 +91,7 @@ def _list(objects: list[Outgoing], address: Address, *, is_all: bool) -> None:
 def _check_studies(
     client: Client, address: Address, objects: list[Outgoing], *, is_new_allowed: bool
 ) -> None:
-    """Refuse objects of another patient, and what belongs to no study of the PACS: mostly the wrong PACS."""
+    """Reject objects of another patient, and of studies that the PACS lacks: usually the wrong PACS."""
     from lumencut.dicomweb.patients import check_pacs
 
     unknown, doubts = check_pacs(client, address.base, objects)
@@ -113,7 +113,7 @@ def _ask(address: Address, *, is_sure: bool) -> None:
     if not is_sure and not is_known(address.base):
         if not sys.stdin.isatty():
             mend = "give --yes to send without a question"
-            raise PacsError(address.base, "nobody to ask before the first push to it", "an answer", mend)
+            raise PacsError(address.base, "no terminal to ask before the first push to it", "an answer", mend)
         click.confirm(f"Send them to {address.base}, for the first time? {_NOT_BACK}.", abort=True)
     remember(address.base)
 
@@ -121,10 +121,10 @@ def _ask(address: Address, *, is_sure: bool) -> None:
 def _push(client: Client, address: Address, objects: list[Outgoing]) -> bool:
     from lumencut.dicomweb.pushing import push_objects
 
-    with bar(f"sending {len(objects)} objects", "object") as told:
-        done = push_objects(client, address, objects, told)
+    with bar(f"sending {len(objects)} objects", "object") as progress:
+        done = push_objects(client, address, objects, progress)
     if done.before:
-        tell(f"{done.before} of them were there before; a PACS keeps what it had under their UIDs")
+        inform(f"{done.before} of them were there before; a PACS keeps what it had under their UIDs")
     say(f"{done.confirmed} of {len(objects)} objects are in {address.base}; {_NOT_BACK}")
     sources = {one.uid: one.source for one in objects}
     for uid, refusal in done.failed.items():

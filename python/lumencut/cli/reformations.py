@@ -1,4 +1,4 @@
-"""What the commands of reformations share: which vessels, where they are written, and ``--like``."""
+"""Shared by the commands of reformations: choice of vessels, outputs, and ``--like``."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from lumencut.vessel import Vessel
     from lumencut.vessel_tree import VesselTree
 
-#: Which parameters of a recipe are radians, and degrees on the command line.
+#: Parameters of a recipe in radians, in degrees on the command line.
 _ANGLES = ("angle", "overlap")
 
 output_option = click.option(
@@ -49,21 +49,22 @@ smoothing_option = click.option(
 )
 
 up_option = click.option(
-    "--up", type=VECTOR, default="0,0,1", show_default=True, help="What points upwards (LPS)."
+    "--up", type=VECTOR, default="0,0,1", show_default=True, help="The direction that points up (LPS)."
 )
 
 annotate_option = click.option(
     "--annotate/--no-annotate",
     default=True,
     show_default=True,
-    help="What is shown, window, what rows and columns are, names and scales on the pictures.",
+    help="Label the pictures with method, window, axes, names and scales.",
 )
 
 like_option = click.option(
     "--like",
     type=options.FILE,
     metavar="PICTURE.png",
-    help="Take the options and settings of a .png that this command wrote. Options beside it come on top.",
+    help="Take the options and settings of a .png that this command wrote. Other options change them "
+    "further.",
 )
 
 
@@ -75,12 +76,12 @@ def file_options(command: options.Command) -> options.Command:
 
 
 def vessel_options(command: options.Command) -> options.Command:
-    """Add the options that say which vessels are shown, each by itself."""
+    """Add the options that select vessels, each shown separately."""
     return options.added((options.shown_vessel_options, path_option), command)
 
 
 def picture_options(command: options.Command) -> options.Command:
-    """Add the options of what stands on the picture, of how files are read, and of how values are shown."""
+    """Add the options for labels, reading files, and the display of values."""
     parts = (
         *(annotate_option, like_option, dicom_options),
         *(options.reading_options, look_options, verbose_option),
@@ -89,7 +90,7 @@ def picture_options(command: options.Command) -> options.Command:
 
 
 def like(chosen: dict[str, Any], command: str) -> tuple[dict[str, Any], Settings]:
-    """Return the options with those of ``--like`` where the user typed none, and the settings."""
+    """Return the options, completed by those of ``--like``, and the settings."""
     path = chosen.pop("like")
     if path is None:
         return chosen, settings_from(chosen)
@@ -110,9 +111,9 @@ def like(chosen: dict[str, Any], command: str) -> tuple[dict[str, Any], Settings
 def read_vessels(
     chosen: dict[str, Any], settings: Settings, command: str, *, has_series: bool = False
 ) -> tuple[Renderer, VesselTree, list[tuple[str, Vessel]]]:
-    """Return a renderer of the files, the tree, and the vessels that are chosen with their titles.
+    """Return a renderer of the files, the tree, and the chosen vessels with their titles.
 
-    With `has_series` a DICOM series is written beside the output.
+    With `has_series` a DICOM series is written as well.
     """
     files = scene_from(chosen)
     check_objects(chosen, [chosen["output"]], has_series=has_series)
@@ -133,7 +134,7 @@ def read_vessels(
 
 
 def check_single(vessels: list[tuple[str, Vessel]], path: Path) -> None:
-    """Refuse a file of one vessel where there are several."""
+    """Reject a file of one vessel if there are several."""
     if len(vessels) > 1:
         mend = "choose one by --vessel or --path"
         raise click.UsageError(f"{path} holds one vessel; found {len(vessels)}; {mend}")
@@ -142,7 +143,7 @@ def check_single(vessels: list[tuple[str, Vessel]], path: Path) -> None:
 def write_each(
     chosen: dict[str, Any], vessels: list[tuple[str, Vessel]], make: Callable[[Vessel], Reformation]
 ) -> None:
-    """Make the image of each vessel and write it, several as a contact sheet; say what was made."""
+    """Make the image of each vessel and write it, several as a contact sheet; report what was made."""
     made = [_made(title, vessel, make) for title, vessel in vessels]
     output, annotate = chosen["output"], chosen["annotate"]
     with busy(f"writing {output.name}"):
@@ -160,7 +161,7 @@ def write_beside(
     make: Callable[..., Reformation],
     shown: tuple[str, ...],
 ) -> None:
-    """Make several images of each vessel, told `make` as `shown`, and write them, a line for each vessel."""
+    """Make the images `shown` of each vessel by `make`, and write them with one row per vessel."""
     from lumencut.contact_sheet import contact_sheet
 
     pictures, titles, all_made = [], [], []
@@ -178,7 +179,7 @@ def write_beside(
 
 
 def _made(title: str, vessel: Vessel, make: Callable[[Vessel], Reformation]) -> Reformation:
-    """The image of one vessel, and a warning where it shows nothing."""
+    """The image of one vessel, with a warning if it shows nothing."""
     import numpy as np
 
     with busy(f"vessel {title}"):

@@ -39,7 +39,7 @@ if TYPE_CHECKING:
     from lumencut.vessel_tree import VesselTree
     from lumencut.volume import Volume
 
-#: The names of `lumencut.hanging.HANGINGS`, here so that ``--help`` need not import numpy.
+#: The names of `lumencut.hanging.HANGINGS`; copied so that ``--help`` does not import numpy.
 HANGINGS = ("evar", "carotid", "runoff", "coronary", "head")
 
 
@@ -66,7 +66,7 @@ HANGINGS = ("evar", "carotid", "runoff", "coronary", "head")
 @click.option(
     "--all-parts",
     is_flag=True,
-    help="Show all that --find finds, not only the vessels that hang together with the most important one.",
+    help="Show all vessels that --find finds, not only those connected to the most important one.",
 )
 @click.option("--ras", is_flag=True, help="The seed is in RAS, not LPS.")
 @like_option
@@ -89,10 +89,10 @@ def render(
 
     VOLUME is a DICOM folder or zip archive, NIfTI, NRRD or MetaImage file; CENTERLINES one or several .vtp,
     .vtk, .mrk.json, .fcsv, .pth, .swc, .tre, .csv, .txt or .npy files, whose vessels are shown together.
-    With --find the vessels of VOLUME are found, and those that hang together with the most important one are
-    shown; with --seed those that hang together with the one that this point lies in. Without
-    all of these the context alone is shown, all of the volume. The view fits all vessels, or the volume,
-    unless --center, --pixel-spacing or --zoom say otherwise.
+    --find finds the vessels of VOLUME and shows those connected to the most important one; --seed shows those
+    connected to the vessel at this point. Without any of these the picture shows the context alone, all of
+    the volume. The view fits all vessels, or the volume, unless --center, --pixel-spacing or --zoom change
+    it.
 
     \b
     lumencut render ct.nii.gz centerlines.vtp -o anterior.png
@@ -124,8 +124,8 @@ def render(
     cameras = _placed(views, scene, chosen, recipe, is_hanging=hanging is not None)
     for number, (picture, camera) in enumerate(zip(planned, cameras, strict=True), 1):
         name = "" if len(planned) == 1 else f" {name_of(picture.view)}"
-        with bar(f"rendering{name}", "share") as told:
-            frame = renderer.render(camera, settings, progress=told)
+        with bar(f"rendering{name}", "share") as progress:
+            frame = renderer.render(camera, settings, progress=progress)
         timings(f"rendered{name}", frame.timings)
         if is_empty(frame):
             warn_of_emptiness(f"no pixel of the view{name}", frame.camera, renderer)
@@ -143,11 +143,11 @@ def render(
 
 
 def _hanging(name: str, chosen: dict[str, Any]) -> list[tuple[Any, Camera]]:
-    """The views of a hanging, beside which no option says from where one looks."""
+    """The views of a hanging, which excludes options for the viewing direction."""
     for other in ("view", "like", "up", "rotate", "tilt", "center", "zoom_to"):
         if other in typed(chosen):
-            found = f"--{other.replace('_', '-')} does nothing beside --hanging"
-            raise click.UsageError(f"{found}, which says from where one looks; leave it out")
+            found = f"--{other.replace('_', '-')} does nothing with --hanging"
+            raise click.UsageError(f"{found}, which sets the views; leave it out")
     from lumencut.hanging import hanging_views
 
     return list(hanging_views(name, chosen["size"]))

@@ -1,4 +1,4 @@
-"""What the user is told: results on stdout; errors, warnings, details and progress on stderr."""
+"""Output to the user: results on stdout; errors, warnings, details and progress on stderr."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ from lumencut.cli.signals import EndedError, ended_by_signals
 from lumencut.errors import DeviceWarning, LineWarning, LumencutError, SpaceWarning, StudyWarning
 from lumencut.mends import Told, as_option, written
 
-#: Exit codes beside 0 and click's 2 for wrong usage.
+#: Exit codes other than 0 and click's 2 for wrong usage.
 FAILED, INCOMPLETE, INTERRUPTED = 1, 3, 130
 
 _VERBOSE = "lumencut.verbose"
 _WITH_OPTIONS = (Told, LumencutError)
 
-#: How bars are drawn whose steps are no things to count.
+#: Format of bars whose steps are not countable things.
 _BAR = {"share": "{desc}: {percentage:3.0f}%|{bar}| {elapsed}<{remaining}"}
 
 
@@ -38,12 +38,12 @@ verbose_option = click.option(
     expose_value=False,
     is_eager=True,
     callback=_remember,
-    help="Tell what was read, the time of each stage, and the traceback of an error.",
+    help="Show what was read, the time of each stage, and the traceback of an error.",
 )
 
 
 def is_verbose() -> bool:
-    """Tell whether the user asked for details."""
+    """Return whether the user asked for details."""
     ctx = click.get_current_context(silent=True)
     return ctx is not None and bool(ctx.meta.get(_VERBOSE, False))
 
@@ -53,13 +53,13 @@ def say(text: str) -> None:
     click.echo(text)
 
 
-def tell(text: str) -> None:
-    """Print what the user should know beside the result, on stderr."""
+def inform(text: str) -> None:
+    """Print additional information for the user on stderr."""
     click.echo(text, err=True)
 
 
 def detail(text: str) -> None:
-    """Print what only a curious user wants to know."""
+    """Print a detail, shown only with --verbose."""
     if is_verbose():
         click.echo(text, err=True)
 
@@ -82,7 +82,7 @@ def timings(title: str, milliseconds: dict[str, float]) -> None:
 
 @contextmanager
 def reported(ctx: click.Context) -> Iterator[None]:
-    """Turn whatever ends a command into one line and an exit code."""
+    """Turn anything that ends a command into one line and an exit code."""
     with ended_by_signals(), warnings.catch_warnings(), _log_shown():
         warnings.simplefilter("always")
         warnings.showwarning = _shown_once()
@@ -101,7 +101,7 @@ def reported(ctx: click.Context) -> Iterator[None]:
         except MemoryError:
             _fail(ctx, "not enough memory; a smaller --size or volume needs less")
         except OSError as error:
-            # A reader that closed the pipe, such as head, wants no more words: click knows what to do.
+            # A reader such as head closed the pipe: click handles it.
             if error.errno == errno.EPIPE:
                 raise
             _fail(ctx, error)
@@ -117,29 +117,29 @@ def _fail(ctx: click.Context, error: object) -> NoReturn:
 
 
 def one_line(text: object) -> str:
-    """Say something in one line, with options in place of the library's arguments."""
-    # Names of files may hold anything, what steers a terminal too.
+    """Return a message in one line, with options instead of the library's arguments."""
+    # Names of files may hold control characters of the terminal.
     words = written(text, as_option).split()
     return "".join(letter if letter.isprintable() else "�" for letter in " ".join(words))
 
 
 def _shown_once() -> Callable[..., None]:
-    """Return what shows warnings, those of a study once for all of its objects."""
-    told: set[str] = set()
+    """Return a function that shows warnings, those of a study once for all of its objects."""
+    shown: set[str] = set()
 
     def show(message: Warning | str, category: type[Warning], *_: object) -> None:
         words = str(message)
         if not issubclass(category, (DeviceWarning, LineWarning, SpaceWarning, StudyWarning)):
             detail(f"{category.__name__}: {message}")
-        elif words not in told:
+        elif words not in shown:
             warn(message)
         if issubclass(category, StudyWarning):
-            told.add(words)
+            shown.add(words)
 
     return show
 
 
-class _Told(logging.Handler):
+class _Messages(logging.Handler):
     def __init__(self) -> None:
         super().__init__()
         self._once: set[str] = set()
@@ -157,19 +157,19 @@ class _Told(logging.Handler):
 @contextmanager
 def _log_shown() -> Iterator[None]:
     """Show what the package logs."""
-    log, told = logging.getLogger("lumencut"), _Told()
-    log.addHandler(told)
+    log, handler = logging.getLogger("lumencut"), _Messages()
+    log.addHandler(handler)
     spread, log.propagate = log.propagate, False
     try:
         yield
     finally:
-        log.removeHandler(told)
+        log.removeHandler(handler)
         log.propagate = spread
 
 
 @contextmanager
 def busy(what: str) -> Iterator[None]:
-    """Say on a terminal what is done, as long as it is."""
+    """Show on a terminal what is being done."""
     if not sys.stderr.isatty():
         yield
         return
@@ -177,7 +177,6 @@ def busy(what: str) -> Iterator[None]:
     try:
         yield
     finally:
-        # Back to the beginning of the line, which is emptied.
         click.echo("\r\x1b[K", err=True, nl=False)
 
 
@@ -190,8 +189,8 @@ def bar(label: str, unit: str) -> Iterator[Callable[[int, int], None]]:
         desc=label, unit=unit, disable=None, leave=False, delay=0.3, bar_format=_BAR.get(unit)
     ) as drawn:
 
-        def told(done: int, total: int) -> None:
+        def progress(done: int, total: int) -> None:
             drawn.total = total
             drawn.update(done - drawn.n)
 
-        yield told
+        yield progress

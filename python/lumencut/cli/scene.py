@@ -1,4 +1,4 @@
-"""Reading the volume and the centerlines of a picture, and saying what is shown of them."""
+"""Reading the volume and the centerlines of a picture, and reporting what it shows."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class SceneFiles:
-    """The files of a picture, and how they are to be read."""
+    """The files of a picture, and the options for reading them."""
 
     volume: Path | None
     centerlines: tuple[Path, ...]
@@ -47,12 +47,12 @@ class SceneFiles:
 
 
 def scene_from(chosen: dict[str, Any]) -> SceneFiles:
-    """Take the files and their options out of what the command line holds."""
+    """Extract the files and their options from the command line."""
     return SceneFiles(**{field.name: chosen[field.name] for field in fields(SceneFiles)})
 
 
 def check_scene(files: SceneFiles, chosen: dict[str, Any], settings: Settings) -> None:
-    """Refuse what a user cannot mean before any file is read."""
+    """Reject contradictions before any file is read."""
     found = found_by(chosen)
     has_centerlines = bool(files.centerlines) or found is not None
     if files.centerlines and found is not None:
@@ -66,7 +66,7 @@ def check_scene(files: SceneFiles, chosen: dict[str, Any], settings: Settings) -
 
 
 def read_scene(files: SceneFiles, chosen: dict[str, Any]) -> tuple[Renderer, VesselTree | Volume]:
-    """Return a renderer of the files, and what views are fitted to; options that do nothing are refused."""
+    """Return a renderer of the files, and what views fit; options without effect are rejected."""
     from lumencut.renderer import Renderer
 
     voxels, tree = read_files(files, chosen)
@@ -74,16 +74,16 @@ def read_scene(files: SceneFiles, chosen: dict[str, Any]) -> tuple[Renderer, Ves
         renderer = Renderer(voxels, tree, files.device)
         return renderer, renderer.scene
     shown, fitted = vessels.chosen_of(tree, chosen)
-    # The renderer compares the tree with the volume and warns where the space looks wrong.
+    # The renderer compares the tree with the volume and warns if the space looks wrong.
     renderer = Renderer(voxels, tree, files.device)
-    # A part of the tree is shown with the window of the whole: its brightness does not depend on the choice.
+    # A part of the tree has the window of the whole: its brightness does not depend on the choice.
     return (renderer if shown is tree else renderer.with_tree(shown)), fitted
 
 
 def read_files(files: SceneFiles, chosen: dict[str, Any]) -> tuple[Volume | None, VesselTree | None]:
-    """Return the volume and the vessel tree of the files, each None where its file is."""
+    """Return the volume and the vessel tree of the files; None without a file."""
     start = time.perf_counter()
-    # The small files first: what is wrong with them shows before gigabytes are read.
+    # The small files first: their errors appear before gigabytes are read.
     lines = centerlines_of(files.centerlines)
     voxels = None if files.volume is None else _read_volume(files.volume, files)
     tree = None if lines is None else lines.tree(files.coordinates, files.unit, voxels, reorder=files.reorder)
@@ -112,24 +112,24 @@ def _read_volume(path: Path, files: SceneFiles) -> Volume:
 
 
 def volume_of(path: Path, chosen: dict[str, Any]) -> Volume:
-    """Read a volume as the options say."""
+    """Read a volume with the options."""
     from lumencut.volume_files import read_volume
 
-    with bar(f"reading {path.name}", "slice") as told:
+    with bar(f"reading {path.name}", "slice") as progress:
         voxels = read_volume(
             path,
             series=chosen["series"],
             phase=chosen["phase"],
             fill_gaps=chosen["fill_gaps"],
             resample_slices=chosen["resample_slices"],
-            progress=told,
+            progress=progress,
         )
     detail(f"{path}: {voxels!r}")
     return voxels
 
 
 def is_empty(frame: Frame) -> bool:
-    """Tell whether a frame shows nothing of the volume."""
+    """Return whether a frame shows nothing of the volume."""
     import numpy as np
 
     cut_surface = frame.has("value") and not np.isnan(frame.value).all()
@@ -137,19 +137,19 @@ def is_empty(frame: Frame) -> bool:
 
 
 def shown(camera: Camera, settings: Settings, renderer: Renderer) -> str:
-    """Say in words what a picture of a renderer shows."""
+    """Describe what a picture of a renderer shows."""
     name, used = _main_window(settings, renderer)
     return described(camera, name.replace("_", " "), used)
 
 
 def _main_window(settings: Settings, renderer: Renderer) -> tuple[str, Window]:
-    """The setting and the window of what a picture shows first: the cut surface, or else the context."""
+    """The setting and the window of the cut surface, or of the context without one."""
     name = "context_window" if renderer.tree is None else "window"
     return name, getattr(renderer.windowed(settings), name) or renderer.window
 
 
 def warn_of_window(settings: Settings, renderer: Renderer) -> None:
-    """Say where a window that was asked for shows all of the volume in one grey, as HU of what has no HU."""
+    """Warn if a requested window shows the whole volume in one grey, such as HU on a scan without HU."""
     name, window = _main_window(settings, renderer)
     if getattr(settings, name) is None or renderer.volume is None:
         return
@@ -164,7 +164,7 @@ def warn_of_window(settings: Settings, renderer: Renderer) -> None:
 
 
 def _meets(camera: Camera, corners: npt.NDArray[np.float64]) -> bool:
-    """Tell whether a box around the volume reaches into the picture."""
+    """Return whether a box around the volume reaches into the picture."""
     import numpy as np
 
     place = (corners - camera.center) @ np.stack([camera.right_axis, camera.up], axis=1)
@@ -173,13 +173,13 @@ def _meets(camera: Camera, corners: npt.NDArray[np.float64]) -> bool:
 
 
 def warn_of_emptiness(who: str, camera: Camera, renderer: Renderer) -> None:
-    """Say in one line that nothing of the volume is to be seen, and where it would be."""
+    """Report in one line that nothing of the volume is visible, and where it would be."""
     if renderer.volume is None:
         return
     corners = renderer.volume.corners
     if _meets(camera, corners):
         warn(
-            f"{who} shows the volume: all of it in view is transparent or beside the cut surface; "
+            f"{who} shows the volume: everything in view is transparent or outside the cut surface; "
             "see --context, --context-transfer, --context-window and --opacity"
         )
         return

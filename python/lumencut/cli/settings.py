@@ -1,4 +1,4 @@
-"""Options for the settings of a picture, made from the table of settings, and the settings they stand for."""
+"""Options for the settings of a picture, made from the table of settings."""
 
 from __future__ import annotations
 
@@ -16,16 +16,15 @@ from lumencut.errors import SettingsError
 if TYPE_CHECKING:
     from lumencut.settings import Settings
 
-#: Stands for None.
 NO_CONTEXT = "none"
 
-#: What most pictures need comes first; the others follow in the order of the table.
+#: The most common settings come first; the others follow in the order of the table.
 _FIRST = ("window", "opacity", "background")
 
-#: How the help calls the value of a number by its unit, where "NUMBER" would say less.
+#: Placeholder of a number in the help by its unit, instead of "NUMBER".
 _METAVARS = {"mm": "MM", "mm per level": "MM", "mm per mm": "SLOPE", "radii": "RADII"}
 
-#: What the help says about how values of a kind are written, after the sentence about the setting.
+#: Syntax of values in the help, after the sentence about the setting.
 _WRITTEN = {
     "window": f", such as 900/300 (width, then level), or one of {', '.join(WINDOW_NAMES)}",
     "flag": " (yes or no)",
@@ -39,12 +38,12 @@ _WRITTEN = {
 def paper_option(command: Command) -> Command:
     """Add the flag that starts from the paper's rules."""
     rules = " ".join(_words(name, value) for name, value in PAPER.items())
-    text = f"Start from the rules of the CSR paper (2013): {rules}. Options beside it change them further."
+    text = f"Start from the rules of the CSR paper (2013): {rules}. Other options change them further."
     return click.option("--paper", is_flag=True, help=text)(command)
 
 
 def _words(name: str, value: Any) -> str:
-    """The option that gives a setting this value, as it is typed."""
+    """The option that gives a setting this value."""
     words = name.replace("_", "-")
     if value is None:
         return f"--{words} {NO_CONTEXT}"
@@ -53,21 +52,19 @@ def _words(name: str, value: Any) -> str:
     return f"--{words} {value:g}" if isinstance(value, float) else f"--{words} {value}"
 
 
-#: Several settings under one name, which options change further.
 look_option = click.option(
     "--look",
     type=click.Choice(tuple(LOOKS)),
     help="Start from several settings at once. "
     + "; ".join(f"{name}: {sentence}" for name, sentence in LOOK_SENTENCES.items())
-    + ". Options beside it change them further.",
+    + ". Other options change them further.",
 )
 
-#: A file of settings, which options change further.
 settings_option = click.option(
     "--settings",
     "settings_file",
     type=FILE,
-    help="Start from the settings in this TOML file, as lumencut settings writes it. Options beside it "
+    help="Start from the settings in this TOML file, as lumencut settings writes it. Other options "
     "change them further.",
 )
 
@@ -80,13 +77,13 @@ def setting_options(command: Command) -> Command:
 
 
 def look_options(command: Command) -> Command:
-    """Add the options of what a surface is shown with, whatever method found it."""
+    """Add the options for showing a surface, regardless of the method that found it."""
     names = (*_FIRST, "slab")
     return added((settings_option, *(_option(name, SETTINGS[name]) for name in names)), command)
 
 
 def _option(name: str, setting: Setting) -> Any:
-    """The option of a setting. Its default is the setting's own: an option that is not given is None."""
+    """The option of a setting. Without the option the value is None, for the default of the setting."""
     words = f"--{name.replace('_', '-')}"
     if setting.kind == "flag":
         return click.option(f"{words}/--no-{words[2:]}", default=None, help=_help(setting))
@@ -97,7 +94,7 @@ def _option(name: str, setting: Setting) -> Any:
 
 
 def _type(setting: Setting) -> tuple[Any, str | None]:
-    """How the value of an option is written, and what the help calls it."""
+    """The type of an option's value, and its placeholder in the help."""
     match setting.kind:
         case "number":
             metavar = _METAVARS.get(setting.unit or "", "NUMBER")
@@ -122,8 +119,7 @@ def _type(setting: Setting) -> tuple[Any, str | None]:
 
 
 def _help(setting: Setting) -> str:
-    """What the setting does, how its value is written, and its default."""
-    # Names of settings are written as their options.
+    """The help of a setting: its effect, syntax and default."""
     sentence = re.sub(r"`(\w+)`", lambda name: name[1].replace("_", "-"), setting.sentence.rstrip("."))
     return f"{sentence}{_WRITTEN.get(setting.kind, '')}; {_default(setting)}."
 
@@ -145,7 +141,7 @@ def _default(setting: Setting) -> str:
 
 
 def settings_from(chosen: dict[str, Any], base: Settings | None = None) -> Settings:
-    """Return the settings that the options stand for; the others are those of `base` or the paper's.
+    """Return the settings of the options; the others are those of `base` or the paper's.
 
     Without `base` they are the defaults.
     """
@@ -155,7 +151,7 @@ def settings_from(chosen: dict[str, Any], base: Settings | None = None) -> Setti
     path = chosen.get("settings_file")
     if path is not None and base is not None:
         found = "--settings and --like exclude each other: both name all settings"
-        raise click.UsageError(f"{found}; give single settings as options beside --like")
+        raise click.UsageError(f"{found}; give single settings as options with --like")
     if path is not None and chosen.get("paper"):
         mend = "lumencut settings --paper writes a file of the paper's rules"
         raise click.UsageError(f"--settings and --paper exclude each other; {mend}")
@@ -169,14 +165,14 @@ def settings_from(chosen: dict[str, Any], base: Settings | None = None) -> Setti
 
 
 def _look(name: str | None) -> dict[str, Any]:
-    """What a look chooses."""
+    """The settings of a look."""
     from lumencut._checked_settings import look_values
 
     return {} if name is None else look_values(name)
 
 
 def _as_field(setting: Setting, value: Any) -> Any:
-    """What an option holds as what the setting takes."""
+    """Convert the value of an option to that of the setting."""
     from lumencut.focus import Focus
     from lumencut.slab import Slab
     from lumencut.transfer import TransferFunction

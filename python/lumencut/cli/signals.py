@@ -8,12 +8,12 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from types import FrameType
 
-#: SIGHUP comes when the terminal is closed; some systems have none.
+#: SIGHUP arrives when the terminal closes; some systems lack it.
 _ENDING = tuple(getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name))
 
 
 class EndedError(BaseException):
-    """A signal asked the program to end; no error, so that nothing takes it for one and goes on."""
+    """A signal asked the program to end; not an Exception, so that no handler catches it and continues."""
 
     def __init__(self, number: int) -> None:
         self.number = number
@@ -24,7 +24,7 @@ class EndedError(BaseException):
 
 
 def _end(number: int, _: FrameType | None) -> None:
-    # Another one must not disturb the tidying up.
+    # Another signal must not disturb the cleanup.
     for other in _ENDING:
         signal.signal(other, signal.SIG_IGN)
     raise EndedError(number)
@@ -32,7 +32,7 @@ def _end(number: int, _: FrameType | None) -> None:
 
 @contextmanager
 def ended_by_signals() -> Iterator[None]:
-    """Raise an `EndedError` where a signal asks to end; an ignored one, as under ``nohup``, stays so."""
+    """Raise an `EndedError` on these signals; an ignored one, as under ``nohup``, stays ignored."""
     if threading.current_thread() is not threading.main_thread():
         yield
         return

@@ -1,4 +1,4 @@
-"""``lumencut spiral``: vessels whose sections are wound up."""
+"""``lumencut spiral``: vessels whose sections are wound into spirals."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from lumencut.vessel import Vessel
 
 
-@click.command("spiral", short_help="Wind up the sections of vessels (spiral CPR).")
+@click.command("spiral", short_help="Show vessels as spirals of their sections (spiral CPR).")
 @reformations.file_options
 @reformations.output_option
 @reformations.vessel_options
@@ -22,14 +22,14 @@ if TYPE_CHECKING:
     "--pitch",
     type=float,
     metavar="MM",
-    help="Distance of neighbouring windings (mm); default: a quarter of the median radius, but no less than "
+    help="Distance between neighbouring windings (mm); default: a quarter of the median radius, at least "
     "the smallest side of a voxel.",
 )
 @click.option(
     "--radius",
     type=float,
     metavar="MM",
-    help="How far from the vessel they reach (mm); default: 1.25 times its largest radius and 2 mm more.",
+    help="How far the spiral reaches from the vessel (mm); default: 1.25 times its largest radius plus 2 mm.",
 )
 @click.option(
     "--sampling",
@@ -46,12 +46,12 @@ if TYPE_CHECKING:
     "--pixel-spacing",
     type=float,
     metavar="MM",
-    help="Side of a pixel (mm); default: the smallest side of a voxel, but no more than 0.5 mm.",
+    help="Side of a pixel (mm); default: the smallest side of a voxel, at most 0.5 mm.",
 )
 @reformations.smoothing_option
 @reformations.picture_options
 def spiral(**given: Any) -> None:
-    """Wind up the sections across the vessels of CENTERLINES: all around a vessel in one still picture.
+    """Show the vessels of CENTERLINES as spirals of their sections: all around a vessel in one still picture.
 
     The width of anything in a row is its area in the section, divided by the pitch.
 

@@ -10,20 +10,20 @@ import click
 from lumencut.cli.options import FILE, check_folder
 from lumencut.cli.report import say, verbose_option
 
-#: Reasons of failures that are told, the most frequent first.
+#: Number of reasons of failures listed, the most frequent first.
 _REASONS = 10
 
 
-@click.command(short_help="Tell distributions over a cohort, or the agreement of two runs.")
+@click.command(short_help="Show distributions over a cohort, or the agreement of two runs.")
 @click.argument("out", type=FILE)
 @click.argument("second", type=FILE, required=False)
-@click.option("-o", "--output", type=FILE, help="The same as a table (.csv).")
+@click.option("-o", "--output", type=FILE, help="Also write the table (.csv).")
 @click.option("--plot", type=FILE, help="Bland-Altman plots of two runs (.png or .svg).")
 @verbose_option
 def summarize(out: Path, second: Path | None, output: Path | None, plot: Path | None) -> None:
-    """Tell how the measures of OUT, a folder that lumencut batch wrote, are distributed over its vessels.
+    """Show how the measures of OUT, a folder that lumencut batch wrote, are distributed over its vessels.
 
-    With SECOND, another run or reader of the same studies, tell how both agree: the mean difference, its 95 %
+    With SECOND, another run or reader of the same studies, show how both agree: the mean difference, its 95 %
     confidence interval, and the limits of agreement, over the vessels of the same name or number, and over
     sections at most 1 mm apart. --plot needs matplotlib.
 
@@ -52,7 +52,7 @@ def summarize(out: Path, second: Path | None, output: Path | None, plot: Path | 
 
 
 def _check(second: Path | None, output: Path | None, plot: Path | None) -> None:
-    """Refuse files that could not be written, before any is read."""
+    """Reject outputs that cannot be written before any file is read."""
     if plot is not None and second is None:
         raise click.UsageError("--plot without SECOND does nothing; name two runs, or leave it out")
     for path, endings in ((output, (".csv",)), (plot, (".png", ".svg"))):
@@ -74,7 +74,7 @@ def _tell_states(out: Path) -> None:
 
 
 def _tell(rows: Sequence[Sequence[str]], output: Path | None) -> None:
-    """Print rows as columns of equal width, and write them where that is asked for."""
+    """Print rows as columns of equal width, and write them if requested."""
     widths = [max(len(row[n]) for row in rows) for n in range(len(rows[0]))]
     for row in rows:
         say("  ".join(word.ljust(width) for word, width in zip(row, widths, strict=True)).rstrip())

@@ -1,4 +1,4 @@
-"""``lumencut cpr --mode tangential``: its view, and the options that go with it."""
+"""``lumencut cpr --mode tangential``: its view and its options."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ if TYPE_CHECKING:
 
 MODE = "tangential"
 
-#: The options that place a view, and those that place the rows of the other modes.
+#: Options that place a view, and those that place the rows of the other modes.
 _OWN, _OTHERS = ("view", "size"), ("width", "angle", "roll")
 
 _SIZE = (768, 768)
 
 
 def check_view(chosen: dict[str, Any]) -> None:
-    """Refuse options that do nothing with the mode that is asked for."""
+    """Reject options without effect in the chosen mode."""
     is_own = chosen["mode"] == MODE
     idle = [name for name in (_OTHERS if is_own else _OWN) if name in typed(chosen)]
     if idle:
@@ -35,7 +35,7 @@ def check_view(chosen: dict[str, Any]) -> None:
 def tangential(
     renderer: Renderer, vessel: Vessel, chosen: dict[str, Any], settings: Settings
 ) -> TangentialReformation:
-    """Return the tangential CPR of a vessel in the view of --like, or fitted to it as the options say."""
+    """Return the tangential CPR of a vessel in the view of --like, or fitted to it by the options."""
     from lumencut.reformation_recipe import recipe_camera
     from lumencut.tangential import tangential_of
     from lumencut.vessel_tree import VesselTree

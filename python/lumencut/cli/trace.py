@@ -39,7 +39,7 @@ if TYPE_CHECKING:
     type=VECTOR,
     multiple=True,
     metavar="I,J,K",
-    help="The same as indices of voxels, from 0, in place of --point.",
+    help="The same as voxel indices from 0, instead of --point.",
 )
 @click.option(
     "--points",
@@ -60,13 +60,13 @@ if TYPE_CHECKING:
     default=3.0,
     show_default=True,
     metavar="MM",
-    help="How far around a stopper is forbidden.",
+    help="Radius of the forbidden region around a stopper.",
 )
 @click.option("--ras", is_flag=True, help="Points, seed and stoppers given here are in RAS, not LPS.")
 @click.option(
     "--bridge",
     is_flag=True,
-    help="Go on where no lumen is to be seen, as in an occlusion; marked as not sure.",
+    help="Continue where no lumen is visible, as in an occlusion; marked as uncertain.",
 )
 @found_options
 @mask_options
@@ -95,12 +95,11 @@ def trace(
 ) -> None:
     """Trace centerlines in VOLUME: all, those along points or from one seed, or those of a mask.
 
-    With --find all vessels are found, with no point given; with --seed all branches that one point reaches.
-    The doubtful ones of both are left out and counted. Points along vessels need not be central: all --point
-    are one vessel; files of --points may hold several, which join where they meet. With --mask the lines are
-    those of a mask of the lumen, or of labels of a label map; VOLUME is not needed then, and must have its
-    grid. Points are at most 0.5 mm apart in the result, with the radius of the lumen and with how sure each
-    point is.
+    --find finds all vessels without any point; --seed finds all branches that one point reaches. Both leave
+    out doubtful vessels and report their number. Points along vessels need not be central: all --point are
+    one vessel; files of --points may hold several, which join where they meet. --mask traces a mask of the
+    lumen, or labels of a label map; VOLUME is optional then, and must have the grid of the mask. The points
+    of the result are at most 0.5 mm apart, each with the radius of the lumen and a confidence.
 
     \b
     lumencut trace ct.nii.gz --point 12,-30,85 --point 8,-41,-20 -o aorta.vtp --preview aorta.png
@@ -128,13 +127,13 @@ def trace(
         _render(voxels, tree, preview, device)
 
 
-#: The options of clicks, which do nothing with vessels that are found or a mask, but `ras`.
+#: The options of points, without effect on found vessels or a mask, except `ras`.
 _WITH_POINTS = ("point", "index", "points", "stopper", "bridge")
 _WITH_FOUND = ("seed", "seed_index", "find", "smallest_radius", "doubtful")
 
 
 def _check(volume: Path | None, output: Path, preview: Path | None, chosen: dict[str, Any]) -> None:
-    """Refuse what a user cannot mean before any voxel is read."""
+    """Reject contradictions before any voxel is read."""
     has_mask = chosen["mask"] is not None
     for name in (*_WITH_POINTS, *_WITH_FOUND, "ras") if has_mask else WITH_MASK:
         if chosen[name]:
@@ -158,7 +157,7 @@ def _check(volume: Path | None, output: Path, preview: Path | None, chosen: dict
 
 
 def _check_alone(chosen: dict[str, Any], found: str) -> None:
-    """Refuse what does nothing beside vessels that are found, by this option."""
+    """Reject options without effect on vessels found by this option."""
     for name in _WITH_POINTS:
         if chosen[name]:
             raise click.UsageError(f"--{name} with {found} does nothing; leave one of them out")
@@ -168,7 +167,7 @@ def _check_alone(chosen: dict[str, Any], found: str) -> None:
 
 
 def _check_points(chosen: dict[str, Any]) -> None:
-    """Refuse points that are no vessel."""
+    """Reject points that do not make a vessel."""
     given = [name for name in ("point", "index", "points") if chosen[name]]
     if not given:
         raise click.UsageError(
@@ -189,7 +188,7 @@ def _traced(voxels: Volume, chosen: dict[str, Any], *, bridge: bool) -> VesselTr
     from lumencut.tracing import trace
 
     lists, names = _vessels(voxels, chosen)
-    with bar("tracing", "share") as told:
+    with bar("tracing", "share") as progress:
         return trace(
             voxels,
             lists,
@@ -197,7 +196,7 @@ def _traced(voxels: Volume, chosen: dict[str, Any], *, bridge: bool) -> VesselTr
             stopper_radius=chosen["stopper_radius"],
             bridge=bridge,
             names=names,
-            progress=told,
+            progress=progress,
         )
 
 
@@ -230,14 +229,14 @@ def _in_lps(points: tuple[tuple[float, ...], ...], chosen: dict[str, Any]) -> Po
 
 
 def _mean(name: str, numbers: Points | None, unit: str = "") -> str:
-    """The mean of what is known of each point of a vessel, in words."""
+    """The mean of a value per point of a vessel, as text."""
     return "" if numbers is None else f", {name} {float(numbers.mean()):.2f}{unit}"
 
 
 def _render(voxels: Volume, tree: VesselTree, path: Path, device: Literal["auto", "cpu", "gpu"]) -> None:
     from lumencut.renderer import Renderer
 
-    with bar("rendering", "share") as told:
-        frame = Renderer(voxels, tree, device).render(progress=told)
+    with bar("rendering", "share") as progress:
+        frame = Renderer(voxels, tree, device).render(progress=progress)
     frame.save(path)
     say(str(path))

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 _Command = TypeVar("_Command", bound=Callable[..., Any])
 
-#: The options of `mask_options` that do nothing without ``--mask`` and are not given by default.
+#: Options of `mask_options` without effect without ``--mask``, and without a default.
 WITH_MASK = ("label", "threshold", "bridge_gaps")
 
 
@@ -33,22 +33,22 @@ def mask_options(command: _Command) -> _Command:
             "--label",
             multiple=True,
             metavar="52[=aorta]",
-            help="A value of the mask that is lumen, and the name of its vessels; may be given again. Names "
-            "are also taken from DICOM SEG and from files of 3D Slicer and TotalSegmentator, and stand for "
-            "their values. Default: every value but 0.",
+            help="A value of the mask that is lumen, and the name of its vessels; may be repeated. Names in "
+            "DICOM SEG and in files of 3D Slicer and TotalSegmentator are read too, and can replace their "
+            "values. Default: every value except 0.",
         ),
         click.option(
             "--threshold",
             type=float,
             metavar="VALUE",
-            help="Lumen is where the mask has this value or more, for masks that are no whole numbers.",
+            help="Lumen has this value or more, for masks with fractional values.",
         ),
         click.option(
             "--bridge-gaps",
             type=click.FloatRange(0),
             default=0.0,
             metavar="MM",
-            help="Bridge gaps between pieces up to so wide by straight vessels; default: none.",
+            help="Bridge gaps between pieces up to this width by straight vessels; default: none.",
         ),
         click.option(
             "--shortest-branch",
@@ -63,7 +63,7 @@ def mask_options(command: _Command) -> _Command:
 
 
 def traced_from_mask(chosen: dict[str, Any], volume: Volume | None) -> VesselTree:
-    """Trace the mask that the options name, and say what was found."""
+    """Trace the mask of the options, and report what was found."""
     from lumencut.mask_tracing import trace_mask
 
     path: Path = chosen["mask"]
@@ -74,27 +74,27 @@ def traced_from_mask(chosen: dict[str, Any], volume: Volume | None) -> VesselTre
             raise click.UsageError("--label and --threshold: a mask has either labels or a threshold")
         if opened.file.is_segmentation:
             raise click.UsageError(f"--threshold does nothing with {path}, a segmentation; leave it out")
-    with bar(f"reading {path.name}", "slice") as told:
-        mask = opened.read(told)
+    with bar(f"reading {path.name}", "slice") as progress:
+        mask = opened.read(progress)
     detail(f"{path}: {mask!r}")
     labels = opened.labels
     if chosen["threshold"] is not None:
         mask, labels = _above(mask, chosen["threshold"]), None
-    with bar(f"tracing {path.name}", "share") as told:
+    with bar(f"tracing {path.name}", "share") as progress:
         tree = trace_mask(
             mask,
             volume,
             labels=labels,
             shortest_branch=chosen["shortest_branch"],
             bridge=chosen["bridge_gaps"],
-            progress=told,
+            progress=progress,
         )
     _report(tree)
     return tree
 
 
 def _opened(path: Path, words: tuple[str, ...]) -> MaskFile:
-    """The mask, with the labels that the options choose."""
+    """The mask, with the labels of the options."""
     from lumencut.mask_files import open_mask
 
     try:

@@ -56,26 +56,26 @@ AXIS_NAMES = ("superior", "up", "right", "direction")
     "--about",
     type=PlaceOnVessel(),
     metavar=PlaceOnVessel.name,
-    help="Turn about this place on a vessel, such as LAD@41mm, which stays in the middle: the cut sweeps all "
+    help="Turn about this place on a vessel, such as LAD@41mm, which stays in the middle: the cut shows all "
     "its diameters, which are written on the frames.",
 )
 @click.option(
     "--fly-to",
     metavar="NAME|ID",
-    help="Fly to the view from which most of this vessel is seen, in the place of a turn.",
+    help="Fly to the view that shows most of this vessel, instead of turning.",
 )
 @click.option(
-    "--frames", type=click.IntRange(1, 10000), default=72, show_default=True, help="How many frames."
+    "--frames", type=click.IntRange(1, 10000), default=72, show_default=True, help="Number of frames."
 )
 @click.option(
     "--degrees",
     type=float,
     default=360.0,
     show_default=True,
-    help="How far the viewer moves in all (degrees).",
+    help="Total rotation of the viewer (degrees).",
 )
 @click.option("--fps", type=click.FloatRange(0.1, 100), help="Frames per second; default 12.")
-@click.option("--seconds", type=click.FloatRange(0.01, 3600), help="Duration in all (s), instead of --fps.")
+@click.option("--seconds", type=click.FloatRange(0.01, 3600), help="Total duration (s), instead of --fps.")
 @options.view_options
 @label_options
 @dicom_options
@@ -92,8 +92,8 @@ def turntable(
 ) -> None:
     """Render VOLUME along CENTERLINES as an animation of a turning view.
 
-    The view options give the first frame; one pixel spacing fits all frames, so that the vessels keep their
-    size. Without CENTERLINES the context alone is shown, all of the volume.
+    The view options set the first frame; one pixel spacing fits all frames, so that the vessels keep their
+    size. Without CENTERLINES the frames show the context alone, all of the volume.
 
     \b
     lumencut turntable ct.nii.gz centerlines.vtp -o spin.webp
@@ -141,13 +141,13 @@ def turntable(
 
 
 def _check_about(chosen: dict[str, Any]) -> None:
-    """Refuse options that place the view beside a place that it turns about."""
+    """Reject options that place the view if it turns about a place."""
     if chosen["about"] is None:
         return
     for name in ("axis", "center", "up", "tilt", "zoom_to"):
         if chosen[name] not in (None, 0, 0.0, ()):
             found = f"--{name.replace('_', '-')} does nothing with --about"
-            raise click.UsageError(f"{found}, which says what is in the middle and upwards; leave it out")
+            raise click.UsageError(f"{found}, which sets the middle and the up axis; leave it out")
 
 
 def _about(
@@ -171,13 +171,13 @@ def _about(
 
 
 def _check_flight(chosen: dict[str, Any], frames: int) -> None:
-    """Refuse options that say how a view turns beside a flight."""
+    """Reject options of a turn for a flight."""
     if chosen["fly_to"] is None:
         return
     for name, idle in (("about", None), ("axis", None), ("degrees", 360.0)):
         if chosen[name] != idle:
             found = f"--{name} does nothing with --fly-to"
-            raise click.UsageError(f"{found}, which says how the view moves; leave it out")
+            raise click.UsageError(f"{found}, which sets the movement; leave it out")
     if frames < 2:
         raise click.UsageError("a flight has at least 2 frames; give --frames 2 or more")
 
@@ -198,18 +198,18 @@ def _flight(
 
 
 def watched(turn: Iterable[Frame], count: int, empty: list[Camera]) -> Iterator[Frame]:
-    """Pass frames on while a progress bar moves, and note which of them show nothing."""
-    with bar("turntable", "frame") as told:
+    """Yield frames with a progress bar, and record those that show nothing."""
+    with bar("turntable", "frame") as progress:
         for done, frame in enumerate(turn, 1):
             timings(f"frame {done}", frame.timings)
             if is_empty(frame):
                 empty.append(frame.camera)
             yield frame
-            told(done, count)
+            progress(done, count)
 
 
 def _check_turn(view: Camera, frames: int, degrees: float, axis: Any) -> None:
-    """Refuse a turn that cannot be made before any file is read."""
+    """Reject an impossible turn before any file is read."""
     from lumencut.turntables import frame_angles
 
     try:
@@ -220,7 +220,7 @@ def _check_turn(view: Camera, frames: int, degrees: float, axis: Any) -> None:
 
 
 def _checked_writer(output: str, fps: float, how: dict[str, Any], *, is_timed: bool) -> Writer:
-    """Refuse an output that cannot be written before any file is read."""
+    """Reject an output that cannot be written before any file is read."""
     from lumencut.animation import checked_fps, is_sequence, writer_for
 
     try:

@@ -1,4 +1,4 @@
-"""``lumencut uncurl``: a vessel that becomes straight, as a film or as one picture."""
+"""``lumencut uncurl``: a vessel being straightened, as a film or as one picture."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from lumencut.vessel import Vessel
 
 
-@click.command(short_help="Straighten a vessel before your eyes (film).")
+@click.command(short_help="Show a vessel being straightened (film).")
 @reformations.file_options
 @click.option(
     "-o",
@@ -43,10 +43,10 @@ if TYPE_CHECKING:
     "--amount",
     type=click.FloatRange(0, 1),
     metavar="0..1",
-    help="One picture of the vessel straightened so far: 0 as the viewer sees it, 1 straight.",
+    help="One picture at this amount: 0 as in the body, 1 straight.",
 )
 @click.option(
-    "--frames", type=click.IntRange(2, 10000), default=48, show_default=True, help="How many frames."
+    "--frames", type=click.IntRange(2, 10000), default=48, show_default=True, help="Number of frames."
 )
 @click.option(
     "--fps", type=click.FloatRange(0.1, 100), default=24, show_default=True, help="Frames per second."
@@ -56,7 +56,7 @@ if TYPE_CHECKING:
     "--width",
     type=float,
     metavar="MM",
-    help="Show what lies within half of this on each side of the vessel; default: all of the picture.",
+    help="Show the tissue within half of this on each side of the vessel; default: all of the picture.",
 )
 @options.view_options
 @reformations.smoothing_option
@@ -89,7 +89,7 @@ def uncurl(**given: Any) -> None:
 
 
 def _writer(output: Path, amount: float | None, fps: float, dicom: dict[str, Any]) -> Writer | None:
-    """What writes a film, None where one picture is asked for; refuse what cannot be written."""
+    """The writer of a film, None for one picture; reject what cannot be written."""
     if amount is not None:
         if dicom["grey"]:
             raise click.UsageError("--grey does nothing with --amount; leave one of them out")
@@ -107,7 +107,7 @@ def _writer(output: Path, amount: float | None, fps: float, dicom: dict[str, Any
 
 
 def _camera(chosen: dict[str, Any], vessel: Vessel) -> Camera:
-    """The view of --like where no option says another one, else that of the options, fitted to the film."""
+    """The view of --like unless options give another one, fitted to the film."""
     from lumencut.reformation_recipe import recipe_camera
     from lumencut.uncurling import fitted_uncurling
 
@@ -121,7 +121,7 @@ def _camera(chosen: dict[str, Any], vessel: Vessel) -> Camera:
 def _made(
     renderer: Renderer, vessel: Vessel, camera: Camera, chosen: dict[str, Any], settings: Settings
 ) -> Uncurled:
-    """The vessel at the amount that is asked for, in a window that all frames share."""
+    """The vessel at the requested amount, in the window of all frames."""
     from lumencut.uncurling import uncurl_of
 
     named = {name: chosen[name] for name in ("width", "smoothing")}
@@ -154,11 +154,10 @@ def _film(first: Uncurled, frames: int, *, annotate: bool) -> Iterator[Any]:
     """The frames, opaque, while a progress bar moves."""
     from lumencut.uncurling import uncurling
 
-    with bar("uncurl", "frame") as told:
+    with bar("uncurl", "frame") as progress:
         for done, made in enumerate(uncurling(first, frames), 1):
             image = (made.annotated() if annotate else made.image).copy()
             timings(f"frame {done}", made.timings)
-            # What lies outside the volume is black.
             image[..., 3] = 255
             yield _Picture(made, image)
-            told(done, frames)
+            progress(done, frames)

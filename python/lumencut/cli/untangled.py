@@ -1,4 +1,4 @@
-"""``lumencut untangled``: every vessel of a tree cut open in one picture, none before another."""
+"""``lumencut untangled``: every vessel of a tree cut open in one picture without overlap."""
 
 from __future__ import annotations
 
@@ -20,7 +20,6 @@ if TYPE_CHECKING:
     from lumencut.settings import Settings
     from lumencut.untangled_tree import UntangledTree
 
-#: What a camera needs beside its direction; only that counts.
 _UNUSED = {"size": (64, 64), "zoom": 1.0}
 
 
@@ -49,7 +48,7 @@ _UNUSED = {"size": (64, 64), "zoom": 1.0}
     default=2.0,
     show_default=True,
     metavar="MM",
-    help="How much beyond the lumen no other vessel may lie (mm).",
+    help="Margin around the lumen that no other vessel may enter (mm).",
 )
 @click.option(
     "--smoothing",
@@ -57,7 +56,7 @@ _UNUSED = {"size": (64, 64), "zoom": 1.0}
     default=4.0,
     show_default=True,
     metavar="MM",
-    help="Smooth the directions in which vessels are seen by a Gaussian with this standard deviation (mm).",
+    help="Smooth the directions of vessels in the view by a Gaussian with this standard deviation (mm).",
 )
 @click.option(
     "--pixel-spacing",
@@ -79,11 +78,11 @@ _UNUSED = {"size": (64, 64), "zoom": 1.0}
 )
 @reformations.picture_options
 def untangled(**given: Any) -> None:
-    """Cut every vessel of CENTERLINES open in one picture, none before another: untangled CPR.
+    """Cut every vessel of CENTERLINES open in one picture without overlap: untangled CPR.
 
-    Each vessel keeps the direction in which it is seen, and has its true length. Branches that would lie
-    before one another are turned where they branch off, by as little as sets them apart; arcs show turns of
-    more than 5°. Above some 15 vessels choose among them by --vessel or --exclude.
+    Each vessel keeps its direction in the view and its true length. Branches that would overlap are turned at
+    their origin by the smallest angle that separates them; arcs show turns of more than 5°. With more than
+    about 15 vessels, choose among them by --vessel or --exclude.
 
     \b
     lumencut untangled ct.nii.gz centerlines.vtp -o tree.png
@@ -108,7 +107,7 @@ def untangled(**given: Any) -> None:
 
 
 def _renderer(chosen: dict[str, Any], settings: Settings) -> Renderer:
-    """A renderer of the vessels that are chosen, with the window of all."""
+    """A renderer of the chosen vessels, with the window of all."""
     files = scene_from(chosen)
     check_objects(chosen, [chosen["output"]])
     check_files(files.volume, files.centerlines)
@@ -126,7 +125,7 @@ def _renderer(chosen: dict[str, Any], settings: Settings) -> Renderer:
 
 
 def _tell(output: str, made: UntangledTree) -> None:
-    """Say what was made, and warn of what could not be set apart."""
+    """Report what was made, and warn of vessels that could not be separated."""
     import numpy as np
 
     turns = [abs(part.turn) for part in made.parts if part.turn]
@@ -137,6 +136,8 @@ def _tell(output: str, made: UntangledTree) -> None:
     detail(made.recipe.axes)
     if made.overlaps:
         ids = ", ".join(map(str, made.overlaps))
-        warn(f"vessels that could not be set apart: {ids}; fewer vessels, or a smaller --hull-margin, can be")
+        warn(
+            f"vessels that could not be separated: {ids}; show fewer vessels, or use a smaller --hull-margin"
+        )
     if np.isnan(made.value).all():
         warn("no pixel lies in the volume")

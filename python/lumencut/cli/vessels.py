@@ -1,4 +1,4 @@
-"""Which vessels of a tree are shown, and to which of them the view is fitted."""
+"""The choice of vessels to show, and to fit the view to."""
 
 from __future__ import annotations
 
@@ -12,7 +12,6 @@ if TYPE_CHECKING:
     from lumencut.vessel import Vessel
     from lumencut.vessel_tree import VesselTree
 
-#: Several vessels as one.
 path_option = click.option(
     "--path",
     metavar="NAME|ID,...",
@@ -22,14 +21,14 @@ path_option = click.option(
 
 
 def chosen_of(tree: VesselTree, chosen: dict[str, Any]) -> tuple[VesselTree, VesselTree]:
-    """Return the vessels that are shown, and those that the view is fitted to."""
+    """Return the vessels to show, and those that the view fits."""
     wanted, fitted = shown_ids(tree, chosen), ids_of(tree, chosen["zoom_to"])
     kept = tree if len(wanted) == len(tree) else tree.select(*wanted)
     return kept, tree.select(*fitted) if fitted else kept
 
 
 def shown_ids(tree: VesselTree, chosen: dict[str, Any]) -> list[int]:
-    """Return the ids of the vessels that are shown, rising."""
+    """Return the ids of the vessels to show, in ascending order."""
     shown, left_out = (ids_of(tree, chosen[name]) for name in ("vessel", "exclude"))
     wanted = set(shown or range(len(tree))) - set(left_out)
     if not wanted:
@@ -39,14 +38,14 @@ def shown_ids(tree: VesselTree, chosen: dict[str, Any]) -> list[int]:
 
 
 def ids_of(tree: VesselTree, words: tuple[str, ...]) -> list[int]:
-    """Return the ids that words stand for; a word that is a name is no id."""
+    """Return the ids of words; a word that is a name is not an id."""
     from lumencut._vessel_names import id_or_name
 
     return [index for word in words for index in tree.ids(id_or_name(tree, word))]
 
 
 def named_vessels(tree: VesselTree, chosen: dict[str, Any]) -> list[tuple[str, Vessel]]:
-    """Return what --vessel, --exclude and --path choose, with ids: vessels, then paths through several."""
+    """Return the choice of --vessel, --exclude and --path, with ids: vessels, then paths through several."""
     ids = [] if chosen["path"] and not chosen["vessel"] else shown_ids(tree, chosen)
     found = [(str(n), tree[n]) for n in ids]
     return found + [
@@ -55,9 +54,9 @@ def named_vessels(tree: VesselTree, chosen: dict[str, Any]) -> list[tuple[str, V
 
 
 def titled_vessels(tree: VesselTree, chosen: dict[str, Any]) -> list[tuple[str, Vessel]]:
-    """Return what options choose, each with its ids, its name and its length as a title.
+    """Return the choice of the options, each with a title of ids, name and length.
 
-    With --anonymous the names are left out, which may be anybody's.
+    --anonymous omits the names, which may be names of persons.
     """
     named = named_vessels(tree, chosen)
     if chosen.get("anonymous"):
@@ -66,7 +65,7 @@ def titled_vessels(tree: VesselTree, chosen: dict[str, Any]) -> list[tuple[str, 
 
 
 def _one(tree: VesselTree, word: str) -> int:
-    """The one vessel that a word of --path stands for."""
+    """The one vessel of a word of --path."""
     ids = ids_of(tree, (word.strip(),))
     if len(ids) > 1:
         raise VesselTreeError("--path", f"{len(ids)} vessels named {word!r}", "one vessel", "give its id")

@@ -39,9 +39,9 @@ if TYPE_CHECKING:
     default=0,
     show_default=True,
     metavar="N",
-    help="The port to listen on; 0 takes any that is free.",
+    help="The port to listen on; 0 for any free port.",
 )
-@click.option("--no-browser", is_flag=True, help="Print the address alone, and open no browser.")
+@click.option("--no-browser", is_flag=True, help="Print only the address, and open no browser.")
 @verbose_option
 def view(
     volume: Path | None,
@@ -56,10 +56,10 @@ def view(
 
     VOLUME is a DICOM folder or zip archive, NIfTI, NRRD or MetaImage file; CENTERLINES one or several .vtp,
     .vtk, .mrk.json, .fcsv, .pth, .swc, .tre, .csv, .txt or .npy files, whose vessels are shown together.
-    Without them the viewer opens empty, and takes files that are dropped into it.
+    Without them the viewer opens empty, and accepts files that you drop into it.
 
-    The page and the data go to browsers of this machine alone, under an address with a secret in it, which
-    stands on a line of its own. Nothing is sent anywhere else.
+    The page and the data are served only to browsers of this machine, under an address that contains a
+    secret. The address is printed on a separate line. Nothing is sent anywhere else.
 
     \b
     lumencut view ct.nii.gz centerlines.vtp
@@ -89,7 +89,7 @@ def view(
 
 
 def _scene(volume: Path, centerlines: tuple[Path, ...], chosen: dict[str, Any]) -> ArrivingScene:
-    """The scene, of which the small files and the headers are read: what is wrong with them shows at once."""
+    """The scene; small files and headers are read first, so that their errors appear at once."""
     from lumencut.viewer.arriving import ArrivingScene
 
     lines = centerlines_of(centerlines)
@@ -101,7 +101,7 @@ def _scene(volume: Path, centerlines: tuple[Path, ...], chosen: dict[str, Any]) 
 
 
 def _demo(*, has_centerlines: bool) -> ArrivingScene:
-    """The scene of the demo, which is in memory."""
+    """The scene of the demo, in memory."""
     from lumencut.viewer.arriving import ArrivingScene
     from lumencut.volume_files.opened import held_in_memory
 
@@ -113,14 +113,14 @@ def _demo(*, has_centerlines: bool) -> ArrivingScene:
 def _opened(path: Path, chosen: dict[str, Any]) -> VolumeFile:
     from lumencut.volume_files import open_volume
 
-    with bar(f"reading {path.name}", "file") as told:
+    with bar(f"reading {path.name}", "file") as progress:
         return open_volume(
             path,
             series=chosen["series"],
             phase=chosen["phase"],
             fill_gaps=chosen["fill_gaps"],
             resample_slices=chosen["resample_slices"],
-            progress=told,
+            progress=progress,
         )
 
 
@@ -128,5 +128,5 @@ def _tree(lines: CenterlineFile | CenterlineFiles, volume: Volume, chosen: dict[
     from lumencut.centerline_file import CenterlineFile
 
     if isinstance(lines, CenterlineFile):
-        return lines.beside(volume, chosen["coordinates"], chosen["unit"], reorder=chosen["reorder"])[0]
+        return lines.within(volume, chosen["coordinates"], chosen["unit"], reorder=chosen["reorder"])[0]
     return lines.tree(chosen["coordinates"], chosen["unit"], volume, reorder=chosen["reorder"])

@@ -13,17 +13,15 @@ from lumencut.cli.settings import paper_option, setting_options, settings_from
 
 
 @click.command(short_help="Write a file of settings.")
-@click.option(
-    "-o", "--output", type=options.FILE, help="The file, such as look.toml; printed where not given."
-)
+@click.option("-o", "--output", type=options.FILE, help="The file, such as look.toml; default: print.")
 @paper_option
 @setting_options
 @verbose_option
 def settings(output: Path | None, **chosen: Any) -> None:
     """Write all settings with their values, units and meaning as a TOML file.
 
-    The values are the defaults, or those of the options. Edit the file, and give it to render, turntable or
-    evaluate as --settings.
+    The values are the defaults, or those of the options. Edit the file, and pass it to render, turntable or
+    evaluate with --settings.
 
     \b
     lumencut settings --window 900/300 --no-silhouettes -o look.toml

@@ -1,1 +1,1 @@
-"""Cohorts: many studies of a list, each done by a process of its own, with tables of all of them."""
+"""Cohorts: many studies of a list, each processed in its own process, with tables of all."""

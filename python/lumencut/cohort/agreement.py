@@ -19,7 +19,7 @@ from lumencut.cohort.result_tables import ResultTable
 
 _Floats = npt.NDArray[np.float64]
 
-#: Sections of two runs are of one place where their middles are no farther apart (mm).
+#: Largest distance between the middles of sections of the same place in two runs (mm).
 FARTHEST = 1.0
 _OF_VESSELS = ("diameter_median_mm", "suggested_narrowest_mm", "length_mm")
 _OF_SECTIONS = ("diameter_equivalent_mm", "diameter_min_mm", "area_mm2")
@@ -40,7 +40,6 @@ COLUMNS = (
 )
 _NORMAL = 1.96
 
-#: A study, and its vessel by name or number.
 _Vessel = tuple[str, str]
 
 
@@ -51,8 +50,8 @@ class Agreement:
     Attributes
     ----------
     over : {"vessels", "sections"}
-        What the pairs are. Sections of one vessel depend on each other: their limits are too narrow for what
-        another vessel would show.
+        What the pairs are. Sections of one vessel are not independent: their limits are too narrow for
+        other vessels.
     quantity : str
         The column of the table.
     studies : tuple of str
@@ -60,8 +59,8 @@ class Agreement:
     first, second : ndarray, shape (n,)
         The values, in the unit that the name of the column ends with.
     uncertainty : ndarray, shape (n,)
-        The standard deviation of the differences that the uncertainties of both lead to expect; NaN where the
-        tables state none.
+        The standard deviation of the differences expected from the uncertainties of both; NaN if the tables
+        state none.
     """
 
     over: str
@@ -73,7 +72,7 @@ class Agreement:
 
     @property
     def differences(self) -> _Floats:
-        """The second value less the first one, shape (n,)."""
+        """The second value minus the first one, shape (n,)."""
         return np.asarray(self.second - self.first)
 
     @property
@@ -88,12 +87,12 @@ class Agreement:
 
     @property
     def limits(self) -> tuple[float, float]:
-        """The limits of agreement: between them lie 95 % of the differences, if they are normal."""
+        """The limits of agreement, which contain 95 % of normally distributed differences."""
         return self.bias - _NORMAL * self.sd, self.bias + _NORMAL * self.sd
 
     @property
     def within_uncertainty(self) -> float:
-        """The share of differences within 1.96 standard deviations of what the uncertainties tell, or NaN."""
+        """The share of differences within 1.96 of their stated standard deviations, or NaN."""
         known = np.isfinite(self.uncertainty)
         if not known.any():
             return float("nan")
@@ -118,9 +117,9 @@ class Agreement:
 def agreements(first: Path, second: Path) -> list[Agreement]:
     """Return how two runs of one cohort agree, for each quantity that both have.
 
-    Vessels are the same that have the same name in the same study, or the same number where one has no name
-    or several have it. Sections are the same whose vessels are, whose middles are at most 1 mm apart, and
-    that count in both runs; each section of the second run is taken once at most.
+    Vessels match by name within a study, or by number if a vessel has no name or shares it. Sections match if
+    their vessels match, their middles are at most 1 mm apart, and they count in both runs; each section of
+    the second run is used at most once.
 
     Parameters
     ----------
@@ -145,7 +144,7 @@ def agreements(first: Path, second: Path) -> list[Agreement]:
 
 
 def _keys(table: ResultTable) -> list[_Vessel]:
-    """The study and the vessel of each row; a name counts where one vessel of the study alone has it."""
+    """The study and the vessel of each row; a name counts if it is unique within the study."""
     rows = list(zip(table.words("id"), table.words("vessel"), table.words("name"), strict=True))
     holders = Counter((study, name) for study, _, name in set(rows))
     return [
@@ -155,7 +154,7 @@ def _keys(table: ResultTable) -> list[_Vessel]:
 
 
 def _of_vessels(tables: Sequence[ResultTable], quantity: str) -> Agreement | None:
-    """The agreement of one number of each vessel; None where no vessel of both has it."""
+    """The agreement of one number of each vessel; None if no vessel of both has it."""
     first, second = (dict(zip(_keys(table), table.numbers(quantity), strict=True)) for table in tables)
     both = [key for key in first if key in second and np.isfinite([first[key], second[key]]).all()]
     if not both:

@@ -9,7 +9,7 @@ from lumencut._files import replace_whole
 from lumencut.cohort.agreement import Agreement
 from lumencut.profile_plot import check_matplotlib
 
-#: A vector picture of more points than this is too large to open.
+#: A vector picture with more points is too large to open.
 _AS_PIXELS = 5000
 
 
@@ -19,7 +19,7 @@ def write_plot(found: Sequence[Agreement], path: Path) -> None:
     Parameters
     ----------
     found : sequence of Agreement
-        What is drawn, one below the other.
+        Drawn one below the other.
     path : Path
         A picture, ``.png`` or ``.svg``.
 
@@ -28,7 +28,7 @@ def write_plot(found: Sequence[Agreement], path: Path) -> None:
     MissingPackageError
         Without matplotlib.
     FileError
-        Where the file cannot be written.
+        If the file cannot be written.
     """
     check_matplotlib()
     from matplotlib.figure import Figure
@@ -43,6 +43,6 @@ def write_plot(found: Sequence[Agreement], path: Path) -> None:
             axes.axhline(limit, color="black", linestyle="--")
         axes.set_title(f"{one.quantity}, {count} {one.over} of {len(set(one.studies))} studies")
         axes.set_xlabel("mean of both")
-        axes.set_ylabel("second less first")
+        axes.set_ylabel("second minus first")
     kind = path.suffix.lower().removeprefix(".")
     replace_whole(path, lambda whole: figure.savefig(whole, format=kind, dpi=150))

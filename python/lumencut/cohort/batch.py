@@ -1,4 +1,4 @@
-"""A cohort from its manifest to its tables: every study in a process of its own, none done twice."""
+"""A cohort from its manifest to its tables: every study in its own process, none processed twice."""
 
 from __future__ import annotations
 
@@ -28,9 +28,9 @@ from lumencut.cohort.record import read_record
 from lumencut.cohort.tables import OF_STUDIES, further_names, write_tables
 from lumencut.errors import FileError, SettingsError
 
-#: Called with how many studies ended, how many were to do, and how the last one ended.
+#: Called with the number of ended studies, the total, and how the last one ended.
 Progress = Callable[[int, int, Outcome], object]
-#: Does jobs as long as a file, the lock, is there, and yields how they ended; now and then None.
+#: Runs jobs while a file, the lock, exists, and yields how they ended, or None at intervals.
 Engine = Callable[[Sequence[Job], Path], Iterator[Outcome | None]]
 
 #: An interpreter with its libraries needs this much address space.
@@ -47,13 +47,13 @@ class BatchSummary:
     out : Path
         The folder of the results.
     done, failed, skipped : int
-        How many studies of the manifest are done, failed, or not done yet.
+        The number of studies of the manifest that succeeded, failed, or are not processed yet.
     worked : int
-        How many of them this batch did.
+        How many of them this batch processed.
     notes : tuple of str
-        What is odd about the manifest.
+        Notes on the manifest.
     left_out : int
-        How many studies have no scan; they count as none of the others.
+        The number of studies without a scan; they are not in the other counts.
     """
 
     out: Path
@@ -67,16 +67,16 @@ class BatchSummary:
 
 @dataclass(frozen=True)
 class Limits:
-    """What each study may use.
+    """The limits of each study.
 
     Attributes
     ----------
     threads : int
-        How many threads compute.
+        The number of threads.
     memory : int or None
-        The most memory (bytes of address space).
+        The memory limit (bytes of address space).
     seconds : float or None
-        The longest time.
+        The time limit.
     """
 
     threads: int
@@ -102,10 +102,10 @@ def batch(
     parquet: bool = False,
     progress: Progress | None = None,
 ) -> BatchSummary:
-    """Do every study of a manifest in a process of its own, and write the tables of the cohort.
+    """Process every study of a manifest in its own process, and write the tables of the cohort.
 
-    What is done already from the same files, by the same recipe and version, is not done again. However the
-    batch is ended, only whole studies are there, and running it again goes on. docs/cohorts.md describes the
+    Studies with results from the same files, recipe and version are skipped. However the batch ends, the
+    folder contains only complete studies; run the batch again to continue it. docs/cohorts.md describes the
     manifest, the recipe and the tables.
 
     Parameters
@@ -113,50 +113,50 @@ def batch(
     manifest : path-like
         A table of studies (``.csv``, ``.tsv``), or a pattern of the names of volumes with ``{id}``.
     out : path-like
-        The folder of the results; made where it is missing.
+        The folder of the results; created if missing.
     recipe : path-like, optional
-        A TOML file that says what is done with each study; without it the tree, one view of the look *focus*
+        A TOML file that defines what to do with each study; by default the tree, one view of the look *focus*
         and measures.
     jobs : int, default 1
-        How many studies are done at once.
+        How many studies to process at once.
     shard : pair of int, default (1, 1)
-        Which part of the manifest is done, of how many, from 1: the tables hold what all parts have done.
+        The part of the manifest to process, from 1, and the number of parts; tables cover all parts.
     retry : {"failed", "all"}, optional
-        What is done again although nothing has changed.
+        The studies to process again although nothing has changed.
     threads : int, optional
-        How many threads compute in each study; all cores divided by `jobs` where not given.
+        Threads per study; by default all cores divided by `jobs`.
     memory : int, optional
-        The most memory of each study (bytes of address space).
+        Memory limit per study (bytes of address space).
     time_limit : float, default 3600
-        The longest time of each study (s); None for no limit.
+        Time limit per study (s); None for no limit.
     device : {"auto", "cpu", "gpu"}, default "auto"
-        What computes pictures, as for :class:`lumencut.Renderer`.
+        The device that renders, as for :class:`lumencut.Renderer`.
     sources : dict of str, optional
-        Beside a pattern of volumes that of their ``centerlines``, ``mask``, ``points`` or ``seeds``.
+        With a pattern of volumes: that of their ``centerlines``, ``mask``, ``points`` or ``seeds``.
     dask : str, optional
-        The address of a scheduler of dask.distributed, on whose workers studies are done: as many at once as
-        they have threads, whatever `jobs` is. They must see the same files. Needs ``lumencut[cluster]``.
+        The address of a dask.distributed scheduler whose workers process the studies: as many at once as they
+        have threads, regardless of `jobs`. They must see the same files. Needs ``lumencut[cluster]``.
     slurm : str, optional
-        Start `jobs` jobs of SLURM, each of which does one study at a time, with options such as
+        Start `jobs` jobs of SLURM, each of which processes one study at a time, with options such as
         ``"partition=long,memory=8GB,walltime=24:00:00,cores=2"``. Needs ``lumencut[cluster]``.
     parquet : bool, default False
         Write the tables as Parquet too. Needs ``lumencut[parquet]``.
     progress : callable, optional
-        Called after each study with how many ended, how many were to do, and how this one ended.
+        Called after each study with the number of ended studies, the total, and how this one ended.
 
     Returns
     -------
     BatchSummary
-        How many studies are done, failed, and not done yet.
+        The number of studies that succeeded, failed, and are not processed yet.
 
     Raises
     ------
     FormatError
         For a manifest or a recipe with mistakes, and a folder with results of another recipe or version.
     FileError
-        For a folder that another batch writes into, a full disk, and a scheduler that stops answering.
+        If another batch writes into the folder, the disk is full, or the scheduler stops answering.
     SettingsError
-        For numbers out of range, `dask` and `slurm` at once, and a scheduler that does not answer.
+        For numbers out of range, `dask` together with `slurm`, and a scheduler that does not answer.
     MissingPackageError
         Without the packages of a cluster, or of Parquet.
     """
@@ -173,7 +173,7 @@ def batch(
     limits = _limits(threads, 0 if is_cluster else _fair_threads(side), memory, time_limit)
     start, wanted = partial(cohort.job, words=words, limits=limits), Wanted(checked_shard(shard), retry)
     if parquet:
-        # Before hours of work, not behind them.
+        # Before hours of work, not after.
         check_parquet()
     with _engine(side, dask, slurm) as engine:
         summary = cohort.run(start, engine, wanted, progress)
@@ -184,9 +184,9 @@ def batch(
 
 @contextmanager
 def _engine(jobs: int, dask: str | None, slurm: str | None) -> Iterator[Engine]:
-    """What does the studies: this machine, or a cluster as long as it is needed."""
+    """The engine for the studies: this machine, or a cluster while it is needed."""
     if dask is not None and slurm is not None:
-        raise SettingsError("dask and slurm", "both", "one of them, or none for this machine alone")
+        raise SettingsError("dask and slurm", "both", "one of them, or neither for this machine")
     if dask is None and slurm is None:
         yield lambda asked, _: side_by_side(asked, jobs)
         return
@@ -198,7 +198,7 @@ def _engine(jobs: int, dask: str | None, slurm: str | None) -> Iterator[Engine]:
 
 @dataclass(frozen=True)
 class Wanted:
-    """Which studies a batch does: a part of the manifest, and what is done again."""
+    """The studies of a batch: a part of the manifest, and which to process again."""
 
     shard: Shard
     retry: Retry | None
@@ -206,14 +206,14 @@ class Wanted:
 
 @dataclass(frozen=True)
 class Cohort:
-    """The studies, what is done with each, and where the results lie."""
+    """The studies, the recipe, and the folder of the results."""
 
     manifest: Manifest
     recipe: CohortRecipe
     layout: Layout
 
     def job(self, study: Study, words: Sequence[str], limits: Limits) -> Job:
-        """Return what the process of a study is started with."""
+        """Return the job that starts the process of a study."""
         manifest = str(Path(self.manifest.path).absolute())
         given = ["batch", manifest, f"--output={self.layout.out}", f"--one={study.id}", *words]
         if limits.memory is not None:
@@ -227,7 +227,7 @@ class Cohort:
         wanted: Wanted,
         progress: Progress | None = None,
     ) -> BatchSummary:
-        """Do what is still to do, and write the tables, also where the batch is interrupted."""
+        """Process the remaining studies, and write the tables, even if the batch is interrupted."""
         self._make()
         with held(self.layout, wanted.shard) as lock:
             settle_recipe(self.layout, self.recipe, wanted.retry)
@@ -241,19 +241,19 @@ class Cohort:
         return replace(summary, worked=worked, notes=self.manifest.notes)
 
     def gather(self) -> BatchSummary:
-        """Write the tables of what is there, and do nothing else."""
+        """Write the tables of the existing results, and do nothing else."""
         self._make()
         settle_recipe(self.layout, self.recipe, None)
         return self._tables(planned(self.layout, self.manifest, self.recipe))
 
     def write_parquet(self) -> None:
-        """Write the tables that are there as Parquet too."""
+        """Also write the existing tables as Parquet."""
         for name in ("studies", *OF_STUDIES):
             further = further_names(self.manifest) if name == "studies" else ()
             write_parquet(self.layout.out / f"{name}.csv", frozenset(further))
 
     def open_studies(self) -> list[Study]:
-        """Return the studies that are not done with what their files and the recipe are now."""
+        """Return the studies without results from their present files and the present recipe."""
         self._make()
         settle_recipe(self.layout, self.recipe, None)
         plans = planned(self.layout, self.manifest, self.recipe)
@@ -267,7 +267,7 @@ class Cohort:
             raise FileError(str(self.layout.out), found, "a folder to write into") from error
 
     def _sweep(self, studies: Iterable[Study]) -> None:
-        """Remove what a killed batch left of these studies, which nobody else does."""
+        """Remove incomplete results of these studies that a killed batch left behind."""
         labels = {study.label for study in studies}
         for path in self.layout.unfinished.iterdir():
             if path.name.partition(".")[0] in labels:
@@ -281,7 +281,7 @@ class Cohort:
         lock: Lock,
         progress: Progress | None,
     ) -> int:
-        """Do studies, and record of each that could not do so itself why it failed."""
+        """Process studies, and record why a study failed if its process could not."""
         by_id = {one.study.id: one for one in tasks}
         ended, has_room = 0, True
         for outcome in engine([job_of(one.study) for one in tasks], lock.path):
@@ -296,7 +296,7 @@ class Cohort:
             if progress is not None:
                 progress(ended, len(tasks), self._explained(one, outcome))
         if not has_room:
-            mend = "free some, and run the batch again: it goes on where it was"
+            mend = "free some, and run the batch again: it continues"
             raise FileError(str(self.layout.out), "no room left on the disk", "room for results", mend)
         return ended
 
@@ -308,7 +308,7 @@ class Cohort:
         return outcome if record is None else replace(outcome, reason=record.reason)
 
     def _tables(self, plans: Sequence[Planned]) -> BatchSummary:
-        """Write the tables of all that is there now, of other shards too."""
+        """Write the tables of all existing results, including those of other shards."""
         with one_at_a_time(self.layout):
             records = [known_record(self.layout, one.study, one.origin) for one in plans]
             write_tables(self.layout, self.manifest, records)
@@ -329,13 +329,13 @@ def checked_shard(shard: tuple[int, int]) -> Shard:
 
 
 def _fair_threads(jobs: int) -> int:
-    """How many threads each of some studies gets on this machine."""
+    """Threads per study on this machine."""
     cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
     return max(1, cores // jobs)
 
 
 def _limits(threads: int | None, usual: int, memory: int | None, seconds: float | None) -> Limits:
-    """What each study may use, checked; `usual` threads where none are given."""
+    """The limits of each study, checked; `usual` threads by default."""
     used = usual if threads is None else integers(SettingsError, "threads", [threads], 1, 1024, 1)[0]
     if memory is not None and memory < _LEAST_MEMORY:
         raise SettingsError("memory", f"{memory} bytes", f"at least {_LEAST_MEMORY} bytes")

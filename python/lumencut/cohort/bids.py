@@ -1,4 +1,4 @@
-"""A data set of BIDS as a manifest: one angiography of each session, or participant without sessions."""
+"""A BIDS data set as a manifest: one angiography of each session, or participant without sessions."""
 
 from __future__ import annotations
 
@@ -10,43 +10,41 @@ from lumencut.cohort.manifest import Manifest, Study
 from lumencut.cohort.manifest_table import table_of
 from lumencut.errors import FileError, FormatError, LumencutError
 
-#: How the names of angiographies end; BIDS has ``angio`` for MR and none for CT so far.
+#: Endings of the names of angiographies; BIDS has ``angio`` for MR and none for CT so far.
 SUFFIXES = ("angio", "cta", "ct")
 _ENDINGS = (".nii.gz", ".nii")
-#: How the names of images end that may stand in the place of an angiography.
+#: Endings of the names of images that may replace an angiography.
 _IMAGES = (*_ENDINGS, ".nrrd", ".nhdr", ".mha", ".mhd", ".hdr", ".dcm", ".mgz")
-_EXPECTED = "a data set of BIDS with folders sub-…"
-#: As many names as one reason lists.
+_EXPECTED = "a BIDS data set with folders sub-…"
 _MOST_NAMED = 8
 
 
 def read_bids(folder: str | Path, suffixes: Sequence[str] = SUFFIXES, labels: Sequence[str] = ()) -> Manifest:
-    """Return the angiographies of a data set of BIDS as studies, by their participants and sessions.
+    """Return the angiographies of a BIDS data set as studies, by their participants and sessions.
 
     Parameters
     ----------
     folder : str or path
         The data set.
     suffixes : sequence of str
-        How the names of angiographies end before ``.nii.gz``, such as ``angio`` or ``acq-cta_ct``; large
-        letters count as small ones.
+        Endings of the names of angiographies before ``.nii.gz``, such as ``angio`` or ``acq-cta_ct``; case
+        is ignored.
     labels : sequence of str
-        The participants, with or without ``sub-``; all where none is named.
+        The participants, with or without ``sub-``; all by default.
 
     Returns
     -------
     Manifest
-        A study for each participant, or each session of it. Its vessels are found in the scan. A study
+        A study for each participant, or for each of its sessions. Its vessels are found in the scan. A study
         without an angiography is left out, with the reason; so is one that ``participants.tsv`` or
-        ``sub-…_sessions.tsv`` names and that has no folder.
+        ``sub-…_sessions.tsv`` lists but that has no folder.
 
     Raises
     ------
     FormatError
-        For sessions with several angiographies, participants that are not there, and a data set without any
-        angiography.
+        For sessions with several angiographies, missing participants, and a data set without any angiography.
     FileError
-        For a folder that is not there.
+        For a missing folder.
     """
     home = checked_path(folder, _EXPECTED)
     if not home.is_dir():
@@ -71,7 +69,7 @@ def read_bids(folder: str | Path, suffixes: Sequence[str] = SUFFIXES, labels: Se
 
 
 def _listed(path: Path, column: str, prefix: str, notes: list[str]) -> list[str]:
-    """The names in a column of a table of BIDS; none where there is no table, or it cannot be read."""
+    """The names in a column of a BIDS table; none if the table is missing or cannot be read."""
     if not path.is_file():
         return []
     try:
@@ -87,7 +85,7 @@ def _listed(path: Path, column: str, prefix: str, notes: list[str]) -> list[str]
 
 
 def _of_person(person: Path, suffixes: Sequence[str], notes: list[str]) -> list[Study]:
-    """The studies of a participant: one for each session, or one where there are no sessions."""
+    """The studies of a participant: one for each session, or one without sessions."""
     if not person.is_dir():
         return [Study(person.name, person, left_out="no folder of this participant of participants.tsv")]
     table = person / f"{person.name}_sessions.tsv"
@@ -96,16 +94,16 @@ def _of_person(person: Path, suffixes: Sequence[str], notes: list[str]) -> list[
     if not sessions:
         return [_study(person, person.name, suffixes)]
     studies = [_study(person / session, f"{person.name}_{session}", suffixes) for session in sessions]
-    beside = [path for path in _images(person) if path.relative_to(person).parts[0] not in sessions]
-    beside = [path for path in beside if _is_angiography(path.name, suffixes)]
-    if beside:
-        reason = f"an angiography outside of the sessions: {_names(beside)}; move it into a folder ses-…"
-        studies.insert(0, Study(person.name, beside[0].absolute(), left_out=reason))
+    outside = [path for path in _images(person) if path.relative_to(person).parts[0] not in sessions]
+    outside = [path for path in outside if _is_angiography(path.name, suffixes)]
+    if outside:
+        reason = f"an angiography outside of the sessions: {_names(outside)}; move it into a folder ses-…"
+        studies.insert(0, Study(person.name, outside[0].absolute(), left_out=reason))
     return studies
 
 
 def _study(place: Path, name: str, suffixes: Sequence[str]) -> Study:
-    """The study of a folder, which is left out where the folder has no angiography."""
+    """The study of a folder, left out if the folder has no angiography."""
     if not place.is_dir():
         return Study(name, place, left_out=f"no folder {place.name} of this session of the table of sessions")
     images = _images(place)

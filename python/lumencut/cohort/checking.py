@@ -1,4 +1,4 @@
-"""Which studies of a manifest will fail, told from headers and sizes of their files before anything runs."""
+"""Predicts which studies of a manifest will fail, from headers and sizes of their files."""
 
 from __future__ import annotations
 
@@ -19,22 +19,22 @@ from lumencut.volume_files import open_volume
 from lumencut.volume_files.opened import VolumeFile
 from lumencut.volume_files.room import available_memory, in_words
 
-#: Address space that the process of a study has before it reads a voxel, at least (bytes).
+#: Smallest address space of the process of a study before it reads a voxel (bytes).
 _PROCESS = 256 << 20
-#: A study with so much beside this multiple of its voxels has enough: all that is computed of them is less.
+#: This much plus this multiple of the voxels is enough for any study; chosen, not measured.
 _AMPLE, _TIMES = 4 << 30, 12
 
 
 @dataclass(frozen=True)
 class Verdict:
-    """What headers and sizes tell of a study.
+    """The prediction for a study from headers and sizes.
 
     Attributes
     ----------
     trouble : str
-        Why it will fail; empty where nothing tells so.
+        Why it will fail; empty without such a reason.
     unsure : tuple of str
-        What nothing but the run can tell, a sentence each; empty where a study will fail anyway.
+        Questions that only the run can decide, a sentence each; empty if the study will fail anyway.
     """
 
     trouble: str = ""
@@ -42,7 +42,7 @@ class Verdict:
 
 
 def trouble_of(study: Study, how: Reading) -> str:
-    """Return why a study will fail, as far as headers and sizes tell; empty where they tell nothing."""
+    """Return why a study will fail, judged by headers and sizes; empty without such a reason."""
     return verdict_of(study, how).trouble
 
 
@@ -54,26 +54,26 @@ def verdict_of(study: Study, how: Reading, memory: int | None = None) -> Verdict
     Parameters
     ----------
     study, how
-        The study, and how its scan is read.
+        The study, and the recipe for reading its scan.
     memory : int, optional
-        The most memory that it may have (bytes of address space); that of the machine where not given.
+        Its memory limit (bytes of address space); by default that of the machine.
     """
     try:
         return Verdict(unsure=tuple(_judged(study, how, memory)))
     except LumencutError as error:
         return Verdict(str(error))
     except Exception as error:
-        # A file that its reader does not expect at all fails the study, not the check of all others.
+        # An unexpected error fails this study, not the check of all others.
         return Verdict(f"unexpected {type(error).__name__}: {error}")
 
 
 def _judged(study: Study, how: Reading, memory: int | None) -> Iterator[str]:
-    """Yield what only the run can tell.
+    """Yield what only the run can decide.
 
     Raises
     ------
     LumencutError
-        Where the study will fail.
+        If the study will fail.
     """
     volume = open_volume(study.volume, **reading_of(study, how))
     files = [volume]
@@ -96,12 +96,12 @@ def _judged(study: Study, how: Reading, memory: int | None) -> Iterator[str]:
 
 
 def _bytes(file: VolumeFile) -> int:
-    """The bytes of the voxels of a file in memory, at least."""
+    """Smallest size of the voxels of a file in memory (bytes)."""
     return math.prod(file.size) * (file.settled_type or file.dtype).itemsize
 
 
 def _check_memory(study: Study, needed: int, memory: int | None) -> None:
-    """Refuse voxels that do not fit into the memory."""
+    """Reject voxels that do not fit into the memory."""
     room = available_memory() if memory is None else max(memory - _PROCESS, 0)
     if needed > room:
         expected = f"at most {in_words(room)}, " + (
@@ -112,23 +112,23 @@ def _check_memory(study: Study, needed: int, memory: int | None) -> None:
 
 @dataclass(frozen=True)
 class _Grid:
-    """A grid as the core takes it."""
+    """A grid in the form of the core."""
 
     size: tuple[int, int, int]
     _affine_rows: tuple[tuple[float, ...], ...]
 
 
 def _check_lines(study: Study, volume: VolumeFile) -> None:
-    """Refuse a file of centerlines that cannot be read, or that misses the volume however it is meant."""
+    """Reject a file of centerlines that cannot be read, or that misses the volume in every space and unit."""
     points = CenterlineFile(study.given).placed()[0].points
     rows = tuple(map(tuple, volume.world_from_index[:3].tolist()))
     if _lumencut.fits_nowhere(points, _Grid(volume.size, rows)):
-        found = "no point in the volume, in whatever space and unit"
+        found = "no point in the volume, in any space and unit"
         raise FormatError(study.given, found, "centerlines of this scan")
 
 
 def _check_places(study: Study, volume: VolumeFile) -> None:
-    """Refuse points that lie outside of the volume, or are too few."""
+    """Reject points outside the volume, or too few points."""
     if not study.given_as_text:
         CenterlineFile(study.given)
         return

@@ -1,4 +1,4 @@
-"""The process of one study, as the batch that started it sees it: its command, its limits, how it ended."""
+"""The process of one study in the batch that started it: its command, its limits, how it ended."""
 
 from __future__ import annotations
 
@@ -18,9 +18,8 @@ from lumencut.cohort.parent import PARENT
 
 State = Literal["done", "failed", "no room"]
 
-#: A process that was asked to end is killed after so many seconds.
+#: Time between asking a process to end and killing it (s).
 _GRACE = 2.0
-#: How long to sleep between two looks at a process (s).
 _LOOK = 0.02
 _LONGEST_REASON = 400
 _TAIL = 8192
@@ -36,11 +35,11 @@ class Outcome:
     id : str
         The study.
     state : {"done", "failed", "no room"}
-        "no room" where the disk is full, for which the study is not to blame.
+        "no room" for a full disk, which is not a fault of the study.
     reason : str
-        Why it failed; empty where the process itself has recorded the reason.
+        Why it failed; empty if the process itself has recorded the reason.
     seconds : float
-        How long it took.
+        Its duration.
     """
 
     id: str
@@ -61,7 +60,7 @@ class Started(Protocol):
 
 
 def _fresh(job: Job) -> Started:
-    """Start the process of a study anew."""
+    """Start a new process for a study."""
     environment = {**os.environ, PARENT: str(os.getpid()), "RAYON_NUM_THREADS": str(job.threads)}
     with job.log.open("wb") as log:
         return subprocess.Popen(
@@ -76,7 +75,7 @@ def _fresh(job: Job) -> Started:
 
 
 class Child:
-    """The process of one study while it works."""
+    """The running process of one study."""
 
     def __init__(self, job: Job, start: Callable[[Job], Started] | None = None) -> None:
         self.job = job
@@ -85,7 +84,7 @@ class Child:
         self._process = (start or _fresh)(job)
 
     def outcome(self) -> Outcome | None:
-        """Tell how it ended; None while it works. One that takes too long is killed."""
+        """Return how it ended; None while it works. A process over its time limit is killed."""
         code = self._process.poll()
         seconds = time.monotonic() - self._start
         if code is None:
@@ -98,14 +97,14 @@ class Child:
         return Outcome(self.job.id, state, reason, seconds)
 
     def end(self, number: signal.Signals = signal.SIGTERM) -> None:
-        """Send a signal to it and all that it started."""
-        # It may have ended by itself meanwhile, or not have a group of its own yet.
+        """Send a signal to it and its children."""
+        # It may have ended, or may not have its own process group yet.
         for send in (os.killpg, os.kill):
             with suppress(ProcessLookupError):
                 send(self._process.pid, number)
 
     def wait(self) -> None:
-        """Wait until it is gone, and kill it where it does not heed that it was asked to end."""
+        """Wait until it ends, and kill it if it ignores the request to end."""
         end = time.monotonic() + _GRACE
         while self._process.poll() is None:
             if time.monotonic() > end:
@@ -113,7 +112,7 @@ class Child:
             time.sleep(_LOOK)
 
     def _reason(self, code: int) -> str:
-        """Why a process failed that could not record it."""
+        """Why a process failed without recording the reason."""
         last = _last_words(self.job.log)
         if self._late and self.job.seconds is not None:
             return f"took longer than {self.job.seconds:g} s"

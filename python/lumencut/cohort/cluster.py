@@ -18,15 +18,14 @@ from lumencut.cohort.job import Job
 from lumencut.cohort.scheduler import SchedulerWatch, briefly, within
 from lumencut.errors import MissingPackageError, SettingsError
 
-#: A study whose worker was lost is begun again on another one so many times.
+#: How often a study restarts on another worker after its worker is lost.
 _LOST_WORKERS = 5
-#: How often the batch looks whether a study has ended, and a worker whether the batch is still there (s).
+#: Interval at which the batch checks its studies, and a worker checks the batch (s).
 _LOOK, _LOOK_FOR_BATCH = 0.1, 1.0
-#: How long a connection may take, and the result of a study that has ended (s).
+#: Timeouts of a connection, and of the result of an ended study (s).
 _CONNECTING, _ANSWER = 10.0, 5.0
-#: What dask calls studies that have ended.
 _ENDED = ("finished", "error", "cancelled")
-#: What ``--slurm`` takes, by what dask-jobqueue calls it.
+#: Options of ``--slurm``, with their names in dask-jobqueue.
 SLURM_NAMES = {
     "partition": "queue",
     "account": "account",
@@ -39,26 +38,26 @@ SLURM_NAMES = {
 
 @dataclass(frozen=True)
 class Cluster:
-    """Workers that do studies.
+    """Workers that process studies.
 
     Attributes
     ----------
     client : distributed.Client
-        The way to their scheduler.
+        Connected to their scheduler.
     """
 
     client: Any
 
     def do(self, jobs: Sequence[Job], lock: Path) -> Iterator[Outcome | None]:
-        """Do jobs on all workers, and yield how each ended, as `side_by_side` does.
+        """Run jobs on all workers, and yield how each ended, like `side_by_side`.
 
-        A study whose worker or machine is lost is begun again elsewhere; one that crashes is not. Workers end
-        the processes of their studies when the lock of the batch is gone.
+        A study restarts elsewhere if its worker or machine is lost, but not if it crashes. Workers end the
+        processes of their studies when the lock of the batch is gone.
 
         Raises
         ------
         FileError
-            Where the scheduler does not answer any more.
+            If the scheduler no longer answers.
         """
         studies = _Studies(self.client, jobs, str(lock))
         try:
@@ -78,27 +77,26 @@ class Cluster:
 
 
 class _Studies:
-    """The studies that have not ended: those that wait, and those that the scheduler has."""
+    """The studies that have not ended: waiting, or held by the scheduler."""
 
     def __init__(self, client: Any, jobs: Sequence[Job], lock: str) -> None:
         self._client, self._lock = client, lock
-        # The last one is the next.
         self._waiting = list(reversed(jobs))
         self._asked: dict[Any, Job] = {}
         self._lost: Counter[str] = Counter()
 
     @property
     def left(self) -> int:
-        """How many they are."""
+        """Their number."""
         return len(self._waiting) + len(self._asked)
 
     def begin(self) -> None:
-        """Hand those that wait to the scheduler."""
+        """Submit the waiting studies to the scheduler."""
         if self._waiting:
             self._client.sync(self._submit)
 
     async def _submit(self) -> None:
-        # Within the loop of dask, so that no loss of the connection comes between: dask would forget them.
+        # Within the event loop of dask: after a lost connection in between, dask would forget them.
         while self._waiting and self._client.status == "running":
             job = self._waiting[-1]
             key = f"lumencut-study-{job.id}-{os.urandom(4).hex()}"
@@ -106,25 +104,25 @@ class _Studies:
             self._asked[future] = self._waiting.pop()
 
     def ended(self) -> list[Outcome]:
-        """Tell how those ended that have ended since."""
+        """Yield how studies ended since the last call."""
         ended = [future for future in self._asked if future.status in _ENDED]
         return [outcome for future in ended if (outcome := self._outcome(future)) is not None]
 
     def _outcome(self, future: Any) -> Outcome | None:
-        """How a study ended; None where it is begun again, or dask cannot say it yet."""
+        """How a study ended; None if it restarts, or dask does not know yet."""
         try:
             outcome: Outcome | None = future.result(_ANSWER)
         except (Exception, asyncio.CancelledError) as error:
             if isinstance(error, OSError) and future.status not in ("error", "cancelled"):
-                # Its worker was lost with the result, or the scheduler: dask or the watch finds out.
+                # The worker was lost with the result, or the scheduler: dask or the watch will report it.
                 return None
             outcome = self._after(self._asked[future], error)
         del self._asked[future]
         return outcome
 
     def _after(self, job: Job, error: BaseException) -> Outcome | None:
-        """Let a study be begun again, as its worker was lost, unless that happened too often."""
-        # The connection may come back; that is no fault of the study.
+        """Restart a study whose worker was lost, unless that happened too often."""
+        # The connection may come back; the study is not at fault.
         self._lost[job.id] += getattr(error, "reason", "") != "scheduler-connection-lost"
         if self._lost[job.id] <= _LOST_WORKERS:
             self._waiting.append(job)
@@ -135,13 +133,13 @@ class _Studies:
         return Outcome(job.id, "failed", reason, 0.0)
 
     def cancel(self) -> None:
-        """Take back those that the scheduler has."""
+        """Cancel the studies that the scheduler holds."""
         if self._asked:
             self._client.cancel(list(self._asked))
 
 
 def run_on_worker(job: Job, lock: str) -> Outcome:
-    """Do a study in a process of its own on a worker, with a fair part of its cores."""
+    """Process a study in its own process on a worker, with a fair share of its cores."""
     distributed = _package("distributed", "dask.distributed")
     cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
     threads = job.threads or max(1, cores // distributed.get_worker().state.nthreads)
@@ -162,18 +160,18 @@ def run_on_worker(job: Job, lock: str) -> Outcome:
 
 @contextmanager
 def dask_cluster(address: str) -> Iterator[Cluster]:
-    """Connect to the scheduler of a cluster of dask.distributed.
+    """Connect to the scheduler of a dask.distributed cluster.
 
     Raises
     ------
     MissingPackageError
         Without dask.distributed.
     SettingsError
-        Where no scheduler answers.
+        If no scheduler answers.
     """
     distributed = _package("distributed", "dask.distributed")
     try:
-        # It waits for ever where something accepts the connection and says nothing.
+        # Client waits forever if the peer accepts the connection and sends nothing.
         client = within(
             _CONNECTING + _ANSWER,
             lambda: distributed.Client(address, timeout=_CONNECTING, set_as_default=False),
@@ -196,7 +194,7 @@ def slurm_cluster(options: str, jobs: int) -> Iterator[Cluster]:
     options : str
         Such as ``partition=long,memory=8GB,walltime=24:00:00,cores=2``; see `SLURM_NAMES`.
     jobs : int
-        How many jobs, each with one worker.
+        The number of jobs, each with one worker.
 
     Raises
     ------
@@ -212,18 +210,18 @@ def slurm_cluster(options: str, jobs: int) -> Iterator[Cluster]:
         jobqueue.SLURMCluster(**given) as cluster,
         distributed.Client(cluster, set_as_default=False) as client,
     ):
-        # Jobs that end, by their time or with their node, are begun again.
+        # Jobs that end by their time limit or with their node are restarted.
         cluster.adapt(minimum_jobs=jobs, maximum_jobs=jobs)
         yield Cluster(client)
 
 
 def slurm_options(options: str) -> dict[str, Any]:
-    """Return what a SLURMCluster takes: one study at a time in each job, its dashboard on loopback alone.
+    """Return the arguments of SLURMCluster: one study at a time in each job, dashboard on loopback only.
 
     Raises
     ------
     SettingsError
-        For unknown options, and values that are none.
+        For unknown options and invalid values.
     """
     made: dict[str, Any] = {"cores": 1, "memory": "4GB"}
     for part in filter(None, options.split(",")):
@@ -239,7 +237,7 @@ def slurm_options(options: str) -> dict[str, Any]:
     if "job_directives_skip" in made:
         made["job_directives_skip"] = made["job_directives_skip"].split()
     made["scheduler_options"] = {"dashboard_address": "127.0.0.1:0"}
-    # One thread of the worker starts one study, which has all cores and all memory of the job.
+    # One worker thread, so that one study has all cores and all memory of the job.
     made |= {
         "processes": 1,
         "worker_extra_args": ["--nthreads", "1", "--memory-limit", "0", "--no-dashboard"],

@@ -22,12 +22,12 @@ _ORDERS = {
     "doubtful": "doubtful vessels",
     "seconds": "time",
 }
-#: So many tiles are shown at first, as the script has it too.
+#: Number of tiles shown at first; the script has the same number.
 _AT_ONCE = 200
 _HELP = (
     "Click a tile to select it, then rate it: g good, r redo, x exclude, u none. Arrows select the next; "
     "Enter or a double click opens the picture in a new tab. Ratings stay in this browser until they are "
-    "saved. Narrowest places are suggestions to look at. "
+    "saved. Narrowest places are suggestions to check. "
     "Lumencut is not a medical device."
 )
 
@@ -35,17 +35,17 @@ _HELP = (
 def contact_page(layout: Layout, manifest: Manifest, records: Sequence[Record | None]) -> str:
     """Return the contact sheet of a cohort as HTML.
 
-    Pictures, style and script are part of it, it asks no server for anything, and its content policy lets no
-    other script run. Nothing of the patient stands in it but the pictures and the ids of the manifest.
+    It includes its pictures, style and script, contacts no server, and its content policy blocks all other
+    scripts. It contains no patient data except the pictures and the ids of the manifest.
 
     Parameters
     ----------
     layout : Layout
-        Where the results lie; links lead to pictures there.
+        The folder of the results; links lead to pictures there.
     manifest : Manifest
         The studies.
     records : sequence of Record or None
-        What is told of each study, in the order of the manifest; None where it is not done yet.
+        The record of each study, in the order of the manifest; None if it is not processed yet.
     """
     style, script = (_beside(name) for name in ("contact_page.css", "contact_page.js"))
     pairs = zip(manifest.studies, records, strict=True)
@@ -89,7 +89,7 @@ def contact_page(layout: Layout, manifest: Manifest, records: Sequence[Record | 
 
 
 def _tile(layout: Layout, row: int, study: Study, record: Record | None) -> str:
-    """A study: its thumbnail, how it ended, and what there is to look at."""
+    """A study: its thumbnail, how it ended, and what to check."""
     state = "skipped" if record is None else record.state
     numbers = {} if record is None else record.numbers
     narrowest, flags, doubtful = (
@@ -106,16 +106,15 @@ def _tile(layout: Layout, row: int, study: Study, record: Record | None) -> str:
     }
     attributes = " ".join(f'data-{name}="{escape(value)}"' for name, value in data.items())
     lines = [study.left_out] if study.left_out else _lines(record, narrowest, flags, doubtful)
-    told = "".join(f'<p title="{escape(line)}">{escape(line)}</p>' for line in lines)
+    words = "".join(f'<p title="{escape(line)}">{escape(line)}</p>' for line in lines)
     picture = _picture(layout, study) if state == "done" else f"<a>{state}</a>"
     name = f'<b title="{escape(study.id)}">{escape(study.id)}</b>'
-    # The script shows more of them where the page is scrolled to its end.
     hidden = "" if row < _AT_ONCE else ' class="hidden"'
-    return f'<li tabindex="0"{hidden} {attributes}>{picture}{name}{told}<p class="rating"></p></li>'
+    return f'<li tabindex="0"{hidden} {attributes}>{picture}{name}{words}<p class="rating"></p></li>'
 
 
 def _lines(record: Record | None, narrowest: str, flags: str, doubtful: str) -> list[str]:
-    """What a tile says of a study."""
+    """The lines of a tile."""
     if record is None:
         return ["not done yet"]
     if record.state == "failed":
@@ -125,8 +124,8 @@ def _lines(record: Record | None, narrowest: str, flags: str, doubtful: str) -> 
     if narrowest:
         lines.append(f"narrowest {float(narrowest):.2f} mm, vessel {found['suggested_narrowest_vessel']}")
     notes = {"flags": flags, "doubtful vessels": doubtful, "warnings": str(len(record.warnings))}
-    told = [f"{count} {name}" for name, count in notes.items() if count not in ("", "0")]
-    return [*lines, ", ".join(told)] if told else lines
+    counts = [f"{count} {name}" for name, count in notes.items() if count not in ("", "0")]
+    return [*lines, ", ".join(counts)] if counts else lines
 
 
 def _picture(layout: Layout, study: Study) -> str:
@@ -149,5 +148,5 @@ def _beside(name: str) -> str:
 
 
 def _hash(text: str) -> str:
-    """The hash by which a content policy knows a style or a script."""
+    """The hash of a style or a script for a content policy."""
     return f"sha256-{base64.b64encode(hashlib.sha256(text.encode()).digest()).decode('ascii')}"

@@ -1,4 +1,4 @@
-"""How what was measured is distributed over a cohort: over its vessels, and over those of each name."""
+"""Distributions of measures over the vessels of a cohort, and over those of each name."""
 
 from __future__ import annotations
 
@@ -11,7 +11,6 @@ import numpy.typing as npt
 
 from lumencut.cohort.result_tables import ResultTable
 
-#: The columns of ``vessels.csv`` whose distributions are told.
 QUANTITIES = (
     "length_mm",
     "radius_mean_mm",
@@ -33,11 +32,11 @@ class Distribution:
     quantity : str
         The column of ``vessels.csv``.
     count : int
-        How many vessels have it.
+        The number of vessels that have it.
     mean, sd : float
         The mean and the standard deviation (of a sample; NaN for a single vessel).
     quartiles : tuple of 5 float
-        The smallest one, the quartiles and the largest one.
+        The minimum, the quartiles and the maximum.
     """
 
     vessels: str
@@ -55,21 +54,21 @@ class Distribution:
 
 
 def written(number: float) -> str:
-    """Return a number as tables have it: five digits, empty where it is none."""
+    """Return a number as in tables: five digits, empty for NaN."""
     return f"{number:.5g}" if np.isfinite(number) else ""
 
 
 def states_of(out: Path) -> tuple[Counter[str], Counter[str]]:
-    """Return how many studies have each state, and for which reasons studies failed or were skipped."""
+    """Return the number of studies in each state, and the reasons of failed and skipped studies."""
     studies = ResultTable(out, "studies", ("state", "reason"))
     states = studies.words("state")
     reasons = studies.words("reason")
-    told = (reason for state, reason in zip(states, reasons, strict=True) if state != "done")
-    return Counter(states), Counter(told)
+    given = (reason for state, reason in zip(states, reasons, strict=True) if state != "done")
+    return Counter(states), Counter(given)
 
 
 def distributions(out: Path) -> list[Distribution]:
-    """Return the distributions over all vessels of a cohort, then over those of each name, by the alphabet.
+    """Return the distributions over all vessels of a cohort, then over those of each name, alphabetically.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""Studies side by side on this machine, each in a process of its own."""
+"""Runs studies in parallel on this machine, each in its own process."""
 
 from __future__ import annotations
 
@@ -12,23 +12,23 @@ from lumencut.cohort.child import Child, Outcome
 from lumencut.cohort.job import Job
 from lumencut.cohort.nursery import Nursery, NurseryError
 
-#: How long to sleep between two looks at the processes (s), and after how many seconds to say that all go on.
+#: Interval between checks of the processes, and between reports that all continue (s).
 _LOOK, _TICK = 0.02, 1.0
-#: A study whose process was lost with the one that forked it is begun again so many times.
+#: How often a study restarts after its process was lost with the one that forked it.
 _LOST = 3
 
 
 def side_by_side(jobs: Sequence[Job], count: int) -> Iterator[Outcome | None]:
-    """Do jobs, `count` of them at once, and yield how each ended as soon as it has.
+    """Run jobs, `count` of them at once, and yield how each ended.
 
-    Where none has ended for a second None is yielded, so that the caller can do what time asks for. When the
-    caller leaves, by Ctrl-C or any other way, all processes are ended. Where the disk is full none is begun.
+    If none ends for a second, None is yielded, so that the caller can do periodic work. When the caller
+    leaves, by Ctrl-C or any other way, all processes are ended. No job starts on a full disk.
     """
     if not jobs:
         return
     waiting, working = deque(jobs), list[Child]()
     lost: Counter[str] = Counter()
-    # A fork is safe on Linux alone: the libraries of other systems may have threads.
+    # Forking is safe only on Linux: the libraries of other systems may have threads.
     is_forked = sys.platform.startswith("linux")
     while waiting:
         nursery = Nursery() if is_forked else None
@@ -38,7 +38,7 @@ def side_by_side(jobs: Sequence[Job], count: int) -> Iterator[Outcome | None]:
         except NurseryError:
             again = [child.job for child in working]
             working.clear()
-            # Where it cannot even begin, each study has a process that is started anew.
+            # If it cannot start, each study gets a new process.
             is_forked = bool(again)
             lost.update(job.id for job in again)
             waiting.extendleft(job for job in again if lost[job.id] <= _LOST)
@@ -58,9 +58,9 @@ def side_by_side(jobs: Sequence[Job], count: int) -> Iterator[Outcome | None]:
 def _with(
     nursery: Nursery | None, waiting: deque[Job], working: list[Child], count: int
 ) -> Iterator[Outcome | None]:
-    """Do what waits, as long as the process that forks them works."""
+    """Run waiting jobs while the forking process works."""
     start = None if nursery is None else nursery.start
-    has_room, told = True, time.monotonic()
+    has_room, reported = True, time.monotonic()
     while working or (waiting and has_room):
         while waiting and has_room and len(working) < count:
             working.append(Child(waiting[0], start))
@@ -70,10 +70,10 @@ def _with(
             if outcome is not None:
                 working.remove(child)
                 has_room = has_room and outcome.state != "no room"
-                told = time.monotonic()
+                reported = time.monotonic()
                 yield outcome
-        if time.monotonic() - told > _TICK:
-            told = time.monotonic()
+        if time.monotonic() - reported > _TICK:
+            reported = time.monotonic()
             yield None
         time.sleep(_LOOK)
     if not has_room:

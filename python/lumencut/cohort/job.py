@@ -1,4 +1,4 @@
-"""What the process of a study is started with, and how Python starts without looking into strange folders."""
+"""The start of a study's process, and of Python without modules from untrusted folders."""
 
 from __future__ import annotations
 
@@ -6,27 +6,26 @@ import sys
 from dataclasses import dataclass
 from pathlib import Path
 
-#: The exit codes of a process that does one study: whole, failed with a record of it, no room on the disk.
-#: A batch of which some studies failed ends with the second one too.
+#: Exit codes of the process of a study: complete, failed with a record, no room on the disk.
 DONE, SOME_FAILED, NO_ROOM = 0, 3, 4
 
 
 @dataclass(frozen=True)
 class Job:
-    """What the process of a study is started with; it can be sent to another machine.
+    """The start of a study's process; can be sent to another machine.
 
     Attributes
     ----------
     id : str
         The study.
     words : tuple of str
-        What stands behind ``lumencut``.
+        The arguments of ``lumencut``.
     log : Path
-        Where it writes what it prints.
+        Receives its output.
     threads : int
-        How many threads compute; on a cluster 0 stands for a fair part of the cores of the worker.
+        The number of threads; on a cluster 0 means a fair share of the cores of the worker.
     seconds : float or None
-        It is killed when it takes longer.
+        Its time limit; it is killed afterwards.
     """
 
     id: str
@@ -39,7 +38,7 @@ class Job:
 def launch_words(code: str, *words: str) -> list[str]:
     """Return the command that runs Python code with these arguments.
 
-    Modules come from where ours came from: never from the current folder, which may be a stranger's.
+    Modules come from the same folders as ours, never from the current folder, which may be untrusted.
     """
     here = [entry for entry in sys.path if isinstance(entry, str)]
     start = f"import sys; n = int(sys.argv[1]) + 2; sys.path[:] = sys.argv[2:n]; del sys.argv[1:n]; {code}"

@@ -1,4 +1,4 @@
-"""Where the results of a cohort lie: a folder for each study, its log, and what a batch keeps for itself."""
+"""The folder of results of a cohort: a folder for each study, its log, and internal files of the batch."""
 
 from __future__ import annotations
 
@@ -23,12 +23,12 @@ class Layout:
 
     @property
     def own(self) -> Path:
-        """What the batch keeps for itself."""
+        """Internal files of the batch."""
         return self.out / ".lumencut"
 
     @property
     def unfinished(self) -> Path:
-        """Folders of studies that are not whole yet; what a killed batch left there is swept away."""
+        """Folders of incomplete studies; leftovers of a killed batch are removed."""
         return self.own / "unfinished"
 
     @property
@@ -37,29 +37,29 @@ class Layout:
         return self.own / "batch.json"
 
     def folder(self, study: Study) -> Path:
-        """The results of a study, which are whole where the folder is there."""
+        """The results of a study, complete if the folder exists."""
         return self.out / study.folder
 
     def record(self, study: Study) -> Path:
-        """What is told of a study that is done."""
+        """The record of a successful study."""
         return self.folder(study) / f"{study.label}_record.json"
 
     def failure(self, study: Study) -> Path:
-        """What is told of a study that failed."""
+        """The record of a failed study."""
         return self.own / "failed" / f"{study.label}.json"
 
     def log(self, study: Study) -> Path:
-        """What the process of a study printed."""
+        """The output of the process of a study."""
         return self.out / "logs" / f"{study.label}.log"
 
     def make(self) -> None:
-        """Make the folders that a batch writes into."""
+        """Create the folders of a batch."""
         for folder in (self.unfinished, self.own / "failed", self.out / "logs"):
             folder.mkdir(parents=True, exist_ok=True)
 
 
 def flush(path: Path) -> None:
-    """Wait until a file or a folder is on the disk, so that a power cut cannot undo its rename."""
+    """Flush a file or a folder to disk, so that a power cut cannot undo its rename."""
     handle = os.open(path, os.O_RDONLY)
     try:
         os.fsync(handle)

@@ -1,4 +1,4 @@
-"""That one batch alone writes into a folder; shards of one batch may do so beside each other."""
+"""Lock of a folder of results: one batch at a time, except for shards of the same batch."""
 
 from __future__ import annotations
 
@@ -17,20 +17,20 @@ from typing import Any
 from lumencut.cohort.layout import Layout
 from lumencut.errors import FileError
 
-#: A lock of another machine, whose processes are not seen from here, is dead after so many seconds.
+#: Age at which a lock of another machine, whose processes are not visible here, is dead (s).
 _DEAD_AFTER = 180.0
-#: So often a batch says that it is alive (s).
+#: Interval at which a batch refreshes its lock (s).
 _ALIVE_EVERY = 30.0
 
 
 @dataclass(frozen=True)
 class Shard:
-    """A part of a cohort: every study whose place in the manifest, counted in `count`, is `number`.
+    """A part of a cohort: every `count`-th study of the manifest, starting with `number`.
 
     Attributes
     ----------
     number, count : int
-        Which part of how many, from 1; 1 of 1 is all.
+        Number of the part, from 1, and number of parts; (1, 1) is the whole cohort.
     """
 
     number: int = 1
@@ -42,7 +42,7 @@ class Shard:
         return self.count == 1
 
     def has(self, place: int) -> bool:
-        """Tell whether it has the study at this place in the manifest, from 0."""
+        """Return whether it contains the study at this index of the manifest, from 0."""
         return place % self.count == self.number - 1
 
     def __str__(self) -> str:
@@ -50,15 +50,14 @@ class Shard:
 
 
 class Lock:
-    """The right of a batch to write into a folder, as long as `held` lasts."""
+    """The right of a batch to write into a folder while `held` is open."""
 
     def __init__(self, path: Path) -> None:
-        #: The file that is there as long as the right is held.
         self.path = path
         self._last = time.monotonic()
 
     def renew(self) -> None:
-        """Say now and then that this batch is alive, to those on other machines."""
+        """Refresh the lock at intervals, for batches on other machines."""
         if time.monotonic() - self._last > _ALIVE_EVERY:
             self._last = time.monotonic()
             os.utime(self.path)
@@ -71,7 +70,7 @@ def held(layout: Layout, shard: Shard) -> Iterator[Lock]:
     Raises
     ------
     FileError
-        Where another batch writes into it that is no other shard of the same division.
+        If another batch writes into it that is not another shard of the same division.
     """
     path = layout.own / f"lock-{shard.number}-of-{shard.count}.json"
     with one_at_a_time(layout):
@@ -91,12 +90,12 @@ def held(layout: Layout, shard: Shard) -> Iterator[Lock]:
 
 @contextmanager
 def one_at_a_time(layout: Layout) -> Iterator[None]:
-    """Keep other processes out as long as a few files are looked at and written; the system ends it too."""
+    """Keep other processes out while a few files are read and written; the system also releases it."""
     with (layout.own / "guard").open("w", encoding="ascii") as file:
         try:
             fcntl.flock(file, fcntl.LOCK_EX)
         except OSError as error:
-            # Some disks of clusters have no locks: batches that begin in one moment are not told apart there.
+            # Some cluster file systems have no locks: simultaneous batches cannot be separated there.
             if error.errno not in (errno.ENOTSUP, errno.ENOSYS, errno.ENOLCK):
                 raise
         yield
@@ -107,7 +106,7 @@ def _owner() -> dict[str, Any]:
 
 
 def _started(process: int) -> str:
-    """When a process began, as Linux counts it: numbers of processes are given anew. Empty where not told."""
+    """Start time of a process on Linux, since process ids are reused. Empty if unknown."""
     try:
         return Path(f"/proc/{process}/stat").read_text("ascii", "replace").rpartition(")")[2].split()[19]
     except (OSError, IndexError):

@@ -1,4 +1,4 @@
-"""The list of the studies of a cohort: a table with a row for each, or patterns of the names of files."""
+"""The list of the studies of a cohort: a table with a row for each, or patterns of file names."""
 
 from __future__ import annotations
 
@@ -13,12 +13,11 @@ from lumencut.cohort.manifest_table import Row, table_of
 from lumencut.dicomweb.address import is_address
 from lumencut.errors import FormatError
 
-#: The columns that say where centerlines come from; a study names one of them, or none.
+#: The columns for the source of centerlines; a study uses at most one.
 SOURCES = ("centerlines", "mask", "points", "seeds")
-#: How a volume and its centerlines are read.
 READING = ("label", "series", "phase", "fwhm")
 KNOWN = ("id", "volume", *SOURCES, *READING)
-#: Stands for the id of a study in a pattern of the names of files.
+#: Placeholder of the id of a study in a pattern of file names.
 PLACE = "{id}"
 
 _ID = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]{0,99}")
@@ -26,7 +25,6 @@ _SESSION = re.compile(r"sub-([A-Za-z0-9]+)_ses-([A-Za-z0-9]+)")
 _ID_RULE = "letters and digits, with - and _ between them, at most 100 in all"
 _EXPECTED = "a table with the columns id and volume (.csv or .tsv)"
 _NUMBERS = re.compile(r"[-+0-9.eE,;\s]+")
-#: As many mistakes as one message names.
 _MOST_NAMED = 20
 
 
@@ -37,19 +35,19 @@ class Study:
     Attributes
     ----------
     id : str
-        What the manifest calls it: letters, digits, ``-`` and ``_``.
+        Its id in the manifest: letters, digits, ``-`` and ``_``.
     volume : Path
         The file or folder of its scan.
     source : {"centerlines", "mask", "points", "seeds", "none"}
         Where its centerlines come from; with ``"none"`` all vessels are found.
     given : str
-        The file of the source, or points as they are written in the manifest (mm, LPS); empty for "none".
+        The file of the source, or points as written in the manifest (mm, LPS); empty for "none".
     reading : mapping of str to str
-        What the manifest says of ``label``, ``series``, ``phase`` and ``fwhm``, where it says something.
+        The entries of ``label``, ``series``, ``phase`` and ``fwhm`` in the manifest, if any.
     further : tuple of str
-        What stands in the further columns of the manifest, in their order.
+        The further columns of the manifest, in their order.
     left_out : str
-        Why nothing is done with it, such as a scan that is not there; empty for all others.
+        Why it is not processed, such as a missing scan; empty for all others.
     """
 
     id: str
@@ -62,7 +60,7 @@ class Study:
 
     @property
     def label(self) -> str:
-        """How its files are called, in the manner of BIDS: ``sub-ID`` or ``sub-ID_ses-SESSION``."""
+        """The prefix of its file names, in the style of BIDS: ``sub-ID`` or ``sub-ID_ses-SESSION``."""
         found = _SESSION.fullmatch(self.id)
         if found:
             return self.id
@@ -70,17 +68,17 @@ class Study:
 
     @property
     def folder(self) -> Path:
-        """Its folder within that of the results: ``sub-ID`` or ``sub-ID/ses-SESSION``."""
+        """Its folder within the results: ``sub-ID`` or ``sub-ID/ses-SESSION``."""
         return Path(*self.label.split("_"))
 
     @property
     def files(self) -> tuple[Path, ...]:
-        """The files and folders that it is read from."""
+        """Its input files and folders."""
         return (self.volume,) if self.given_as_text or not self.given else (self.volume, Path(self.given))
 
     @property
     def given_as_text(self) -> bool:
-        """Whether the manifest holds the points themselves, not the name of their file."""
+        """Whether the manifest contains the points themselves, not the name of a file."""
         return self.source in ("points", "seeds") and _NUMBERS.fullmatch(self.given) is not None
 
 
@@ -95,9 +93,9 @@ class Manifest:
     studies : tuple of Study
         Its studies.
     further : tuple of str
-        The names of the further columns, which are carried into ``studies.csv``.
+        The names of the further columns, which are copied into ``studies.csv``.
     notes : tuple of str
-        What is odd: further columns whose names are one letter off a known one.
+        Notes on further columns whose names differ by one letter from a known one.
     """
 
     path: str
@@ -111,7 +109,7 @@ class Manifest:
         Raises
         ------
         FormatError
-            Where no study has it.
+            If no study has it.
         """
         for one in self.studies:
             if one.id == study_id:
@@ -127,11 +125,11 @@ def read_manifest(path: str | Path, **patterns: str | None) -> Manifest:
     path : str or path
         A table with a line for each study, ``.csv`` or ``.tsv``, UTF-8. Its columns are ``id``, ``volume``,
         at most one of ``centerlines``, ``mask``, ``points`` and ``seeds`` in each line, and ``label``,
-        ``series``, ``phase`` and ``fwhm`` as :func:`lumencut.read_volume` and :func:`lumencut.measure` take
-        them. Further columns are carried along. Relative paths are read from the folder of the table. Or a
-        pattern of the names of volumes in which ``{id}`` stands for the id, such as ``scans/{id}.nii.gz``.
+        ``series``, ``phase`` and ``fwhm`` as for :func:`lumencut.read_volume` and :func:`lumencut.measure`.
+        Further columns are copied. Relative paths start from the folder of the table. Or a pattern of the
+        names of volumes with ``{id}`` for the id, such as ``scans/{id}.nii.gz``.
     **patterns : str, optional
-        Beside a pattern of volumes those of ``centerlines``, ``mask``, ``points`` or ``seeds``.
+        With a pattern of volumes: those of ``centerlines``, ``mask``, ``points`` or ``seeds``.
 
     Returns
     -------
@@ -141,16 +139,16 @@ def read_manifest(path: str | Path, **patterns: str | None) -> Manifest:
     Raises
     ------
     FormatError
-        For a file that is no such table, and for all rows at once that are no studies: doubled or impossible
+        For a file that is not such a table, and, in one message, for all invalid rows: duplicate or invalid
         ids, no volume, two sources of centerlines.
     FileError
-        For a file that is missing or cannot be read.
+        For a file that is missing or unreadable.
     """
     given = {name: pattern for name, pattern in patterns.items() if pattern is not None}
     if PLACE in str(path):
         return _of_patterns(str(path), given)
     if given:
-        found = f"a pattern of {next(iter(given))} beside the table {path}"
+        found = f"a pattern of {next(iter(given))} together with the table {path}"
         raise FormatError("manifest", found, f"a pattern of volumes with {PLACE}, or a column of the table")
     place = checked_path(path, _EXPECTED)
     table = table_of(place, KNOWN)
@@ -166,7 +164,7 @@ def read_manifest(path: str | Path, **patterns: str | None) -> Manifest:
 
 
 def _study(row: Row, further: tuple[str, ...], home: Path, mistakes: list[str]) -> Study:
-    """The study of a row; what is wrong with it is added to the mistakes."""
+    """The study of a row; its errors are added to the mistakes."""
     values = row.values
     sources = [name for name in SOURCES if values.get(name)]
     where = f"line {row.line}"
@@ -193,7 +191,7 @@ def _study(row: Row, further: tuple[str, ...], home: Path, mistakes: list[str]) 
 
 
 def _within(home: Path, given: str) -> str:
-    """A path as it is read from the folder of the table; an address of a PACS as it is."""
+    """A path relative to the folder of the table; an address of a PACS unchanged."""
     return given if is_address(given) else str(home / given)
 
 
@@ -205,17 +203,17 @@ def _is_width(text: str) -> bool:
 
 
 def _check(path: str, studies: list[Study], where: list[str], mistakes: list[str]) -> None:
-    """Refuse ids that cannot be, or that two studies share, and name all mistakes at once."""
+    """Reject invalid and duplicate ids, and report all mistakes at once."""
     seen: dict[str, tuple[str, str]] = {}
     for one, place in zip(studies, where, strict=True):
         if not _ID.fullmatch(one.id):
             mistakes.append(f"{place}: the id {one.id!r}, where {_ID_RULE} are expected")
             continue
-        # Some disks do not tell large letters from small ones.
+        # Some file systems ignore case.
         key = one.label.lower()
         if key in seen:
             first, known = seen[key]
-            alike = "" if known == one.id else f" like {known!r}, as - and _ and large letters do not count"
+            alike = "" if known == one.id else f" like {known!r} (case, - and _ are ignored)"
             mistakes.append(f"{place}: the id {one.id!r}{alike}, which {first} has")
         seen.setdefault(key, (place, one.id))
     if not studies:
@@ -223,7 +221,7 @@ def _check(path: str, studies: list[Study], where: list[str], mistakes: list[str
     if mistakes:
         more = len(mistakes) - _MOST_NAMED
         named = "; ".join(mistakes[:_MOST_NAMED]) + (f"; and {more} more" if more > 0 else "")
-        raise FormatError(path, named, "a study in each line, with an id of its own", "correct these lines")
+        raise FormatError(path, named, "a study in each line, with its own id", "correct these lines")
 
 
 def _of_patterns(pattern: str, sources: Mapping[str, str]) -> Manifest:
@@ -232,7 +230,7 @@ def _of_patterns(pattern: str, sources: Mapping[str, str]) -> Manifest:
         raise FormatError("manifest", f"patterns of {' and '.join(sources)}", "one of them")
     for name, other in sources.items():
         if PLACE not in other:
-            raise FormatError(f"pattern of {name}", f"{other!r}", f"{PLACE} in the place of the id")
+            raise FormatError(f"pattern of {name}", f"{other!r}", f"{PLACE} in place of the id")
     found = {study_id: Path(path) for study_id, path in _matches(pattern)}
     studies = []
     for study_id, volume in sorted(found.items()):
@@ -240,13 +238,13 @@ def _of_patterns(pattern: str, sources: Mapping[str, str]) -> Manifest:
         given = str(Path(sources[source].replace(PLACE, study_id)).absolute()) if sources else ""
         studies.append(Study(study_id, volume.absolute(), source, given))
     if not studies:
-        raise FormatError(pattern, "no such file", f"files whose names have an id in the place of {PLACE}")
+        raise FormatError(pattern, "no such file", f"files whose names have an id in place of {PLACE}")
     _check(pattern, studies, [str(one.volume) for one in studies], [])
     return Manifest(pattern, tuple(studies))
 
 
 def _matches(pattern: str) -> list[tuple[str, str]]:
-    """The ids and paths that a pattern finds; an id that stands twice must be the same."""
+    """The ids and paths that match a pattern; if {id} occurs twice, both must be equal."""
     before, *others = pattern.split(PLACE)
     rest = [f"(?P=id){_expression(part)}" for part in others[1:]]
     expression = re.compile(f"{_expression(before)}(?P<id>[^/]+?){_expression(others[0])}{''.join(rest)}/?")
@@ -256,5 +254,5 @@ def _matches(pattern: str) -> list[tuple[str, str]]:
 
 
 def _expression(part: str) -> str:
-    """A part of a pattern as a regular expression: ``*`` and ``?`` stand for letters of one name."""
+    """A part of a pattern as a regular expression: ``*`` and ``?`` match letters of one name."""
     return re.escape(part).replace(r"\*", "[^/]*").replace(r"\?", "[^/]")

@@ -1,4 +1,4 @@
-"""A table of studies as text: its rows by the names of its columns, and which names are nearly known ones."""
+"""A table of studies as text: its rows by column names, and names that nearly match known ones."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ from lumencut.errors import FileError, FormatError
 
 _EXPECTED = "a table of studies (.csv or .tsv)"
 _LARGEST = 1 << 28
-#: What may stand between fields. A semicolon is what spreadsheets write where the comma parts decimals.
+#: Separators. Spreadsheets write semicolons in countries with a decimal comma.
 _SEPARATORS = ("\t", ",", ";")
 
 
 @dataclass(frozen=True)
 class Row:
-    """One line of the table: where it stands, and its values by the names of their columns."""
+    """One line of the table: its number, and its values by column names."""
 
     line: int
     values: dict[str, str]
@@ -27,7 +27,7 @@ class Row:
 
 @dataclass(frozen=True)
 class Table:
-    """The names of the columns, the rows, and what is odd about the names."""
+    """The names of the columns, the rows, and notes on the names."""
 
     names: tuple[str, ...]
     rows: tuple[Row, ...]
@@ -35,14 +35,14 @@ class Table:
 
 
 def table_of(path: Path, known: Sequence[str]) -> Table:
-    """Read a table, whose empty lines are left out.
+    """Read a table without its empty lines.
 
     Raises
     ------
     FormatError
-        For letters that are no UTF-8, doubled or empty names of columns, and lines of another length.
+        For text that is not UTF-8, duplicate or empty column names, and lines of another length.
     FileError
-        For a file that is missing or cannot be read.
+        For a file that is missing or unreadable.
     """
     text = _text(path)
     head = text.lstrip("\n").partition("\n")[0]
@@ -81,7 +81,7 @@ def _text(path: Path) -> str:
         text = content.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         line = content.count(b"\n", 0, error.start) + 1
-        found = f"the byte {content[error.start]:#04x} in line {line}, which is no UTF-8"
+        found = f"the byte {content[error.start]:#04x} in line {line}, which is not UTF-8"
         raise FormatError(str(path), found, "UTF-8", "save the table as CSV UTF-8") from error
     if "\0" in text:
         line = text.count("\n", 0, text.index("\0")) + 1
@@ -98,17 +98,17 @@ def _check_names(path: Path, names: tuple[str, ...]) -> None:
 
 
 def _near(names: Sequence[str], known: Sequence[str]) -> list[str]:
-    """A sentence for each name that is one letter off a known one, which may be a slip."""
+    """A note for each name that differs by one letter from a known one."""
     notes = []
     for name in names:
         meant = next((one for one in known if _is_one_letter_off(name.lower(), one)), None)
         if name not in known and meant is not None:
-            notes.append(f"the column {name!r} is carried along; perhaps {meant!r} is meant")
+            notes.append(f"the column {name!r} is only copied; perhaps {meant!r} is meant")
     return notes
 
 
 def _is_one_letter_off(name: str, known: str) -> bool:
-    """Whether one letter added, left out or changed, or none at all, makes one name of the other."""
+    """Whether two names differ by at most one added, missing or changed letter."""
     longer, shorter = (name, known) if len(name) >= len(known) else (known, name)
     if len(longer) - len(shorter) > 1:
         return False

@@ -1,4 +1,4 @@
-"""The process that forks studies, as the batch sees it; `lumencut.cli.forking` is what runs in it."""
+"""The process that forks studies, seen from the batch; it runs `lumencut.cli.forking`."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ from lumencut.cohort.parent import PARENT
 
 
 class NurseryError(Exception):
-    """The process that forks studies is gone, and with it all that it had forked."""
+    """The process that forks studies is gone, together with its children."""
 
 
 class Nursery:
-    """The process that forks studies, as the batch sees it."""
+    """The process that forks studies, seen from the batch."""
 
     def __init__(self) -> None:
         self._process = subprocess.Popen(
@@ -24,10 +24,9 @@ class Nursery:
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             env={**os.environ, PARENT: str(os.getpid()), "OPENBLAS_NUM_THREADS": "1"},
-            # Ctrl-C in the terminal is for the batch, which then ends its processes.
             start_new_session=True,
         )
-        self._told = b""
+        self._unread = b""
         self._born: dict[int, int] = {}
         self._codes: dict[int, int] = {}
         self._count = 0
@@ -38,7 +37,7 @@ class Nursery:
         Raises
         ------
         NurseryError
-            Where this process is gone.
+            If this process is gone.
         """
         self._count += 1
         order = {"number": self._count, "words": job.words, "log": str(job.log), "threads": job.threads}
@@ -53,7 +52,7 @@ class Nursery:
         return Forked(self, self._count, self._born.pop(self._count))
 
     def code(self, number: int) -> int | None:
-        """Return the exit code of a process that was forked, below 0 for a signal; None while it works."""
+        """Return the exit code of a forked process, below 0 for a signal; None while it works."""
         self._hear(0.0)
         return self._codes.pop(number, None)
 
@@ -63,14 +62,14 @@ class Nursery:
         self._process.communicate()
 
     def _hear(self, patience: float | None) -> None:
-        """Take in what the process tells: who is born and who has ended."""
+        """Read the reports of the process: children started and ended."""
         assert self._process.stdout is not None
         if not select.select([self._process.stdout], [], [], patience)[0]:
             return
-        told = os.read(self._process.stdout.fileno(), 1 << 16)
-        if not told:
+        read = os.read(self._process.stdout.fileno(), 1 << 16)
+        if not read:
             raise NurseryError
-        *lines, self._told = (self._told + told).split(b"\n")
+        *lines, self._unread = (self._unread + read).split(b"\n")
         for line in lines:
             word, number, value = line.split()
             (self._born if word == b"born" else self._codes)[int(number)] = int(value)

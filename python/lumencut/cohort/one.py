@@ -26,8 +26,8 @@ _MOST_WARNINGS = 20
 
 
 def limit_memory(most: int | None) -> None:
-    """Let this process have so many bytes at most, and be the first to go where the machine has no more."""
-    # Systems without this file choose by themselves.
+    """Limit the memory of this process, and make it the first to be killed if memory runs out."""
+    # Other systems lack this file.
     with suppress(OSError):
         Path("/proc/self/oom_score_adj").write_text("1000", "ascii")
     if most is not None:
@@ -37,7 +37,7 @@ def limit_memory(most: int | None) -> None:
 
 
 def do_one(study: Study, recipe: CohortRecipe, layout: Layout, device: Device) -> int:
-    """Do one study: its results appear at once and whole, or a record of why it failed.
+    """Process one study: its complete results appear at once, or a record of the failure.
 
     Returns
     -------
@@ -49,7 +49,7 @@ def do_one(study: Study, recipe: CohortRecipe, layout: Layout, device: Device) -
     start = time.monotonic()
     work = layout.unfinished / f"{study.label}.{secrets.token_hex(8)}"
     try:
-        with _heard() as told:
+        with _heard() as warned:
             work.mkdir()
             try:
                 numbers = do_study(study, recipe, work, device)
@@ -58,10 +58,10 @@ def do_one(study: Study, recipe: CohortRecipe, layout: Layout, device: Device) -
                 if _is_disk_full(error):
                     raise
                 seconds = time.monotonic() - start
-                record_failure(layout, study, origin, _reason(error), seconds, tuple(told))
+                record_failure(layout, study, origin, _reason(error), seconds, tuple(warned))
                 return SOME_FAILED
             seconds = round(time.monotonic() - start, 3)
-            made = Record(study.id, "done", "", seconds, origin, tuple(told), numbers)
+            made = Record(study.id, "done", "", seconds, origin, tuple(warned), numbers)
             made.write(work / layout.record(study).name)
             put_in_place(work, layout, study)
             return DONE
@@ -75,14 +75,14 @@ def do_one(study: Study, recipe: CohortRecipe, layout: Layout, device: Device) -
 
 
 def _check_unchanged(study: Study, origin: Origin) -> None:
-    """Refuse results of files that were changed meanwhile."""
+    """Reject results if the input files changed meanwhile."""
     if origin_of(study, origin.recipe) != origin:
-        expected = "files that stay as they are while they are read"
-        raise FileError(str(study.volume), "other files than before", expected, "run the batch again")
+        expected = "files that do not change during the study"
+        raise FileError(str(study.volume), "changed files", expected, "run the batch again")
 
 
 def _is_disk_full(error: BaseException | None) -> bool:
-    """Whether the disk has no room, or the user no more of it; errors of files have that as their cause."""
+    """Whether the disk or the quota of the user is full; this is the cause of file errors."""
     full = (errno.ENOSPC, errno.EDQUOT)
     while error is not None:
         if isinstance(error, OSError) and error.errno in full:
@@ -92,7 +92,7 @@ def _is_disk_full(error: BaseException | None) -> bool:
 
 
 def _reason(error: Exception) -> str:
-    """Why a study failed, in words."""
+    """Why a study failed."""
     if isinstance(error, MemoryError) or (isinstance(error, OSError) and error.errno == errno.ENOMEM):
         return "not enough memory"
     if isinstance(error, (LumencutError, OSError)):
@@ -102,7 +102,7 @@ def _reason(error: Exception) -> str:
 
 
 def put_in_place(work: Path, layout: Layout, study: Study) -> None:
-    """Move a whole folder to where results are, in the place of former ones, so that no cut can part it."""
+    """Move a complete folder into the results, replacing former ones, in one step."""
     for path in work.iterdir():
         flush(path)
     flush(work)
@@ -118,11 +118,11 @@ def put_in_place(work: Path, layout: Layout, study: Study) -> None:
 
 
 def record_failure(
-    layout: Layout, study: Study, origin: Origin, reason: str, seconds: float, told: tuple[str, ...] = ()
+    layout: Layout, study: Study, origin: Origin, reason: str, seconds: float, warned: tuple[str, ...] = ()
 ) -> None:
-    """Record why a study failed; former results of it are removed, for they are of another kind."""
+    """Record why a study failed, and remove its former results, which are outdated."""
     words = "".join(letter if letter.isprintable() else " " for letter in " ".join(reason.split()))
-    Record(study.id, "failed", words, round(seconds, 3), origin, told).write(layout.failure(study))
+    Record(study.id, "failed", words, round(seconds, 3), origin, warned).write(layout.failure(study))
     place = layout.folder(study)
     if place.exists():
         former = layout.unfinished / f"{study.label}.{secrets.token_hex(8)}.former"
@@ -132,30 +132,30 @@ def record_failure(
 
 @contextmanager
 def _heard() -> Iterator[list[str]]:
-    """Keep what is warned of, and let it be shown as before."""
-    told: list[str] = []
+    """Record warnings, and also show them as before."""
+    warned: list[str] = []
 
     class _Ear(logging.Handler):
         def emit(self, record: logging.LogRecord) -> None:
-            _keep(told, record.getMessage())
+            _keep(warned, record.getMessage())
 
     log, ear = logging.getLogger("lumencut"), _Ear(logging.WARNING)
     log.addHandler(ear)
     shown = warnings.showwarning
 
     def show(message: Warning | str, *where: object) -> None:
-        _keep(told, str(message))
+        _keep(warned, str(message))
         shown(message, *where)  # type: ignore[arg-type]
 
     warnings.showwarning = show  # type: ignore[assignment]
     try:
-        yield told
+        yield warned
     finally:
         log.removeHandler(ear)
         warnings.showwarning = shown
 
 
-def _keep(told: list[str], text: str) -> None:
+def _keep(warned: list[str], text: str) -> None:
     words = " ".join(text.split())
-    if words not in told and len(told) < _MOST_WARNINGS:
-        told.append(words)
+    if words not in warned and len(warned) < _MOST_WARNINGS:
+        warned.append(words)

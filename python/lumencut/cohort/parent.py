@@ -1,4 +1,4 @@
-"""A process ends when the one that started it ends, however that ends."""
+"""Ends a process when its parent ends for any reason."""
 
 from __future__ import annotations
 
@@ -7,17 +7,15 @@ import os
 import signal
 import sys
 
-#: Says which process has started this one.
 PARENT = "LUMENCUT_BATCH_PARENT"
 _PR_SET_PDEATHSIG = 1
 
 
 def end_with_parent() -> None:
-    """See that the system ends this process with the one that `PARENT` names; without it nothing is done."""
+    """Make the system end this process with the one in `PARENT`; do nothing without it."""
     parent = os.environ.pop(PARENT, None)
     if parent is None or not sys.platform.startswith("linux"):
         return
     ctypes.CDLL(None, use_errno=True).prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
-    # It may have ended before.
     if os.getppid() != int(parent):
         os._exit(1)

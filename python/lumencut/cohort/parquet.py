@@ -13,7 +13,7 @@ from lumencut.errors import MissingPackageError
 if TYPE_CHECKING:
     import pyarrow as pa
 
-#: How the names of columns of numbers end, and those that end otherwise. All others hold words, ids too.
+#: Endings of the names of number columns, and those with other endings. Other columns hold text.
 _ENDINGS = ("_mm", "_mm2", "_lps", "_level", "_mean")
 _NUMBERS = {
     *("seconds", "vessels", "doubtful_vessels", "not_measured_vessels", "suggested_narrowest_vessel"),
@@ -22,7 +22,7 @@ _NUMBERS = {
 
 
 def check_parquet() -> None:
-    """Refuse Parquet without the package that writes it.
+    """Reject Parquet without the package that writes it.
 
     Raises
     ------
@@ -30,28 +30,28 @@ def check_parquet() -> None:
         Without pyarrow.
     """
     try:
-        import pyarrow as pa  # noqa: F401 - whether it is there
+        import pyarrow as pa  # noqa: F401 - whether it is installed
     except ImportError as error:
         mend = "pip install lumencut[parquet]"
         raise MissingPackageError("parquet", "no package pyarrow", "the extra [parquet]", mend) from error
 
 
 def write_parquet(table: Path, words: frozenset[str] = frozenset()) -> None:
-    """Write a table beside itself as Parquet; its columns have the same names, and what is empty is null.
+    """Write a table as Parquet next to it; its columns keep their names, and empty cells become null.
 
     Parameters
     ----------
     table : Path
         A table of a cohort (``.csv``).
     words : frozenset of str
-        Columns that hold words whatever they are called, such as the further ones of the manifest.
+        Columns that hold text regardless of their names, such as the further ones of the manifest.
 
     Raises
     ------
     MissingPackageError
         Without pyarrow.
     FileError
-        Where the file cannot be written.
+        If the file cannot be written.
     """
     check_parquet()
     import pyarrow as pa
@@ -70,14 +70,14 @@ def write_parquet(table: Path, words: frozenset[str] = frozenset()) -> None:
             ),
         )
     else:
-        # A cohort of which nothing is measured has no sections, and no columns of them.
+        # A cohort without measures has no sections, and no columns for them.
         found = pa.table({})
     found = _unmarked(found)
     replace_whole(table.with_suffix(".parquet"), lambda whole: parquet.write_table(found, whole))
 
 
 def _unmarked(table: pa.Table) -> pa.Table:
-    """The table with its texts as they were before they were marked in CSV."""
+    """The table with its texts without the marks of CSV."""
     import pyarrow as pa
     from pyarrow import compute
 

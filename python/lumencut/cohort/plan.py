@@ -1,4 +1,4 @@
-"""Which studies of a cohort are done, which failed, and which are still to do."""
+"""Which studies of a cohort succeeded, which failed, and which remain."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ Retry = Literal["failed", "all"]
 
 @dataclass(frozen=True)
 class Planned:
-    """A study, from what it is made now, and what is told of it where its results agree with that."""
+    """A study, its present origin, and its record if that agrees with the origin."""
 
     study: Study
     origin: Origin
@@ -28,7 +28,7 @@ class Planned:
 
 
 def known_record(layout: Layout, study: Study, origin: Origin) -> Record | None:
-    """Return what is told of a study, where it agrees with what its files and the recipe are now.
+    """Return the record of a study if it agrees with its present files and recipe.
 
     Raises
     ------
@@ -43,7 +43,7 @@ def known_record(layout: Layout, study: Study, origin: Origin) -> Record | None:
 
 
 def planned(layout: Layout, manifest: Manifest, recipe: CohortRecipe) -> list[Planned]:
-    """Look at each study of the manifest, in its order. One that is left out has no record."""
+    """Check each study of the manifest, in its order. A study that is left out has no record."""
     found = []
     for study in manifest.studies:
         if study.left_out:
@@ -55,7 +55,7 @@ def planned(layout: Layout, manifest: Manifest, recipe: CohortRecipe) -> list[Pl
 
 
 def to_do(plans: Sequence[Planned], shard: Shard, retry: Retry | None) -> list[Planned]:
-    """Return the studies of a shard that are still to do, or to be done again."""
+    """Return the studies of a shard to process, or to process again."""
     return [
         one
         for place, one in enumerate(plans)
@@ -66,12 +66,12 @@ def to_do(plans: Sequence[Planned], shard: Shard, retry: Retry | None) -> list[P
 
 
 def settle_recipe(layout: Layout, recipe: CohortRecipe, retry: Retry | None) -> None:
-    """See that all results of a folder are of one recipe and one version.
+    """Reject a folder that would mix results of several recipes or versions.
 
     Raises
     ------
     FormatError
-        Where results of others are there, unless they are all made again.
+        If results of others exist, unless all are processed again.
     """
     now = {"format": FORMAT, "recipe": recipe.digest, "version": Origin("", "").version}
     path = layout.batch_file
@@ -84,7 +84,7 @@ def settle_recipe(layout: Layout, recipe: CohortRecipe, retry: Retry | None) -> 
         before = dict.fromkeys(now, "unknown")
     if before != now and retry != "all":
         other = "recipe" if before["version"] == now["version"] else "version of Lumencut"
-        told = f"results of another {other} ({before[other.partition(' ')[0]]})"
-        mend = "name another folder, or make them all again with --retry all"
-        raise FormatError(str(layout.out), told, f"those of {now[other.partition(' ')[0]]}", mend)
+        found = f"results of another {other} ({before[other.partition(' ')[0]]})"
+        mend = "name another folder, or process all again with --retry all"
+        raise FormatError(str(layout.out), found, f"those of {now[other.partition(' ')[0]]}", mend)
     write_text(path, json.dumps(now, indent=1) + "\n")

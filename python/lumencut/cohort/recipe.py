@@ -1,4 +1,4 @@
-"""What is done with every study of a cohort, as a TOML file says it."""
+"""The TOML file that defines what to do with every study of a cohort."""
 
 from __future__ import annotations
 
@@ -17,20 +17,20 @@ from lumencut.errors import FileError, FormatError
 if TYPE_CHECKING:
     from lumencut.planar_reformation import Mode
 
-_EXPECTED = "a recipe, such as docs/cohorts.md shows"
+_EXPECTED = "a recipe, as shown in docs/cohorts.md"
 _LARGEST = 1 << 20
 
 
 @dataclass(frozen=True)
 class Reading:
-    """How DICOM series are read that are not regular; as for :func:`lumencut.read_volume`.
+    """How irregular DICOM series are read; as for :func:`lumencut.read_volume`.
 
     Attributes
     ----------
     fill_gaps : bool
-        Whether missing slices are interpolated.
+        Whether to interpolate missing slices.
     resample_slices : bool
-        Whether slices of uneven distances are put on a regular grid.
+        Whether to resample slices of uneven spacing to a regular grid.
     """
 
     fill_gaps: bool = False
@@ -39,16 +39,16 @@ class Reading:
 
 @dataclass(frozen=True)
 class Centerlines:
-    """How vessels are found or traced where a study brings no centerlines.
+    """How vessels are found or traced if a study has no centerlines.
 
     Attributes
     ----------
     smallest_radius : float
         As for :func:`lumencut.find_vessels` (mm).
     doubtful : bool
-        Whether vessels that are not sure are kept.
+        Whether to keep uncertain vessels.
     all_parts : bool
-        Whether all parts that were found are kept, not the most important one alone.
+        Whether to keep all parts, not only the most important one.
     shortest_branch : float
         As for :func:`lumencut.trace_mask` (radii).
     bridge : bool
@@ -64,12 +64,12 @@ class Centerlines:
 
 @dataclass(frozen=True)
 class Pictures:
-    """Which pictures are made: each view with each look.
+    """The pictures: each view with each look.
 
     Attributes
     ----------
     views : tuple of str
-        Names of views, see :data:`lumencut.VIEWS`; none makes no picture.
+        Names of views, see :data:`lumencut.VIEWS`; empty for no pictures.
     looks : tuple of str
         Names of looks, see ``Settings.look``.
     size : tuple of 2 int
@@ -94,11 +94,11 @@ class Measure:
     Attributes
     ----------
     vessels : bool
-        Whether they are measured at all.
+        Whether to measure vessels.
     step : float
-        The distance of sections (mm), at most.
+        The largest distance between sections (mm).
     fwhm : float or None
-        As for :func:`lumencut.measure` (mm); a column ``fwhm`` of the manifest counts more.
+        As for :func:`lumencut.measure` (mm); a column ``fwhm`` of the manifest takes precedence.
     wall : tuple of 2 float, "off" or None
         As for :func:`lumencut.measure`.
     """
@@ -111,7 +111,7 @@ class Measure:
 
 @dataclass(frozen=True)
 class Outputs:
-    """What is written beside pictures and tables.
+    """Outputs in addition to pictures and tables.
 
     Attributes
     ----------
@@ -127,7 +127,7 @@ class Outputs:
 
 @dataclass(frozen=True)
 class CohortRecipe:
-    """What is done with every study; without a file the tree, one view of the look *focus*, and measures."""
+    """What to do with every study; by default the tree, one view of the look *focus*, and measures."""
 
     reading: Reading = field(default_factory=Reading)
     centerlines: Centerlines = field(default_factory=Centerlines)
@@ -137,7 +137,7 @@ class CohortRecipe:
 
     @property
     def digest(self) -> str:
-        """Sixteen letters that another recipe has not: the beginning of the SHA-256 of its values."""
+        """Sixteen letters that identify the recipe: the beginning of the SHA-256 of its values."""
         return hashlib.sha256(json.dumps(asdict(self), sort_keys=True).encode()).hexdigest()[:16]
 
 
@@ -151,25 +151,25 @@ _PARTS: dict[str, Any] = {
 
 
 def read_cohort_recipe(path: str | os.PathLike[str] | None) -> CohortRecipe:
-    """Read what is done with every study.
+    """Read the recipe for every study.
 
     Parameters
     ----------
     path : str or path, optional
         A TOML file with the tables ``reading``, ``centerlines``, ``pictures``, ``measure`` and ``outputs``,
-        whose keys are those of the classes here; what is left out has its default. Without a file all has.
+        whose keys are those of the classes here; missing keys have their defaults.
 
     Returns
     -------
     CohortRecipe
-        Checked: no study fails by it.
+        Checked, so that no study fails because of it.
 
     Raises
     ------
     FormatError
-        For a file that is no TOML, an unknown key (near ones are named), and values of another kind.
+        For a file that is not TOML, an unknown key (similar ones are named), and values of another kind.
     FileError
-        For a file that is missing or cannot be read.
+        For a file that is missing or unreadable.
     """
     if path is None:
         return CohortRecipe()
@@ -190,7 +190,7 @@ def _parsed(path: Path) -> dict[str, Any]:
     try:
         return tomllib.loads(content[:_LARGEST].decode("utf-8"))
     except (UnicodeDecodeError, tomllib.TOMLDecodeError, RecursionError) as error:
-        raise FormatError(str(path), f"no TOML ({error})", _EXPECTED) from error
+        raise FormatError(str(path), f"invalid TOML ({error})", _EXPECTED) from error
 
 
 def _part(path: Path, name: str, value: Any) -> Any:
@@ -211,7 +211,6 @@ def _unknown(path: Path, key: str, known: list[str], where: str = "the recipe") 
     return FormatError(str(path), f"the key {key[:80]!r} in {where}", f"one of {', '.join(known)}", mend)
 
 
-#: What a key holds: a kind, and the range of a number.
 _FLAGS = {
     *("fill_gaps", "resample_slices", "doubtful", "all_parts", "bridge", "annotate", "vessels"),
     *("centerlines", "report"),
@@ -226,7 +225,7 @@ _SIZES = (16, 8192)
 
 
 def _checked(subject: str, key: str, value: Any) -> Any:
-    """The value of a key as the recipe holds it."""
+    """The value of a key, converted for the recipe."""
     if key in _FLAGS:
         if not isinstance(value, bool):
             raise FormatError(subject, f"{value!r:.80}", "true or false")

@@ -1,4 +1,4 @@
-"""What is told of a study: whether it is done, why not, from what and with what it was made."""
+"""The record of a study: success or reason of failure, inputs, recipe and version."""
 
 from __future__ import annotations
 
@@ -16,19 +16,18 @@ from lumencut.cohort.manifest import Study
 from lumencut.dicomweb.address import is_address
 from lumencut.errors import FileError, FormatError
 
-#: The version of what a record holds.
 FORMAT = 1
 _EXPECTED = "a record of lumencut batch"
 
 
 @dataclass(frozen=True)
 class Origin:
-    """From what and with what results were made; they agree where all of it is the same.
+    """Inputs, recipe and version of results; results agree if all three are equal.
 
     Attributes
     ----------
     inputs : str
-        A hash of the names, sizes and times of the files of the study, and of what the manifest says of them.
+        A hash of the names, sizes and times of the files of the study, and of their entries in the manifest.
     recipe : str
         The digest of the recipe.
     version : str
@@ -42,24 +41,24 @@ class Origin:
 
 @dataclass(frozen=True)
 class Record:
-    """What is told of one study.
+    """The record of one study.
 
     Attributes
     ----------
     id : str
         Its id in the manifest.
     state : {"done", "failed"}
-        Whether its results are there.
+        Whether it has results.
     reason : str
         Why it failed; empty for "done".
     seconds : float
-        How long its process worked.
+        Duration of its process.
     origin : Origin
-        From what and with what it was made.
+        Its inputs, recipe and version.
     warnings : tuple of str
-        What there was to warn of.
+        The warnings.
     numbers : dict of str
-        The columns of the study in ``studies.csv``; empty where it failed.
+        The columns of the study in ``studies.csv``; empty if it failed.
     """
 
     id: str
@@ -71,7 +70,7 @@ class Record:
     numbers: dict[str, str | int | float] = field(default_factory=dict)
 
     def write(self, path: Path) -> None:
-        """Write it where it is read only once it is whole."""
+        """Write it so that it appears only when it is complete."""
         text = json.dumps({"format": FORMAT, **asdict(self)}, indent=1, ensure_ascii=False) + "\n"
         temporary = path.with_name(f".{path.name}.{os.getpid()}.part")
         try:
@@ -83,12 +82,12 @@ class Record:
 
 
 def read_record(path: Path) -> Record | None:
-    """Return what is told of a study; None where there is no such file.
+    """Return the record of a study; None without a file.
 
     Raises
     ------
     FormatError
-        For a record of a newer version of Lumencut, and what is no record.
+        For a record of a newer version of Lumencut, and for an invalid record.
     FileError
         For a file that cannot be read.
     """
@@ -103,9 +102,9 @@ def read_record(path: Path) -> Record | None:
     try:
         found: dict[str, Any] = json.loads(content)
         if found["format"] > FORMAT:
-            told = f"a record of format {found['format']}, of a newer version of Lumencut"
+            words = f"a record of format {found['format']}, of a newer version of Lumencut"
             mend = "update Lumencut, or write into another folder"
-            raise FormatError(str(path), told, f"format {FORMAT}", mend)
+            raise FormatError(str(path), words, f"format {FORMAT}", mend)
         del found["format"]
         origin, warnings = Origin(**found.pop("origin")), tuple(found.pop("warnings"))
         return Record(**found, origin=origin, warnings=warnings)
@@ -116,27 +115,27 @@ def read_record(path: Path) -> Record | None:
 
 
 def _damaged(path: Path) -> FormatError:
-    mend = "remove the folder or file, and its study is done again"
+    mend = "remove the folder or file to process its study again"
     return FormatError(str(path), "a damaged record", _EXPECTED, mend)
 
 
 def origin_of(study: Study, recipe: str) -> Origin:
-    """Return from what and with what a study is made now; files that are missing count as such."""
-    told = hashlib.sha256()
+    """Return the present origin of a study; missing files count as missing."""
+    digest = hashlib.sha256()
     said = [study.source, study.given if study.given_as_text else "", *sorted(study.reading.items())]
-    told.update(json.dumps(said).encode())
+    digest.update(json.dumps(said).encode())
     for path in study.files:
         if is_address(path):
-            # A PACS does not change what has a UID.
-            told.update(f"\0{path}".encode())
+            # An object with a UID does not change in a PACS.
+            digest.update(f"\0{path}".encode())
             continue
         for name, size, time in _stated(path):
-            told.update(f"\0{name}\0{size}\0{time}".encode("utf-8", "surrogateescape"))
-    return Origin(told.hexdigest()[:32], recipe)
+            digest.update(f"\0{name}\0{size}\0{time}".encode("utf-8", "surrogateescape"))
+    return Origin(digest.hexdigest()[:32], recipe)
 
 
 def _stated(path: Path) -> Iterator[tuple[str, int, int]]:
-    """The name, size and time of change of a file, or of all files in a folder, by their names."""
+    """The name, size and modification time of a file, or of all files in a folder, sorted by name."""
     try:
         if not path.is_dir():
             found = path.stat()

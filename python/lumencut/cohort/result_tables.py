@@ -1,4 +1,4 @@
-"""The tables of a cohort as they were written, read back as columns."""
+"""The written tables of a cohort, read back as columns."""
 
 from __future__ import annotations
 
@@ -16,23 +16,23 @@ _EXPECTED = "the results of lumencut batch"
 
 
 class ResultTable:
-    """The columns of one table by their names.
+    """The columns of one table by name.
 
     Parameters
     ----------
     out : Path
         The folder of the results.
     name : {"studies", "vessels", "sections"}
-        Which table.
+        The table.
     columns : sequence of str
-        The columns that are kept; tables of sections are large.
+        The columns to keep; tables of sections are large.
 
     Raises
     ------
     FileError
-        Where there is no such table, or it cannot be read.
+        If the table is missing or unreadable.
     FormatError
-        Where it is no table, or lacks a column that is asked for.
+        If it is not a table, or lacks a requested column.
     """
 
     def __init__(self, out: Path, name: str, columns: Sequence[str]) -> None:
@@ -49,7 +49,7 @@ class ResultTable:
             raise FormatError(str(self.path), str(error), _EXPECTED) from error
 
     def _read(self, rows: Iterator[list[str]]) -> None:
-        """Keep the columns that are asked for. A cohort of which nothing is measured has an empty table."""
+        """Keep the requested columns. A cohort without measures has an empty table."""
         names = next(rows, None)
         if names is None:
             return
@@ -68,11 +68,11 @@ class ResultTable:
         return self._count
 
     def words(self, name: str) -> list[str]:
-        """Return a column as it is written."""
+        """Return a column as text."""
         return self._columns[name]
 
     def numbers(self, name: str) -> npt.NDArray[np.float64]:
-        """Return a column as numbers, shape (n,); NaN where it is empty."""
+        """Return a column as numbers, shape (n,); NaN for empty cells."""
         try:
             return np.array([float(word) if word else np.nan for word in self.words(name)], dtype=np.float64)
         except ValueError as error:

@@ -1,4 +1,4 @@
-"""Whether the scheduler of a cluster still answers; dask itself may wait for ever for one that is gone."""
+"""Checks that the scheduler of a cluster answers; dask itself may wait forever for a lost one."""
 
 from __future__ import annotations
 
@@ -17,23 +17,22 @@ Answer = TypeVar("Answer")
 
 _log = logging.getLogger("lumencut")
 
-#: How often the scheduler is asked, and how long its answer may take (s).
+#: Interval between requests to the scheduler, and timeout of its answer (s).
 _EVERY, _ANSWER = 1.0, 5.0
-#: How long it may fail to answer before it is given up (s); a new one at its address has time to start.
+#: Silence after which the scheduler counts as lost (s); long enough to restart it at its address.
 _PATIENCE = 12.0
-#: How long nobody works before that is said (s).
+#: Time without workers before a warning (s).
 _IDLE = 30.0
-#: How long dask may take to tidy up (s).
 _GRACE = 2.0
 
 
 class SchedulerWatch:
-    """Asks a scheduler again and again whether it is there, as long as its context is open.
+    """Asks a scheduler at intervals whether it answers, while its context is open.
 
     Parameters
     ----------
     client : distributed.Client
-        The way to the scheduler.
+        Connected to the scheduler.
     """
 
     def __init__(self, client: Any) -> None:
@@ -51,18 +50,18 @@ class SchedulerWatch:
         self._is_over = True
 
     def check(self, done: int, count: int) -> None:
-        """Raise an error where the scheduler is gone, after `done` of `count` studies.
+        """Raise an error if the scheduler is lost, after `done` of `count` studies.
 
         Raises
         ------
         FileError
-            Where it does not answer any more.
+            If it no longer answers.
         """
         silent = self._silent_since
         is_given_up = self._client.status in ("closing", "closed")
         if is_given_up or (silent is not None and time.monotonic() - silent > _PATIENCE):
             found = f"no answer, after {done} of {count} studies"
-            mend = "start it, and run the command again: it goes on"
+            mend = "start it, and run the command again: it continues"
             raise FileError(f"dask {self._address}", found, "a scheduler that answers", mend)
 
     async def _ask_on(self) -> None:
@@ -73,8 +72,8 @@ class SchedulerWatch:
             await asyncio.sleep(_EVERY)
 
     async def _workers(self) -> int | None:
-        """Ask how many workers there are; None without an answer."""
-        # Whatever goes wrong in dask here means that there is no answer.
+        """Return the number of workers; None without an answer."""
+        # Any error of dask here means that there is no answer.
         with suppress(Exception):
             found = len(await asyncio.wait_for(self._client.scheduler.ncores(), _ANSWER))
             if self._client.status == "running":
@@ -82,7 +81,7 @@ class SchedulerWatch:
         return None
 
     def _note_idle(self, workers: int | None) -> None:
-        """Say once that no worker is there, each time that it is so for a while."""
+        """Warn once each time there have been no workers for a while."""
         if workers != 0:
             self._idle_since = None
         elif self._idle_since is None:
@@ -93,12 +92,12 @@ class SchedulerWatch:
 
 
 def within(seconds: float, act: Callable[[], Answer]) -> Answer:
-    """Return what dask answers, which may take for ever.
+    """Return an answer of dask with a time limit.
 
     Raises
     ------
     TimeoutError
-        Where it takes longer; dask may go on in a thread that does not keep the program from ending.
+        If it takes longer; dask may continue in a thread that does not keep the program alive.
     """
     answer: concurrent.futures.Future[Answer] = concurrent.futures.Future()
 
@@ -113,6 +112,6 @@ def within(seconds: float, act: Callable[[], Answer]) -> Answer:
 
 
 def briefly(act: Callable[[], object]) -> None:
-    """Let dask tidy up, and go on without it where it fails or takes too long."""
+    """Let dask clean up, and continue if that fails or takes too long."""
     with suppress(Exception):
         within(_GRACE, act)

@@ -34,9 +34,9 @@ class StudyVessels:
     Attributes
     ----------
     tree : VesselTree
-        Those that count.
+        The certain ones.
     doubtful : tuple of (Vessel, str)
-        Those that are not sure, each with its reason in words.
+        The uncertain ones, each with its reason.
     """
 
     tree: VesselTree
@@ -44,20 +44,20 @@ class StudyVessels:
 
     @classmethod
     def of(cls, *trees: VesselTree) -> StudyVessels:
-        """Return the vessels of trees, whose doubtful ones stay apart."""
+        """Return the vessels of trees, with the doubtful ones separate."""
         doubtful = [pair for tree in trees for pair in zip(tree.doubtful, tree.doubts, strict=True)]
-        # The tree itself where there is one, for it knows its space.
+        # A single tree is kept, because it knows its space.
         one = trees[0] if len(trees) == 1 else VesselTree([vessel for tree in trees for vessel in tree])
         return cls(one, tuple(doubtful))
 
 
 def scan_of(study: Study, how: Reading) -> Volume:
-    """Read the scan of a study as the manifest and the recipe say."""
+    """Read the scan of a study by the manifest and the recipe."""
     return read_volume(study.volume, **reading_of(study, how))
 
 
 def reading_of(study: Study, how: Reading) -> dict[str, Any]:
-    """Return how the scan of a study is read, as :func:`lumencut.read_volume` takes it."""
+    """Return the arguments of :func:`lumencut.read_volume` for the scan of a study."""
     chosen = {name: study.reading.get(name) for name in ("series", "phase")}
     return {**chosen, "fill_gaps": how.fill_gaps, "resample_slices": how.resample_slices}
 
@@ -68,7 +68,7 @@ def vessels_of(study: Study, volume: Volume, how: Centerlines) -> StudyVessels:
     Raises
     ------
     LumencutError
-        For files that cannot be read, and scans in which nothing is found.
+        For unreadable files, and scans without vessels.
     """
     match study.source:
         case "centerlines":
@@ -87,7 +87,7 @@ def vessels_of(study: Study, volume: Volume, how: Centerlines) -> StudyVessels:
 
 
 def _most_important(found: VesselTree, how: Centerlines) -> StudyVessels:
-    """The most important part of what was found, or all of it where the recipe says so."""
+    """The most important part of the found vessels, or all parts by the recipe."""
     every = StudyVessels.of(found)
     if how.all_parts or len(found.parts) < 2:
         return every
@@ -100,24 +100,24 @@ def mask_of(study: Study) -> MaskFile:
     Raises
     ------
     SettingsError
-        For a label that is no value and no name of the mask's file.
+        For a label that is neither a value nor a name in the file of the mask.
     FormatError, FileError
-        For a mask that cannot be read.
+        For an unreadable mask.
     """
     words = [word.strip() for word in study.reading.get("label", "").split(";")]
     return open_mask(study.given, [word for word in words if word])
 
 
 def places_of(study: Study, volume: Volume | None = None) -> _Points:
-    """Return the points that a study gives, shape (n, 3), mm, LPS.
+    """Return the points of a study, shape (n, 3), mm, LPS.
 
     Raises
     ------
     FormatError
-        For a text that is no such points.
+        For invalid text.
     """
     if not study.given_as_text:
-        return CenterlineFile(study.given).beside(volume, are_lines=False)[0].points
+        return CenterlineFile(study.given).within(volume, are_lines=False)[0].points
     try:
         written = [place for place in study.given.split(";") if place.strip()]
         return np.array([[float(x) for x in place.split(",")] for place in written]).reshape(-1, 3)
@@ -127,7 +127,7 @@ def places_of(study: Study, volume: Volume | None = None) -> _Points:
 
 
 def _along_points(study: Study, volume: Volume, how: Centerlines) -> VesselTree:
-    """The vessels along points: one of those in the manifest, one for each line of a file."""
+    """The vessels along points: one for points in the manifest, one for each line of a file."""
     if study.given_as_text:
         return trace(volume, [places_of(study)], bridge=how.bridge)
     lines = list(read_centerlines(study.given, volume=volume))
@@ -136,7 +136,7 @@ def _along_points(study: Study, volume: Volume, how: Centerlines) -> VesselTree:
 
 
 def _from_seeds(seeds: _Points, volume: Volume, how: Centerlines) -> StudyVessels:
-    """All that the seeds reach; a seed in vessels that another one has reached adds nothing."""
+    """All vessels that the seeds reach; a seed within vessels already reached adds nothing."""
     trees: list[VesselTree] = []
     for seed in seeds:
         if any(_reaches(tree, seed) for tree in trees):

@@ -29,27 +29,26 @@ from lumencut.volume import Volume
 
 Device = Literal["auto", "cpu", "gpu"]
 
-#: The longest side of a thumbnail (pixels).
 _THUMBNAIL = 144
-#: Pixels of reformations are no larger than this (mm), as those of ``lumencut cpr``.
+#: Largest pixel side of reformations (mm), as for ``lumencut cpr``.
 _COARSEST = 0.25
 
 
 def do_study(
     study: Study, recipe: CohortRecipe, folder: Path, device: Device
 ) -> dict[str, str | int | float]:
-    """Do all that the recipe says for one study.
+    """Process one study by the recipe.
 
     Parameters
     ----------
     study : Study
-        What the manifest says of it.
+        Its entry in the manifest.
     recipe : CohortRecipe
-        What is done.
+        What to do.
     folder : Path
-        Where its files go, which is there.
+        The existing folder for its files.
     device : {"auto", "cpu", "gpu"}
-        What computes pictures, as for :class:`lumencut.Renderer`.
+        The device that renders, as for :class:`lumencut.Renderer`.
 
     Returns
     -------
@@ -59,7 +58,7 @@ def do_study(
     Raises
     ------
     LumencutError
-        For files that cannot be read, scans in which nothing is found, and lines outside of the scan.
+        For unreadable files, scans without vessels, and lines outside the scan.
     """
     volume = scan_of(study, recipe.reading)
     found = vessels_of(study, volume, recipe.centerlines)
@@ -87,7 +86,6 @@ def do_study(
     return _tables(study, vessels, found, begin)
 
 
-#: What ``lumencut measure`` is asked for where no place of a stenosis is marked.
 _NOTHING_MARKED = dict.fromkeys(("at", "reference", "method", "original", "comparison", "group"))
 
 
@@ -121,7 +119,7 @@ def _write_thumbnail(image: npt.NDArray[np.uint8], path: Path) -> None:
 
 
 def _measured(study: Study, volume: Volume, tree: VesselTree, how: Measure) -> list[StudyVessel]:
-    """The vessels with their measures; of those that cannot be measured the reason."""
+    """The vessels with their measures, or the reason why they cannot be measured."""
     vessels = []
     for number, vessel in enumerate(tree):
         if not how.vessels:
@@ -137,12 +135,12 @@ def _measured(study: Study, volume: Volume, tree: VesselTree, how: Measure) -> l
 
 
 def _fwhm(study: Study, how: Measure) -> float | None:
-    """The width of the point spread: that of the manifest counts more than that of the recipe."""
+    """The width of the point spread: the manifest takes precedence over the recipe."""
     return float(study.reading["fwhm"]) if "fwhm" in study.reading else how.fwhm
 
 
 def _with_doubts(vessels: list[StudyVessel], found: StudyVessels) -> list[StudyVessel]:
-    """The vessels, of which the doubtful ones come last, with the reasons of these."""
+    """The vessels, the doubtful ones last, with their reasons."""
     sure = len(vessels) - len(found.doubtful)
     doubts = ["" for _ in range(sure)] + [reason for _, reason in found.doubtful]
     return [
@@ -154,7 +152,7 @@ def _with_doubts(vessels: list[StudyVessel], found: StudyVessels) -> list[StudyV
 def _tables(
     study: Study, vessels: list[StudyVessel], found: StudyVessels, begin: Path
 ) -> dict[str, str | int | float]:
-    """Write the tables of the study, and return what is told of it as a whole."""
+    """Write the tables of the study, and return its columns in ``studies.csv``."""
     sections = sections_rows(study.id, study.source, vessels)
     flags = flag_counts(sections)
     rows = vessels_rows(study.id, study.source, vessels, flags)
@@ -173,7 +171,7 @@ def _tables(
 
 
 def _narrowest(vessels: list[StudyVessel]) -> dict[str, str | int | float]:
-    """The narrowest of the places that are suggested, and its vessel; nothing where none is."""
+    """The narrowest suggested place and its vessel, if any."""
     spots = [
         (n, one.measured.profile.narrowest()) for n, one in enumerate(vessels) if one.measured is not None
     ]

@@ -40,24 +40,24 @@ VESSEL_COLUMNS = (
     "wall_source",
     "not_measured",
 )
-#: Of the sections two columns come before those of ``lumencut measure``.
+#: Two columns precede those of ``lumencut measure``.
 SECTION_BEGIN = ("id", "centerlines_from")
 
 
 @dataclass(frozen=True)
 class StudyVessel:
-    """One vessel of a study, and what was measured of it.
+    """One vessel of a study, and its measures.
 
     Attributes
     ----------
     vessel : Vessel
         Its centerline.
     doubt : str
-        Why it is not sure; empty where it is.
+        Why it is uncertain; empty otherwise.
     measured : MeasuredVessel or None
-        Its measures; None where it is not measured.
+        Its measures; None if not measured.
     not_measured : str
-        Why it could not be measured; empty where nobody asked.
+        Why it could not be measured; empty if not requested.
     """
 
     vessel: Vessel
@@ -67,7 +67,7 @@ class StudyVessel:
 
 
 def sections_rows(study_id: str, source: str, vessels: Sequence[StudyVessel]) -> list[list[str]]:
-    """Return the rows of the sections of a study, below the names; none where nothing is measured."""
+    """Return the column names and the rows of the sections of a study; empty without measures."""
     measured = [one.measured for one in vessels if one.measured is not None]
     if not measured:
         return []
@@ -76,7 +76,7 @@ def sections_rows(study_id: str, source: str, vessels: Sequence[StudyVessel]) ->
 
 
 def flag_counts(sections: Sequence[Sequence[str]]) -> dict[str, Counter[str]]:
-    """Return how many sections of each vessel have which flag, from the rows of sections below the names."""
+    """Return the number of sections per vessel and flag, from the rows of sections."""
     if not sections:
         return {}
     vessel, flags = (sections[0].index(name) for name in ("vessel", "flags"))
@@ -89,7 +89,7 @@ def flag_counts(sections: Sequence[Sequence[str]]) -> dict[str, Counter[str]]:
 def vessels_rows(
     study_id: str, source: str, vessels: Sequence[StudyVessel], flags: dict[str, Counter[str]]
 ) -> list[list[str]]:
-    """Return the rows of the vessels of a study, below the names."""
+    """Return the column names and the rows of the vessels of a study."""
     rows = [list(VESSEL_COLUMNS)]
     for number, one in enumerate(vessels):
         found = {
@@ -112,7 +112,7 @@ def vessels_rows(
 
 
 def _measures(measured: MeasuredVessel) -> dict[str, str]:
-    """What was measured of a vessel. Places are suggestions to look at, not findings."""
+    """The measures of a vessel. Places are suggestions to check, not findings."""
     profile = measured.profile
     numbers, counted = profile.diameter_equivalent, counts(profile)
     found = {

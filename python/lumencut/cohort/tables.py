@@ -31,26 +31,25 @@ NUMBERS = (
     "suggested_narrowest_vessel",
 )
 COLUMNS = (*BEGIN, *NUMBERS, "warnings")
-#: The tables of vessels and of sections, as they are called for a study and for the cohort.
 OF_STUDIES = ("vessels", "sections")
 
 
 def further_names(manifest: Manifest) -> tuple[str, ...]:
-    """Return what the further columns are called in ``studies.csv``, which has names of its own."""
+    """Return the names of the further columns in ``studies.csv``, distinct from its own columns."""
     return tuple(f"manifest_{name}" if name in COLUMNS else name for name in manifest.further)
 
 
 def write_tables(layout: Layout, manifest: Manifest, records: Sequence[Record | None]) -> None:
-    """Write the tables and the contact sheet of a cohort from what is there; each appears once it is whole.
+    """Write the tables and the contact sheet of a cohort; each file appears only when it is complete.
 
     Parameters
     ----------
     layout : Layout
-        Where the results lie.
+        The folder of the results.
     manifest : Manifest
         The studies.
     records : sequence of Record or None
-        What is told of each study, in the order of the manifest; None where it is not done yet.
+        The record of each study, in the order of the manifest; None if it is not processed yet.
     """
     rows = [[*COLUMNS, *further_names(manifest)]]
     rows += [_row(study, record) for study, record in zip(manifest.studies, records, strict=True)]
@@ -69,26 +68,26 @@ def write_tables(layout: Layout, manifest: Manifest, records: Sequence[Record | 
 
 
 def _description() -> str:
-    """What the folder is, in the manner of the derived data sets of BIDS."""
-    told = {
+    """The description of the folder as a derived BIDS data set."""
+    description = {
         "Name": "Vessels measured by Lumencut",
         "BIDSVersion": "1.10.0",
         "DatasetType": "derivative",
         "GeneratedBy": [{"Name": "Lumencut", "Version": _lumencut.__version__}],
     }
-    return json.dumps(told, indent=2) + "\n"
+    return json.dumps(description, indent=2) + "\n"
 
 
 def _row(study: Study, record: Record | None) -> list[str]:
     """The row of a study, whether it is done, failed, or not done yet."""
     if record is None:
-        told = ["skipped", study.left_out or "not done yet", ""]
+        ended = ["skipped", study.left_out or "not done yet", ""]
     else:
-        told = [record.state, record.reason, f"{record.seconds:.3f}"]
+        ended = [record.state, record.reason, f"{record.seconds:.3f}"]
     numbers = {} if record is None else record.numbers
     warnings = "" if record is None else "; ".join(record.warnings)
     own = (str(numbers.get(name, "")) for name in NUMBERS)
-    return [study.id, *told, *own, warnings, *study.further]
+    return [study.id, *ended, *own, warnings, *study.further]
 
 
 def _joined(parts: Sequence[Path]) -> Callable[[Path], None]:
@@ -105,7 +104,7 @@ def _joined(parts: Sequence[Path]) -> Callable[[Path], None]:
 
 
 def _append(file: BinaryIO, rows: BinaryIO, head: bytes, part: Path) -> bytes:
-    """Append the rows of a table below the names of its columns, which are written once and returned."""
+    """Append the rows of a table; the column names are written once and returned."""
     names = rows.readline()
     if not names:
         return head

@@ -1,1 +1,1 @@
-"""What Lumencut writes as DICOM, so that it stands beside the scan: pictures, values, reports and numbers."""
+"""DICOM objects of the study of a scan: pictures, values, reports and numbers."""

@@ -24,12 +24,12 @@ from lumencut.volume import Volume
 from lumencut.volume_files.dicom.study import study_below
 
 _log = logging.getLogger("lumencut")
-#: Marks what the command line says once, for however many objects.
+#: Marks warnings that the command line shows once for all objects.
 _SAID_ONCE = {"is_said_once": True}
 _MEND = (
     "give study=FOLDER (--like-study FOLDER) of a scan of the same patient, or anonymous=True (--anonymous)"
 )
-#: Written where the patient was left out; PS3.15, annex E has profiles that promise more.
+#: Written if the patient was left out; the profiles of PS3.15, annex E, promise more.
 _METHOD = "Lumencut: patient and study left out, not the Basic Profile"
 
 
@@ -39,10 +39,10 @@ def chosen_study(origin: Origin, study: Any, *, anonymous: bool, other_patient: 
     Parameters
     ----------
     origin : Origin
-        Where it comes from.
+        Its origin.
     study : Volume, Study, path-like or None
-        A volume that was read from DICOM, or a folder, file or zip archive of DICOM, in the place of what the
-        origin tells.
+        A volume that was read from DICOM, or a folder, file or zip archive of DICOM, instead of the
+        origin.
     anonymous : bool
         Leave patient and study out. The new study's UID depends on the scan's voxels: all objects made from
         one scan belong to one study.
@@ -52,12 +52,12 @@ def chosen_study(origin: Origin, study: Any, *, anonymous: bool, other_patient: 
     Raises
     ------
     FormatError
-        Where there is no study, or several, or one without a StudyInstanceUID, or one of another patient.
+        Without a study, for several, for one without a StudyInstanceUID, and for one of another patient.
     SettingsError
         For both a study and ``anonymous``, a study of another kind, and ``other_patient`` without a study.
     """
     if anonymous and study is not None:
-        raise SettingsError("study", "a study beside anonymous=True", "one of them", "leave one of them out")
+        raise SettingsError("study", "a study with anonymous=True", "one of them", "leave one of them out")
     if other_patient and study is None:
         raise SettingsError("other_patient", "True without a study", "study=FOLDER too", "leave it out")
     if anonymous:
@@ -76,16 +76,16 @@ def chosen_study(origin: Origin, study: Any, *, anonymous: bool, other_patient: 
 
 
 def fitting_study(origin: Origin, study: Study | None, subject: str, *, other_patient: bool = False) -> Study:
-    """Return the study that results of a scan are put into, where it was chosen for them.
+    """Return the chosen study for the results of a scan.
 
     Parameters
     ----------
     origin : Origin
         The scan.
     study : Study or None
-        What was chosen; None for images that were not read from DICOM.
+        The choice; None for images that were not read from DICOM.
     subject : str
-        What it is called in errors.
+        Its name in errors.
     other_patient : bool, default False
         Accept another patient than that of the scan.
 
@@ -101,7 +101,7 @@ def fitting_study(origin: Origin, study: Study | None, subject: str, *, other_pa
 
 
 def _given(study: Any) -> tuple[Study | None, str]:
-    """The study that a caller names, and what it is called in messages."""
+    """The study that a caller names, and its name in messages."""
     if isinstance(study, Study):
         return study, "the chosen study"
     if isinstance(study, Volume):
@@ -113,12 +113,12 @@ def _given(study: Any) -> tuple[Study | None, str]:
 
 
 def _checked(study: Study | None, subject: str) -> Study:
-    """Refuse a study that no object can be told to belong to."""
+    """Reject a study that objects cannot belong to."""
     if study is None:
         raise FormatError(subject, "a scan that was not read from DICOM", "a study to belong to", _MEND)
     if study.study_count > 1:
         found = f"images of {study.study_count} studies"
-        raise FormatError(subject, found, "one study", "name a folder of one study alone")
+        raise FormatError(subject, found, "one study", "name a folder of only one study")
     if not study.text("StudyInstanceUID"):
         raise FormatError(subject, "images without a StudyInstanceUID", "a study that has one", _MEND)
     check_one_patient(study, subject)
@@ -126,10 +126,10 @@ def _checked(study: Study | None, subject: str) -> Study:
 
 
 def _joined(origin: Origin, study: Study) -> Study:
-    """Return patient and study of a chosen study, beside what a scan from DICOM says of its own images.
+    """Return patient and study of a chosen study, with the references to the images of a DICOM scan.
 
-    Coordinates are in the frame of the scan, and its images alone are sources. A scan of another study is
-    named by nothing in a study whose patient was removed, and its images are no sources there or elsewhere.
+    Coordinates are in the frame of the scan, and only its images are sources. If the patient of the study was
+    removed, a scan of another study is not named, and its images are not sources.
     """
     from pydicom.dataset import Dataset
 
@@ -151,12 +151,12 @@ def _joined(origin: Origin, study: Study) -> Study:
 
 
 def _is_removed(study: Study) -> bool:
-    """Whether nothing in a study identifies its patient."""
+    """Whether a study is anonymous."""
     return study.text("PatientIdentityRemoved").upper() == "YES" or not patient_of(study).id
 
 
 def _levels_within() -> int:
-    """How many callers are within this package, so that a warning names the line of its user."""
+    """The number of callers within this package, so that a warning names the line of its user."""
     package, level = str(Path(__file__).parents[1]), 1
     frame = sys._getframe(1)
     while frame.f_back is not None and frame.f_code.co_filename.startswith(package):
@@ -165,7 +165,7 @@ def _levels_within() -> int:
 
 
 def _anonymous(origin: Origin) -> Study:
-    """A study that nothing of the scan's own leads to."""
+    """A study without any link to that of the scan."""
     from pydicom.dataset import Dataset
 
     header = Dataset()
@@ -181,7 +181,7 @@ def _anonymous(origin: Origin) -> Study:
 
 
 def _hide_scan(header: Any, origin: Origin) -> None:
-    """Leave out the UIDs of the scan; coordinates are then in a frame that nothing else is in."""
+    """Leave out the UIDs of the scan; coordinates are then in a separate frame."""
     # An element that was not deleted would be changed in the header of the scan too.
     for keyword in ("SeriesInstanceUID", "FrameOfReferenceUID"):
         if keyword in header:

@@ -1,10 +1,9 @@
-"""Codes of what is measured, of methods and of vessels, all from the standard's own dictionary (PS3.16)."""
+"""Codes of measures, methods and vessels, all from the dictionary of the standard (PS3.16)."""
 
 from __future__ import annotations
 
 import re
 
-#: A code: value, scheme and meaning.
 Coded = tuple[str, str, str]
 
 DIAMETER = ("397413000", "SCT", "Vessel lumen diameter")
@@ -23,13 +22,11 @@ STENOSIS = ("415582006", "SCT", "stenosis")
 BY_AREA = ("122650", "DCM", "Area Based Method")
 REPORT = ("126000", "DCM", "Imaging Measurement Report")
 COMMENT = ("121106", "DCM", "Comment")
-#: How a stenosis was graded, by the name of the method.
 METHODS = {
     "nascet": ("122655", "DCM", "NASCET"),
     "ecst": ("122656", "DCM", "ECST"),
     "area": BY_AREA,
 }
-#: What was done with the patient, by the modality.
 PROCEDURES = {
     "CT": ("77477000", "SCT", "Computed tomography"),
     "MR": ("241663008", "SCT", "Magnetic resonance angiography"),
@@ -71,10 +68,10 @@ _OF_ONE_SIDE = ("3227004", "59438005", "57396003", "13647002")
 
 
 def site_of(name: str | None) -> tuple[Coded | None, Coded | None]:
-    """Return the code of a vessel of this name, and that of its side; None for what the name does not tell.
+    """Return the codes of a named vessel and of its side; None if the name does not contain them.
 
-    A name is known as a whole, as readers write it, such as ``"left renal artery"``, ``"ICA R"`` or
-    ``"LAD"``: a part of another name is none.
+    Only complete names match, such as ``"left renal artery"``, ``"ICA R"`` or ``"LAD"``, not parts of other
+    names.
     """
     words = re.sub(r"[\s_\-.,()]+", " ", (name or "").lower()).strip()
     # Pieces of one vessel are counted.

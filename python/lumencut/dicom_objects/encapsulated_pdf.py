@@ -21,7 +21,7 @@ def write_pdf(target: Target, content: bytes, title: str, study: Study) -> None:
     title : str
         Its title, which names nobody.
     study : Study
-        Where it belongs.
+        Its study.
     """
     data = new_object(study, Kind(_PDF, "report", 9006, "DOC"), "")
     data.ConversionType = "WSD"

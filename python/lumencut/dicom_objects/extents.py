@@ -1,4 +1,4 @@
-"""Boxes that hold a scan or its slices, and how they lie to each other."""
+"""Bounding boxes of scans and slices, and their distances."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ class Box:
         return cls(_corner(places.min(axis=0)), _corner(places.max(axis=0)))
 
     def distance(self, other: Box) -> float:
-        """Return how far two boxes lie apart (mm), 0 where they meet."""
+        """Return the distance of two boxes (mm), 0 if they meet."""
         gaps = np.maximum(np.subtract(other.low, self.high), np.subtract(self.low, other.high))
         return float(np.linalg.norm(np.maximum(gaps, 0)))
 
@@ -58,7 +58,7 @@ def box_of_slices(records: Iterable[dict[str, Any]]) -> Box | None:
     Parameters
     ----------
     records : iterable of dict
-        Headers as the judge of series takes them; attributes of a frame stand under ``frames`` or ``shared``.
+        Headers in the form of the judge of series; attributes of a frame are under ``frames`` or ``shared``.
     """
     corners = []
     for record in records:
@@ -70,14 +70,14 @@ def box_of_slices(records: Iterable[dict[str, Any]]) -> Box | None:
 
 
 def _corners(attributes: dict[str, Any]) -> npt.NDArray[np.float64] | None:
-    """The four corners of a slice, shape (4, 3); None where the header does not state them."""
+    """The four corners of a slice, shape (4, 3); None if the header does not state them."""
     place = _numbers(attributes.get("ImagePositionPatient"), 3)
     axes = _numbers(attributes.get("ImageOrientationPatient"), 6)
     spacing = _numbers(attributes.get("PixelSpacing"), 2)
     shape = _numbers([attributes.get("Rows"), attributes.get("Columns")], 2)
     if place is None or axes is None or spacing is None or shape is None:
         return None
-    # The spacing of rows stands first, and the direction along rows.
+    # PixelSpacing starts with the spacing of rows, ImageOrientation with the direction along rows.
     down, right = axes[3:] * spacing[0] * (shape[0] - 1), axes[:3] * spacing[1] * (shape[1] - 1)
     return np.array([place, place + down, place + right, place + down + right])
 

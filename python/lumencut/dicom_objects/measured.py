@@ -1,4 +1,4 @@
-"""What of measured vessels a structured report holds: what a reader marked, and nothing that is suggested."""
+"""The content of a structured report: places that a reader marked, without suggestions."""
 
 from __future__ import annotations
 
@@ -23,11 +23,11 @@ class Place:
     Attributes
     ----------
     kind : (str, str, str)
-        The code of what it is.
+        Its code.
     marked : float
-        Where the reader marked it (mm along the vessel).
+        The place that the reader marked (mm along the vessel).
     arc_length : float
-        Where the section next to that is, which was measured (mm).
+        The place of the nearest measured section (mm).
     contour : numpy.ndarray, shape (m, 3)
         The wall of the lumen (mm, LPS).
     equivalent, uncertainty : float
@@ -52,12 +52,12 @@ class Place:
 
 @dataclass(frozen=True, eq=False)
 class Measured:
-    """A vessel with what a reader marked on it.
+    """A vessel with the marks of a reader.
 
     Attributes
     ----------
     name : str or None
-        What it is called.
+        Its name.
     points : numpy.ndarray, shape (n, 3)
         The centerline (mm, LPS).
     length : float
@@ -65,7 +65,7 @@ class Measured:
     places : tuple of Place
         The marked sections.
     stenoses : tuple of Stenosis
-        What was graded.
+        Its graded stenoses.
     """
 
     name: str | None
@@ -78,23 +78,23 @@ class Measured:
 def measured(
     profile: Any, stenoses: Sequence[Stenosis], vessel: Vessel | None = None, marks: Sequence[Mark] = ()
 ) -> Measured:
-    """Return what a report holds of a profile of :func:`lumencut.measure`.
+    """Return the content of a report for a profile of :func:`lumencut.measure`.
 
     Parameters
     ----------
     profile : Profile
         The profile.
     stenoses : sequence of Stenosis
-        What was graded on it.
+        Its graded stenoses.
     vessel : Vessel, optional
-        The vessel as it is to be called, in the place of the one that was measured.
+        The vessel as it is to be called, instead of the one that was measured.
     marks : sequence of Mark, default ()
-        What a reader marked counts where nothing is graded; what is suggested never does.
+        The marks of a reader, used without grading; suggestions are never used.
 
     Raises
     ------
     MeasuringError
-        For what is no stenosis, or one of a place beyond the vessel.
+        For anything that is not a stenosis, or one of a place beyond the vessel.
     """
     for one in stenoses:
         if not isinstance(one, Stenosis):
@@ -116,7 +116,7 @@ def measured(
 
 
 def _marked_kinds(marks: Sequence[Mark]) -> dict[float, Coded]:
-    """What each marked place is; references of no place are none, nor is a noted diameter."""
+    """The kind of each marked place; references without a place and noted diameters are omitted."""
     at = next((mark.arc_length for mark in marks if not (mark.is_reference or mark.is_noted)), None)
     if at is None:
         return {}

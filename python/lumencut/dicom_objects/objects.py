@@ -21,9 +21,8 @@ SOURCE_IMAGE = ("121322", "Source image for image processing operation")
 CURVED_REFORMATION = ("113073", "Curved multiplanar reformatting")
 #: The most images of a scan that a picture names as its sources: each takes 330 bytes.
 _MOST_NAMED = 2000
-#: What stands for letters that not every character set has.
+#: Replacements of letters that some character sets lack.
 _PLAIN = {"°": " deg", "×": "x", "–": "-", "±": "+/-", "²": "2", "ß": "ss", "…": "..."}
-#: Where an object is written: a file, or what takes its bytes.
 Target = Path | BinaryIO
 #: The longest texts of the value representations LO, ST and LT.
 LO, ST, LT = 64, 1024, 10240
@@ -38,7 +37,7 @@ class Kind:
     sop_class : str
         UID of the SOP class.
     title : str
-        What it shows, for the description of its series.
+        The description of its series.
     series_number : int
         Far from the numbers that scanners give.
     modality : str
@@ -59,7 +58,7 @@ def new_object(study: Study, kind: Kind, settings: str, number: int = 1) -> Any:
     study : Study
         The study that it belongs to.
     kind : Kind
-        What it is.
+        Its kind.
     settings : str
         Objects of the same kind and with the same text are put into one series.
     number : int, default 1
@@ -68,7 +67,7 @@ def new_object(study: Study, kind: Kind, settings: str, number: int = 1) -> Any:
     from pydicom.dataset import Dataset
 
     data = Dataset()
-    # What the pixels of a scan are is no matter of reports, which have a modality of their own.
+    # Attributes of pixels do not apply to reports, which have their own modality.
     for keyword in (*PATIENT, *VISIT, *(() if kind.modality else SCAN)):
         if keyword in study.header and keyword not in ("Laterality", "PatientPosition"):
             data[keyword] = study.header[keyword]
@@ -89,13 +88,13 @@ def new_object(study: Study, kind: Kind, settings: str, number: int = 1) -> Any:
 
 
 def add_laterality(data: Any, study: Study) -> None:
-    """Say which side of the body is shown: nothing where there is one, empty where it is not known."""
+    """State the side of the body: omitted for unpaired parts, empty if unknown."""
     if study.text("BodyPartExamined").upper() not in UNPAIRED:
         data.Laterality = study.text("Laterality")
 
 
 def add_sources(data: Any, study: Study, code: tuple[str, str], words: str, most: int = _MOST_NAMED) -> None:
-    """Say what an image was derived from, and how.
+    """State the sources and the method of derivation of an image.
 
     Parameters
     ----------
@@ -104,18 +103,18 @@ def add_sources(data: Any, study: Study, code: tuple[str, str], words: str, most
     study : Study
         Whose images are the sources.
     code : (str, str)
-        How it was derived (DCM).
+        The method of derivation (DCM).
     words : str
         The same in words, which name no file.
     most : int
-        How many sources are named; of more than that every second or third and so on is.
+        Largest number of sources; with more, every second or third etc. is named.
     """
     from pydicom.dataset import Dataset
 
     step = -(-len(study.instances) // most)
     named = study.instances[:: max(step, 1)]
-    told = f"Of {len(study.instances)} source images 1 in {step} is named. " if step > 1 else ""
-    data.DerivationDescription = cut(told + words, ST)
+    sources = f"Of {len(study.instances)} source images 1 in {step} is named. " if step > 1 else ""
+    data.DerivationDescription = cut(sources + words, ST)
     data.DerivationCodeSequence = [coded(*code)]
     if not named:
         return
@@ -165,7 +164,7 @@ def sealed(data: Any, *content: bytes) -> Any:
 
 
 def write(data: Any, target: Target, encode: Callable[[Any], None] | None = None) -> None:
-    """Write an object; a file appears only once it is whole.
+    """Write an object; a file appears only when complete.
 
     Parameters
     ----------

@@ -48,7 +48,7 @@ class Patient:
         return self.is_comparable(other) and self.id == other.id and bool(self.issuer) != bool(other.issuer)
 
     def __str__(self) -> str:
-        """Return the ID, with its issuer where that is stated."""
+        """Return the ID, with its issuer if stated."""
         if not self.id:
             return "no PatientID"
         issuer = f" of {self.issuer!r}" if self.issuer else ""
@@ -56,6 +56,6 @@ class Patient:
 
 
 def _unpadded(value: object) -> str:
-    """A value without the blanks and zero bytes around it, which mean nothing."""
+    """A value without padding spaces and zero bytes."""
     text = "" if value is None else str(value).strip(" \0\t\r\n")
     return "".join(letter if letter.isprintable() else "�" for letter in text)

@@ -30,7 +30,7 @@ _GREY_FRAMES = f"{_CAPTURE}.2"
 _COLOUR_FRAMES = f"{_CAPTURE}.4"
 #: The longest element, in bytes.
 _LARGEST = 2**32 - 2**16
-#: What stands in the place of pixels that are stored already.
+#: Placeholder for pixels that are already stored.
 _NO_IMAGE = np.empty((0, 0, 4), np.uint8)
 #: Parts of the body without a face; where none is stated, there may be one.
 _FACELESS = ("CHEST", "ABDOMEN", "PELVIS", "AORTA", "LEG", "EXTREMITY", "HEART", "ARM", "KNEE", "FOOT", "HIP")
@@ -43,11 +43,11 @@ class Picture:
     Attributes
     ----------
     image : numpy.ndarray, uint8, shape (H, W, 4)
-        The picture, RGBA; what is transparent becomes black.
+        The picture, RGBA; transparent pixels become black.
     method : str
-        In short what it is, such as ``"CSR"``.
+        A short title, such as ``"CSR"``.
     words : str
-        How it was made, in words that name no file, no vessel and nobody.
+        A description without names of files, vessels or persons.
     settings : str
         Pictures of the same method and with the same text are put into one series.
     pixel_spacing : float or None
@@ -57,13 +57,13 @@ class Picture:
         The sides of the patient that rows (to the right) and columns (downwards) run to, as letters of
         `lumencut.orientation`; None where they are not true in all of the picture.
     comments : str, default ""
-        What stands beside the picture in a viewer, such as the view.
+        The label in a viewer, such as the view.
     shows_body : bool, default False
         Whether the surface of the body may be seen.
     code : (str, str), default curved reformatting
-        How it was derived (DCM).
+        The method of derivation (DCM).
     film : str or None, default None
-        In short what a film is that it is the first frame of; None for a turntable of the method.
+        The short title of a film that it begins; None for a turntable of the method.
     """
 
     image: npt.NDArray[np.uint8]
@@ -88,13 +88,13 @@ def write_picture(
     target : Path or binary file
         The file, or what takes its bytes.
     picture : Picture
-        What is written.
+        The picture.
     study : Study
-        Where it belongs.
+        Its study.
     number : int, default 1
         Its place in the series.
     compress : bool, default False
-        Write the pixels as JPEG 2000, lossless, in the place of bare numbers.
+        Write the pixels as JPEG 2000, lossless, instead of bare numbers.
     """
     kind = Kind(_CAPTURE, picture.method, 9001)
     data = _described(picture, study, kind, number)
@@ -114,13 +114,13 @@ def write_turning(
     path : Path
         The file.
     pictures : iterable of Picture
-        Pictures of one size; the first tells how all were made.
+        Pictures of one size; the first describes how all were made.
     fps : float
         Frames per second.
     study : Study
-        Where they belong.
+        Their study.
     grey : bool
-        Write grey bytes in the place of colours: some programs read such frames alone.
+        Write grey bytes instead of colours: some programs read only these.
     compress : bool
         Write the pixels as JPEG 2000, lossless.
     """
@@ -148,7 +148,7 @@ def write_turning(
 
 
 def _turning(shown: list[Picture]) -> Picture:
-    """What is said of several views: how the first was made, and what is true of all."""
+    """The description of several views: that of the first, and the common facts."""
     first = shown[0]
     spacings, sides = ({getattr(one, name) for one in shown} for name in ("pixel_spacing", "sides"))
     return replace(
@@ -166,7 +166,7 @@ def _described(picture: Picture, study: Study, kind: Kind, number: int) -> Any:
     add_laterality(data, study)
     data.ConversionType = "WSD"
     data.ImageType = ["DERIVED", "SECONDARY", picture.method.partition(" ")[0].upper()]
-    # It means text that tells who the patient is; sides, view and scale do not.
+    # This means text that identifies the patient; sides, view and scale do not.
     data.BurnedInAnnotation = "NO"
     data.RecognizableVisualFeatures = "YES" if picture.shows_body and _may_have_face(study) else "NO"
     data.PatientOrientation = [dicom_sides(side) for side in picture.sides] if picture.sides else None
@@ -209,7 +209,7 @@ def _set_colours(data: Any, pixels: bytes, size: tuple[int, ...]) -> None:
 
 def _set_greys(data: Any, pixels: bytes, size: tuple[int, ...]) -> None:
     data.SamplesPerPixel, data.PhotometricInterpretation = 1, "MONOCHROME2"
-    # What the numbers mean is asked for of grey frames: shades, as they are.
+    # Grey frames must state the meaning of their numbers: plain shades.
     data.RescaleIntercept, data.RescaleSlope, data.RescaleType = "0", "1", "US"
     data.PresentationLUTShape = "IDENTITY"
     _set_bytes(data, pixels, size)
@@ -223,7 +223,7 @@ def _set_bytes(data: Any, pixels: bytes, size: tuple[int, ...]) -> None:
 
 
 def _set_timing(data: Any, count: int, fps: float) -> None:
-    """Say how fast frames follow each other, and that they begin anew at the end."""
+    """Say how fast frames follow each other, and that they begin again at the end."""
     data.NumberOfFrames = count
     data.FrameIncrementPointer = 0x00181063
     data.FrameTime = f"{1000 / fps:.10g}"

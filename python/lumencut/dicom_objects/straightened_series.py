@@ -26,7 +26,7 @@ def write_straightened(
     *,
     is_whole: bool,
 ) -> None:
-    """Write one image for each section across the vessel into a new folder, which appears once it is whole.
+    """Write one image for each section across the vessel into a new folder, which appears when complete.
 
     Parameters
     ----------
@@ -35,13 +35,13 @@ def write_straightened(
     volume : Volume
         The straightened volume, NaN outside of the scan.
     about : (ReformationRecipe, Settings, Window or None)
-        How it was made, and the window in which it is shown first.
+        Its description, and its first window.
     study : Study
-        Where it belongs.
+        Its study.
     comments : str
-        What is said of its sides.
+        The notes on its sides.
     is_whole : bool
-        Whether the voxels of the scan are whole numbers.
+        Whether the voxels of the scan are integers.
 
     Raises
     ------

@@ -21,12 +21,11 @@ from lumencut.stenosis import Stenosis
 
 #: What highdicom says of the maker of the images, for whom it takes that of the report.
 _OF_HIGHDICOM = ("ContributingEquipmentSequence", "InstanceCreationDate", "InstanceCreationTime")
-#: Comprehensive 3D SR Storage.
 _REPORT = "1.2.840.10008.5.1.4.1.1.88.34"
 
 
 def check_highdicom() -> None:
-    """Refuse to make a structured report without highdicom.
+    """Reject to make a structured report without highdicom.
 
     Raises
     ------
@@ -42,16 +41,16 @@ def check_highdicom() -> None:
 
 
 def write_report(target: Target, vessels: Sequence[Measured], study: Study, *, names: bool = True) -> None:
-    """Write vessels with what a reader marked on them: PRELIMINARY and UNVERIFIED.
+    """Write vessels with the marks of a reader: PRELIMINARY and UNVERIFIED.
 
     Parameters
     ----------
     target : Path or binary file
         The file, or what takes its bytes.
     vessels : sequence of Measured
-        What is told.
+        The content.
     study : Study
-        Where it belongs; its frame of reference is that of all coordinates.
+        Its study; its frame of reference is that of all coordinates.
     names : bool, default True
         Whether vessels are called by their names.
 
@@ -77,8 +76,8 @@ def write_report(target: Target, vessels: Sequence[Measured], study: Study, *, n
     data = new_object(study, kind, "")
     data.SeriesDescription = f"Lumencut measurements {RESEARCH}"
     _take(data, _document(content, data, study))
-    told = [text for group in groups for text in _texts(group)]
-    sealed(data, *told)
+    texts = [text for group in groups for text in _texts(group)]
+    sealed(data, *texts)
     write(data, target)
 
 
@@ -189,9 +188,9 @@ def _number(
     derivation: Coded | None = None,
     regions: Sequence[Any] | None = None,
 ) -> Any:
-    """A number; its uncertainty, where it is known, is one standard deviation to both sides.
+    """A number; its uncertainty, if known, is one standard deviation to both sides.
 
-    `regions` are what it was inferred from, where the group does not say so for all of its numbers.
+    `regions` are its sources, unless the group states them for all of its numbers.
     """
     from highdicom.sr import Measurement, MeasurementProperties
 
@@ -243,7 +242,7 @@ def _content(groups: list[Any], study: Study) -> Any:
 
 
 def _document(content: Any, data: Any, study: Study) -> Any:
-    """The tree in a document of highdicom, which one image of the scan stands beside as evidence."""
+    """The tree in a document of highdicom, with one image of the scan as evidence."""
     from highdicom.sr import Comprehensive3DSR
 
     image = copy.deepcopy(data)
@@ -274,7 +273,7 @@ def _take(data: Any, document: Any) -> None:
 
 
 def _texts(group: Any) -> list[bytes]:
-    """What a group says, for the UID of the report."""
+    """The text of a group, for the UID of the report."""
     return [str(item).encode() for item in group]
 
 

@@ -1,4 +1,4 @@
-"""The study that a scan belongs to: what an object made from the scan repeats of its header, and what never.
+"""The study of a scan: the header attributes that derived objects repeat, and those they never do.
 
 An attribute that is in none of the lists below is left behind: private ones, institution, the scanner's
 serial number, the request, and how the slices were acquired.
@@ -12,7 +12,7 @@ from typing import Any
 from lumencut._pickles import by_name
 from lumencut.dicom_objects.extents import Box
 
-#: Who the patient is, and what is known of that; empty under `anonymous`.
+#: Attributes of the patient; empty under `anonymous`.
 PATIENT = (
     *("PatientName", "PatientID", "IssuerOfPatientID", "PatientBirthDate", "PatientSex", "PatientAge"),
     *("PatientIdentityRemoved", "DeidentificationMethod", "DeidentificationMethodCodeSequence"),
@@ -22,22 +22,22 @@ VISIT = (
     *("StudyInstanceUID", "StudyDate", "StudyTime", "AccessionNumber", "StudyID", "StudyDescription"),
     *("ReferringPhysicianName", "SpecificCharacterSet"),
 )
-#: What is shown. Once pixels were compressed with loss, whatever is made of them says so.
+#: Attributes of the content. Objects from lossily compressed pixels must state so.
 SCAN = (
     *("Modality", "BodyPartExamined", "Laterality", "PatientPosition"),
     *("LossyImageCompression", "LossyImageCompressionRatio", "LossyImageCompressionMethod"),
 )
-#: What the classes of CT and MR images ask for beside that; no other object has it.
+#: Further attributes of the classes of CT and MR images only.
 ACQUISITION = (
     *("KVP", "AcquisitionNumber", "RescaleType", "ScanningSequence", "SequenceVariant", "ScanOptions"),
     *("MRAcquisitionType", "EchoTime", "EchoTrainLength", "RepetitionTime"),
 )
-#: What the standard asks to be there, even if empty.
+#: Attributes that the standard requires, even if empty.
 NEVER_ABSENT = (
     *("PatientName", "PatientID", "PatientBirthDate", "PatientSex"),
     *("StudyDate", "StudyTime", "ReferringPhysicianName", "StudyID", "AccessionNumber"),
 )
-#: Parts of the body of which there is one, so that no side of it is stated.
+#: Unpaired parts of the body, without a side.
 UNPAIRED = (
     *("HEAD", "NECK", "HEADNECK", "CHEST", "ABDOMEN", "PELVIS", "AORTA", "HEART", "CORONARYARTERY"),
     *("WHOLEBODY", "BRAIN", "SPINE", "CSPINE", "TSPINE", "LSPINE", "SSPINE", "SKULL", "LIVER", "PANCREAS"),
@@ -45,16 +45,15 @@ UNPAIRED = (
     *("CEREBELLUM", "CIRCLEOFWILLIS", "MEDIASTINUM", "STOMACH", "SPLEEN", "BLADDER", "UTERUS", "PROSTATE"),
     *("COLON", "RECTUM", "FACE", "JAW"),
 )
-#: All that is read of a header.
 READ = (*PATIENT, *VISIT, *SCAN, *ACQUISITION, "SeriesInstanceUID", "FrameOfReferenceUID")
 
 
 @by_name
 @dataclass(frozen=True)
 class Study:
-    """What is repeated of the study of a scan.
+    """The repeated attributes of the study of a scan.
 
-    It holds the name of the patient where the scan does; nothing of it is shown by ``repr``.
+    It contains the name of the patient if the scan does; ``repr`` shows nothing of it.
 
     Attributes
     ----------
@@ -63,11 +62,11 @@ class Study:
     instances : tuple of (str, str)
         SOP class and UID of each image of the scan.
     study_count : int, default 1
-        How many studies the images belong to.
+        The number of studies of the images.
     further : tuple of pydicom.Dataset, default ()
-        The same attributes of the other series, where the images belong to several.
+        The same attributes of the other series, if there are several.
     box : Box or None, default None
-        What holds all of the images; None where it is not known.
+        The bounding box of all images; None if unknown.
     """
 
     header: Any = field(repr=False)
@@ -77,7 +76,7 @@ class Study:
     box: Box | None = None
 
     def text(self, keyword: str) -> str:
-        """Return the value of an attribute as a text, empty where the scan has none."""
+        """Return the value of an attribute as text; empty if the scan lacks it."""
         value = self.header.get(keyword)
         return "" if value is None else str(value)
 
@@ -90,16 +89,16 @@ class Study:
 @by_name
 @dataclass(frozen=True)
 class Origin:
-    """Where a picture comes from, as far as its DICOM object tells.
+    """The origin of a picture, for its DICOM object.
 
     Attributes
     ----------
     study : Study or None
-        The study of the scan; None where the scan was not read from DICOM.
+        The study of the scan; None if the scan was not read from DICOM.
     fingerprint : str
-        Tells scans apart by their grid and some of their voxels; it names nobody.
+        Distinguishes scans by their grid and some of their voxels; it names nobody.
     is_whole : bool, default False
-        Whether its voxels are whole numbers.
+        Whether its voxels are integers.
     box : Box or None, default None
         What holds the scan; None where its source does not state its place in the patient.
     """

@@ -11,7 +11,7 @@ from lumencut.mends import Option, Told
 
 #: A box further away than this is that of another part of the body (mm); slices have a thickness.
 _APART = 10.0
-#: Less of the scan than this lies within the images of the study where these show something else.
+#: Share of the scan within the images of the study below which they show another region.
 _LEAST_WITHIN = 0.5
 
 
@@ -21,16 +21,16 @@ def patient_of(study: Study) -> Patient:
 
 
 def check_one_patient(study: Study, subject: str) -> None:
-    """Refuse a study whose series name several patients."""
+    """Reject a study whose series name several patients."""
     first, others = patient_of(study), [Patient.in_header(header) for header in study.further]
     for other in others:
         if first.differs_from(other):
-            mend = "name a folder of one patient alone"
+            mend = "name a folder of only one patient"
             raise FormatError(subject, f"images of two patients, {first} and {other}", "one patient", mend)
 
 
 def check_same_patient(scan: Study, study: Study, subject: str) -> None:
-    """Refuse a study of another patient than that of the scan."""
+    """Reject a study of another patient than that of the scan."""
     own, its = patient_of(scan), patient_of(study)
     if own.differs_from(its):
         words = "choose a study of the patient of the scan"
@@ -39,7 +39,7 @@ def check_same_patient(scan: Study, study: Study, subject: str) -> None:
 
 
 def doubts(origin: Origin, study: Study) -> list[str]:
-    """Return what a reader should know before results of a scan are put into a study, in sentences."""
+    """Return sentences of doubt about putting results of a scan into a study."""
     found = [] if origin.study is None else list(_against_header(origin.study, study))
     return [*found, *_against_place(origin, study)]
 
@@ -49,7 +49,7 @@ def _against_header(scan: Study, study: Study) -> Iterator[str]:
     if not own.is_comparable(its):
         yield f"patients cannot be compared: the scan states {own}, the study {its}"
     elif own.has_lone_issuer(its):
-        yield f"one issuer alone is stated: the scan is of {own}, the study of {its}"
+        yield f"only one issuer is stated: the scan is of {own}, the study of {its}"
     if is_other_study(scan, study):
         who = "the same patient" if own.is_comparable(its) else "an unknown patient"
         yield f"the scan is of {_named(scan)}, the results are put into {_named(study)} of {who}"
@@ -61,7 +61,7 @@ def _against_header(scan: Study, study: Study) -> Iterator[str]:
 
 
 def is_other_study(scan: Study, study: Study) -> bool:
-    """Tell whether both state a StudyInstanceUID and these differ."""
+    """Return whether both state a StudyInstanceUID and these differ."""
     own, its = scan.text("StudyInstanceUID"), study.text("StudyInstanceUID")
     return bool(own and its) and own != its
 
@@ -84,7 +84,7 @@ def _part(text: str) -> str:
 
 
 def _against_place(origin: Origin, study: Study) -> Iterator[str]:
-    """Compare extents, which mean something within one frame of reference alone."""
+    """Compare extents, which is only possible within one frame of reference."""
     own = "" if origin.study is None else origin.study.text("FrameOfReferenceUID")
     frames = study.texts("FrameOfReferenceUID")
     if origin.box is None or study.box is None or (own and frames and own not in frames):

@@ -1,7 +1,7 @@
 """Values as derived CT or MR images, which a PACS shows in any window.
 
-They have a frame of reference of their own. In that of the scan, viewers took the plane of a view for the
-place of what it shows, and opened marks of the scan on it.
+They have their own frame of reference. In that of the scan, viewers would place the plane of a view in the
+scan, and show marks of the scan on it.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ from lumencut.errors import FormatError
 from lumencut.window import Window
 
 _CLASSES = {"CT": "1.2.840.10008.5.1.4.1.1.2", "MR": "1.2.840.10008.5.1.4.1.1.4"}
-#: What the classes ask for, even if empty, or by a value that means nothing.
+#: Required attributes of the classes, even if empty or with a meaningless value.
 _ASKED: dict[str, dict[str, Any]] = {
     "CT": {"KVP": None, "AcquisitionNumber": None},
     "MR": {
@@ -45,7 +45,7 @@ _ASKED: dict[str, dict[str, Any]] = {
 }
 #: The most slices of the scan that a plane names as its sources.
 _NAMED_BY_PLANE = 64
-#: The number that is stored where there is no value, and the others.
+#: The stored number without a value, and the range of the others.
 _NOTHING, _LOWEST, _HIGHEST = -32768, -32767, 32767
 
 
@@ -56,15 +56,15 @@ class Plane:
     Attributes
     ----------
     values : numpy.ndarray, shape (H, W)
-        In the unit of the scan, NaN where there is none.
+        In the unit of the scan, NaN without a value.
     right, down : numpy.ndarray, shape (3,)
         Unit vectors along rows and columns (LPS).
     first : numpy.ndarray, shape (3,)
-        Centre of the first pixel (mm, LPS), in a frame that nothing else is in.
+        Centre of the first pixel (mm, LPS), in a separate frame.
     spacing : float
         Side of a pixel (mm).
     thickness : float or None
-        Distance to the next plane (mm); None where there is none.
+        Distance to the next plane (mm); None for a single plane.
     """
 
     values: npt.NDArray[np.float32]
@@ -82,15 +82,15 @@ class About:
     Attributes
     ----------
     method : str
-        In short what it is, such as ``"CSR"``.
+        A short title, such as ``"CSR"``.
     words : str
-        How it was made.
+        Its description.
     settings : str
         Planes of the same method and with the same text are put into one series.
     comments : str
-        What stands beside it in a viewer.
+        The label in a viewer.
     window : Window or None
-        How it is shown first.
+        The first window.
     scaling : (float, float)
         Slope and intercept from stored numbers to values.
     """
@@ -104,14 +104,14 @@ class About:
 
 
 def scaling_of(values: npt.NDArray[Any], *, is_whole: bool) -> tuple[float, float]:
-    """Return slope and intercept with which 16 bits hold values, 1 and 0 where whole numbers do.
+    """Return slope and intercept to store values in 16 bits; 1 and 0 if integers fit.
 
     Parameters
     ----------
     values : numpy.ndarray
         All values of a series, NaN among them.
     is_whole : bool
-        Whether the voxels of the scan are whole numbers, such as HU: what lies between is then rounded.
+        Whether the voxels of the scan are integers, such as HU; interpolated values are then rounded.
     """
     known = values[np.isfinite(values)]
     low, high = (float(known.min()), float(known.max())) if known.size else (0.0, 0.0)
@@ -150,7 +150,7 @@ def write_plane(path: Path, plane: Plane, about: About, study: Study, *, number:
 
 
 def _set_acquisition(data: Any, study: Study, modality: str) -> None:
-    """Say of the scan what the class asks for, and nothing else."""
+    """State only the attributes of the scan that the class requires."""
     for keyword, otherwise in _ASKED[modality].items():
         setattr(data, keyword, otherwise)
         if keyword in ACQUISITION and keyword in study.header:

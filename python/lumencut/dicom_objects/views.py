@@ -1,4 +1,4 @@
-"""What the object of a view says: how it was made, its pixels' size, and the sides of the patient."""
+"""The description of a view: how it was made, its pixel size, and the sides of the patient."""
 
 from __future__ import annotations
 
@@ -46,9 +46,9 @@ def view_picture(
     camera : Camera
         The view.
     source : FrameSource
-        What it was made from.
+        Its source.
     has_cut : bool
-        Whether vessels are cut open; else the context alone is shown.
+        Whether vessels are cut open; otherwise only the context is shown.
     """
     settings = source.settings
     method = _METHODS[source.method] if has_cut else (settings.context or "context")
@@ -76,7 +76,7 @@ def view_picture(
 
 
 def view_values(values: npt.NDArray[np.float32], camera: Camera, source: FrameSource) -> tuple[Plane, About]:
-    """Return the values of a view on a plane through the middle of the camera, and what is said of them.
+    """Return the values of a view on a plane through the middle of the camera, and their description.
 
     Parameters
     ----------
@@ -85,7 +85,7 @@ def view_values(values: npt.NDArray[np.float32], camera: Camera, source: FrameSo
     camera : Camera
         The view.
     source : FrameSource
-        What it was made from.
+        Its source.
 
     Raises
     ------
@@ -97,7 +97,7 @@ def view_values(values: npt.NDArray[np.float32], camera: Camera, source: FrameSo
         found = "a picture of mpCPR" if source.method == "mpcpr" else "a scan without spacing or orientation"
         expected = "a view whose distances and sides are true, for values"
         raise FormatError("values of the view", found, expected, "write the picture, without values")
-    assert source.origin is not None, "whoever renders a frame knows its scan"
+    assert source.origin is not None, "a rendered frame knows its scan"
     picture = view_picture(np.empty((0, 0, 4), np.uint8), camera, source, has_cut=True)
     width, height = camera.size
     right, down = np.asarray(camera.right_axis), -np.asarray(camera.up)
@@ -119,13 +119,13 @@ def reformed_picture(
     image : numpy.ndarray, uint8, shape (H, W, 4)
         The picture, with or without labels.
     recipe : ReformationRecipe
-        How it was made.
+        Its description.
     settings : Settings
         How values are shown.
     edges : dict
-        The sides of the patient that edges look to, as far as they are true.
+        The sides of the patient at the edges, if they are true.
     spacing : float or None
-        Side of a pixel (mm); None where a ruler across the picture would be wrong.
+        Side of a pixel (mm); None if a ruler across the picture would be wrong.
     """
     parameters = json.dumps(_rounded(recipe.parameters))
     words = f"{recipe.name} {written_by()} {recipe.axes} Parameters {parameters}; {changed(settings)}"
@@ -137,7 +137,7 @@ def reformed_picture(
 
 
 def joined_picture(image: npt.NDArray[np.uint8], method: str, words: str, settings: Settings) -> Picture:
-    """Return several pictures on one sheet, which has no scale of its own, with what their object says."""
+    """Return several pictures on one sheet without a scale, with their description."""
     text = f"{words} {written_by()} {changed(settings)}"
     return Picture(image, method, text, settings_text(settings) + words, None, None, words, True)
 
@@ -148,7 +148,7 @@ def written_by() -> str:
 
 
 def settings_text(settings: Settings) -> str:
-    """Return settings as a text that tells them from all others."""
+    """Return settings as a unique text."""
     return json.dumps(plain_settings(settings), sort_keys=True, default=vars)
 
 
@@ -160,7 +160,7 @@ def changed(settings: Settings) -> str:
 
 
 def _rounded(value: Any) -> Any:
-    """A value of JSON whose numbers have six digits: enough to make it anew, and short."""
+    """A value of JSON whose numbers have six digits: enough to make it again, and short."""
     if isinstance(value, dict):
         return {name: _rounded(one) for name, one in value.items()}
     if isinstance(value, (list, tuple)):

@@ -1,1 +1,1 @@
-"""A PACS over DICOMweb: what it has, what is fetched of it, and what is sent to it."""
+"""A PACS over DICOMweb: list, fetch and send."""

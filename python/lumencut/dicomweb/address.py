@@ -10,7 +10,7 @@ from urllib.parse import urlsplit
 
 from lumencut.errors import FormatError
 
-#: How an address begins wherever a file may stand as well.
+#: Prefix of an address in places that also accept a file.
 SCHEME = "dicomweb:"
 _FORM = "dicomweb:https://HOST/ROOT/studies/UID[/series/UID]"
 _UID = re.compile(r"[0-9]+(\.[0-9]+)*")
@@ -26,7 +26,7 @@ class Address:
     base : str
         The address of the server, such as ``https://pacs.example/dicom-web``.
     study, series : str
-        The UIDs of a study and of a series of it; empty where none is named.
+        The UIDs of a study and of one of its series; empty if not named.
     """
 
     base: str
@@ -38,37 +38,36 @@ class Address:
 
     @property
     def path(self) -> str:
-        """What is named within the server, such as ``/studies/1.2.3``."""
+        """The path within the server, such as ``/studies/1.2.3``."""
         study = f"/studies/{self.study}" if self.study else ""
         return f"{study}/series/{self.series}" if self.series else study
 
     @property
     def host(self) -> str:
-        """The host and the port, for words."""
+        """The host and the port, for messages."""
         return urlsplit(self.base).netloc
 
 
 def is_address(given: str | os.PathLike[str]) -> bool:
-    """Tell an address of a PACS from the name of a file."""
+    """Return whether a text is an address of a PACS, not the name of a file."""
     return isinstance(given, (str, os.PathLike)) and str(given).startswith(SCHEME)
 
 
 def parsed_address(given: str | os.PathLike[str]) -> Address:
-    """Return the address that a text stands for.
+    """Parse an address.
 
     Parameters
     ----------
     given : str or path
-        ``dicomweb:https://HOST/ROOT``, and behind it ``/studies/UID`` and ``/series/UID``; the word
-        ``dicomweb:`` may be missing.
+        ``dicomweb:https://HOST/ROOT``, followed by ``/studies/UID`` and ``/series/UID``; the prefix
+        ``dicomweb:`` is optional.
 
     Raises
     ------
     FormatError
-        For addresses with a name or a password in them, for http to other hosts than this one, and for
-        whatever is no such address.
+        For addresses that contain a name or a password, http to other hosts, and other invalid addresses.
     """
-    # A path has lost one of two strokes that follow each other.
+    # A Path has lost one of two consecutive slashes.
     text = re.sub(r"^(https?):/+", r"\1://", str(given).removeprefix(SCHEME))
     try:
         parts = urlsplit(text)
@@ -83,7 +82,7 @@ def parsed_address(given: str | os.PathLike[str]) -> Address:
     if parts.scheme not in ("http", "https") or not host or path is None or parts.query or parts.fragment:
         raise FormatError("address", f"{text!r:.200}", _FORM)
     if parts.scheme == "http" and not is_loopback(host):
-        found = f"http to {host}, which anybody on the way can read"
+        found = f"http to {host}, which anybody on the network can read"
         raise FormatError("address", found, "https, or http to this machine alone")
     study, series = path["study"] or "", path["series"] or ""
     if "/studies" in path["root"] or not all(is_uid(uid) for uid in (study, series) if uid):
@@ -92,12 +91,12 @@ def parsed_address(given: str | os.PathLike[str]) -> Address:
 
 
 def is_uid(text: str) -> bool:
-    """Tell a UID of DICOM, which is also safe as the name of a file."""
+    """Return whether a text is a DICOM UID, and so safe as a file name."""
     return len(text) <= 64 and _UID.fullmatch(text) is not None
 
 
 def is_loopback(host: str) -> bool:
-    """Tell whether a host is this machine."""
+    """Return whether a host is this machine."""
     if host == "localhost":
         return True
     try:

@@ -1,4 +1,4 @@
-"""Requests to a PACS: who asks, whom it trusts, where it may be led, and what goes wrong, in words."""
+"""Requests to a PACS: credentials, certificates, redirects and errors."""
 
 from __future__ import annotations
 
@@ -16,7 +16,6 @@ from lumencut.dicomweb.address import Address
 from lumencut.dicomweb.credentials import CERTIFICATES, Credentials
 from lumencut.errors import FileError, PacsError
 
-#: How many requests are under way at once.
 AT_ONCE = 4
 _TIMEOUT = httpx.Timeout(60.0, connect=10.0, pool=None)
 _MOST_REDIRECTS = 5
@@ -24,22 +23,22 @@ _JSON = "application/dicom+json"
 
 
 class Client:
-    """A connection to one PACS; a context that ends it. Several threads may use it.
+    """A connection to one PACS, closed by its context. Several threads may use it.
 
     Parameters
     ----------
     address : Address
         The PACS.
     token_file : path, optional
-        A file that holds a token, read anew where the PACS refuses the token it had.
+        A file that holds a token; it is read again if the PACS rejects the token.
     certificates : path, optional
-        A file of the certificates (PEM) that are trusted in place of those of the machine; by default what
-        LUMENCUT_DICOMWEB_CA names.
+        A file of certificates (PEM) to trust instead of those of the machine; default: the file in
+        LUMENCUT_DICOMWEB_CA.
 
     Raises
     ------
     FileError
-        For files that cannot be read, or hold no certificates or token.
+        For unreadable files, and files without certificates or a token.
     """
 
     def __init__(
@@ -51,12 +50,12 @@ class Client:
         is_secure = parts.scheme == "https"
         self._http = httpx.Client(
             verify=_trusted(certificates) if is_secure else False,
-            # Proxies of the environment are for other machines; netrc and certificates are read here.
+            # No proxies for this machine; netrc and certificates are read here.
             trust_env=is_secure,
             timeout=_TIMEOUT,
             limits=httpx.Limits(max_connections=AT_ONCE),
             follow_redirects=False,
-            # Servers pack what does not shrink, which takes twenty times as long as to send it.
+            # Servers would compress incompressible pixels, which takes twenty times as long as sending them.
             headers={"Accept-Encoding": "identity"},
         )
 
@@ -67,16 +66,16 @@ class Client:
         self.close()
 
     def close(self) -> None:
-        """End all connections, those in use too."""
+        """Close all connections, including those in use."""
         self._http.close()
 
     def json(self, path: str, params: Mapping[str, str] | None = None) -> list[dict[str, Any]]:
-        """Return the list that the PACS answers a search with; empty where it finds nothing.
+        """Return the results of a search; empty if it finds nothing.
 
         Raises
         ------
         PacsError
-            Where it refuses, cannot be reached, or answers with something else.
+            If the PACS rejects the search, cannot be reached, or answers with something else.
         """
         with self.answered("GET", path, params, {"Accept": _JSON}) as answer:
             if answer.status_code == 204:
@@ -85,18 +84,18 @@ class Client:
             return self._listed(answer)
 
     def post(self, path: str, content: bytes, content_type: str) -> tuple[int, dict[str, Any]]:
-        """Send content; return the status and what was answered as JSON, empty where it is none."""
+        """Send content; return the status and the JSON answer, empty if it is not JSON."""
         headers = {"Accept": _JSON, "Content-Type": content_type}
         with self.answered("POST", path, None, headers, content) as answer:
             if answer.status_code in (401, 403):
                 self.require(answer, 200)
             try:
                 answer.read()
-                told = answer.json()
+                parsed = answer.json()
             except ValueError:
-                told = {}
-            told = told[0] if isinstance(told, list) and told else told
-            return answer.status_code, told if isinstance(told, dict) else {}
+                parsed = {}
+            parsed = parsed[0] if isinstance(parsed, list) and parsed else parsed
+            return answer.status_code, parsed if isinstance(parsed, dict) else {}
 
     @contextmanager
     def answered(
@@ -107,16 +106,16 @@ class Client:
         headers: Mapping[str, str] | None = None,
         content: bytes | None = None,
     ) -> Iterator[httpx.Response]:
-        """Yield the answer to a request, its body not read yet; redirects are followed within a host.
+        """Yield the answer to a request before its body is read; redirects are followed within a host.
 
         Raises
         ------
         PacsError
-            Where the PACS cannot be reached, the connection breaks, or it leads to another host.
+            If the PACS cannot be reached, the connection breaks, or it redirects to another host.
         """
         url = f"{self._base}{path}"
         if params:
-            # Some servers know wildcards and lists only where they are not written as %2A and %2C.
+            # Some servers accept wildcards and lists only unescaped, not as %2A and %2C.
             url += "?" + urlencode(params, safe="*,", quote_via=quote)
         is_renewed = False
         with self._in_words():
@@ -128,7 +127,7 @@ class Client:
                 try:
                     if answer.status_code == 401 and not is_renewed:
                         is_renewed = True
-                        # Another thread may have read the new ones meanwhile.
+                        # Another thread may already have read the new ones.
                         if self._credentials.header != sent or self._credentials.renewed():
                             continue
                     elif answer.is_redirect:
@@ -141,7 +140,7 @@ class Client:
         raise PacsError(self._host, f"more than {_MOST_REDIRECTS} redirects", "an answer")
 
     def require(self, answer: httpx.Response, *expected: int) -> None:
-        """Refuse an answer of another status than expected, with what would mend it."""
+        """Reject an answer with an unexpected status, and name the mend."""
         status = answer.status_code
         if status in expected:
             return
@@ -149,15 +148,15 @@ class Client:
         found = f"status {status}"
         if status == 401:
             has_some = bool(self._credentials.header)
-            found += ": the credentials are refused, wrong or expired" if has_some else ": no credentials"
+            found += ": the credentials are rejected, wrong or expired" if has_some else ": no credentials"
             mend = self._credentials.mend
         elif status == 403:
             found, mend = (
-                f"{found}: it may not be read or written with these credentials",
+                f"{found}: these credentials may not read or write it",
                 self._credentials.mend,
             )
         elif status == 206:
-            found = f"{found}: a part of what was asked for"
+            found = f"{found}: only a part of the request"
         raise PacsError(self._host, found, f"status {expected[0]}", mend)
 
     def _listed(self, answer: httpx.Response) -> list[dict[str, Any]]:
@@ -169,12 +168,12 @@ class Client:
         if not isinstance(listed, list) or not all(isinstance(one, dict) for one in listed):
             kind = answer.headers.get("content-type", "no type")[:60]
             raise PacsError(
-                self._host, f"an answer that is no list in JSON ({kind})", _JSON, "check the address"
+                self._host, f"an answer that is not a JSON list ({kind})", _JSON, "check the address"
             )
         return listed
 
     def _followed(self, url: str, answer: httpx.Response, method: str) -> str:
-        """Where a redirect leads; to another host nobody is led, and no token either."""
+        """The target of a redirect; a redirect to another host is rejected, so that no token leaks."""
         target: str = urljoin(url, answer.headers.get("location", ""))
         here, there = urlsplit(url), urlsplit(target)
         if (here.scheme, here.netloc) != (there.scheme, there.netloc):
@@ -183,13 +182,13 @@ class Client:
             raise PacsError(self._host, found, f"answers of {here.scheme}://{here.netloc}", mend)
         if method != "GET" and answer.status_code not in (307, 308):
             raise PacsError(
-                self._host, f"a redirect of what is sent ({answer.status_code})", "that it is taken"
+                self._host, f"a redirect of sent objects ({answer.status_code})", "acceptance of the objects"
             )
         return target
 
     @contextmanager
     def _in_words(self) -> Iterator[None]:
-        """Turn what the client below raises into an error that names the host, and quotes nothing."""
+        """Convert errors of httpx into an error that names the host and quotes nothing."""
         try:
             yield
         except httpx.TimeoutException:
@@ -198,24 +197,24 @@ class Client:
         except httpx.ConnectError as error:
             raise self._unreachable(error) from None
         except (httpx.HTTPError, httpx.InvalidURL, httpx.StreamError):
-            found = "a connection that broke off"
-            raise PacsError(self._host, found, "a whole answer", "run it again") from None
+            found = "an interrupted connection"
+            raise PacsError(self._host, found, "a complete answer", "run it again") from None
 
     def _unreachable(self, error: BaseException) -> PacsError:
         words = str(error)
         if "CERTIFICATE_VERIFY_FAILED" in words or "certificate" in words.lower():
             mend = f"name the certificate of your private authority by --ca FILE or {CERTIFICATES}"
             return PacsError(
-                self._host, "a certificate that is not trusted", "one of a known authority", mend
+                self._host, "an untrusted certificate", "a certificate of a known authority", mend
             )
         if "SSL" in words or "TLS" in words:
-            return PacsError(self._host, "no TLS that both sides speak", "https", "check the address")
+            return PacsError(self._host, "no common TLS version", "https", "check the address")
         mend = "check the address, the network and that the server runs"
         return PacsError(self._host, "no connection", "a server of DICOMweb", mend)
 
 
 def _trusted(certificates: Path | None) -> ssl.SSLContext:
-    """Whom to trust: the authorities of a file alone, else those of the machine and of common browsers."""
+    """The trusted authorities: those of a file only, otherwise those of the machine and of certifi."""
     named = os.environ.get(CERTIFICATES)
     place = certificates if certificates is not None else Path(named) if named else None
     try:

@@ -1,4 +1,4 @@
-"""Who asks a PACS: a token of the environment or a file, or a name and a password of netrc; never shown."""
+"""Credentials for a PACS: a token from the environment or a file, or netrc; never shown."""
 
 from __future__ import annotations
 
@@ -16,21 +16,21 @@ _WAYS = f"the environment as {TOKEN}, a file by --token-file or {TOKEN_FILE}, or
 
 
 class Credentials:
-    """What is sent as Authorization to one host.
+    """The Authorization header for one host.
 
-    A file of a token goes before the environment, and that before netrc.
+    A token file takes precedence over the environment, and the environment over netrc.
 
     Parameters
     ----------
     host : str
-        The host, for which netrc may have a name and a password.
+        The host to look up in netrc.
     token_file : path, optional
-        Holds a token alone; by default what the environment names.
+        A file that contains only a token; default: the file in the environment.
 
     Raises
     ------
     FileError
-        For files that cannot be read or hold nothing.
+        For unreadable and empty files.
     """
 
     def __init__(self, host: str, token_file: Path | None = None) -> None:
@@ -44,16 +44,16 @@ class Credentials:
 
     @property
     def header(self) -> str:
-        """The value of Authorization; empty where nothing is known of the host."""
+        """The value of Authorization; empty without credentials for the host."""
         return self._header
 
     @property
     def mend(self) -> str:
-        """What to do where they are refused, in words."""
-        return f"give a token that is valid in {_WAYS}"
+        """What to do if they are rejected."""
+        return f"give a valid token in {_WAYS}"
 
     def renewed(self) -> bool:
-        """Read them anew; tell whether others are there now."""
+        """Read them again; return whether they changed."""
         before, self._header = self._header, self._read()
         return self._header != before
 
@@ -71,12 +71,12 @@ class Credentials:
         try:
             found = netrc.netrc(place).authenticators(self._host)
         except (netrc.NetrcParseError, UnicodeDecodeError):
-            # The message of the parser quotes the line, and so the password.
+            # The message of the parser would quote the line with the password.
             raise FileError(
-                str(place), "a line that is none of netrc", "machine, login and password"
+                str(place), "a line that is not valid in netrc", "machine, login and password"
             ) from None
         except OSError as error:
-            raise FileError(str(place), error.strerror or str(error), "a file that can be read") from None
+            raise FileError(str(place), error.strerror or str(error), "a readable file") from None
         if found is None:
             return ""
         login, _, password = found
@@ -90,5 +90,5 @@ def _token_in(path: Path) -> str:
         found = (error.strerror if isinstance(error, OSError) else None) or "no text"
         raise FileError(str(path), found, "a file with a token") from None
     if not token or not token.isprintable() or not token.isascii():
-        raise FileError(str(path), "no token, or one with odd letters", "a file with a token alone")
+        raise FileError(str(path), "no token, or one with invalid characters", "a file with only a token")
     return token

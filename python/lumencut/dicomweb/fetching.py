@@ -1,4 +1,4 @@
-"""Instances on their way from a PACS to files: one alone, or all of a series in one stream."""
+"""Downloads instances from a PACS into files: single ones, or a series in one stream."""
 
 from __future__ import annotations
 
@@ -19,19 +19,19 @@ _PREAMBLE = 132
 
 
 def file_of(folder: Path, one: Instance) -> Path:
-    """Return where the file of an instance lies in a folder."""
+    """Return the path of an instance in a folder."""
     return folder / one.series / f"{one.uid}.dcm"
 
 
 def fetch_instance(client: Client, one: Instance, folder: Path, stop: threading.Event) -> None:
-    """Fetch one instance; its file appears only once it is whole.
+    """Fetch one instance; its file appears only when it is complete.
 
     Raises
     ------
     PacsError
-        For whatever is not the whole instance, and once `stop` is set.
+        For anything but the complete instance, and after `stop` is set.
     OSError
-        Where the file cannot be written.
+        If the file cannot be written.
     """
     place = file_of(folder, one)
     part = place.with_suffix(".part")
@@ -41,7 +41,7 @@ def fetch_instance(client: Client, one: Instance, folder: Path, stop: threading.
             _write(answer, file.write, stop)
         if (uid := _uid_in(part)) != one.uid:
             found = "another instance" if uid else "no DICOM file"
-            raise PacsError(one.uid, found, "the instance that was asked for")
+            raise PacsError(one.uid, found, "the requested instance")
         os.replace(part, place)
     finally:
         part.unlink(missing_ok=True)
@@ -52,9 +52,9 @@ def fetch_series(
     wanted: Mapping[str, Instance],
     folder: Path,
     stop: threading.Event,
-    told: Callable[[], object],
+    count: Callable[[], object],
 ) -> set[str]:
-    """Fetch a series as one stream, and keep those of its instances that are wanted.
+    """Fetch a series as one stream, and keep its wanted instances.
 
     Parameters
     ----------
@@ -63,22 +63,22 @@ def fetch_series(
     wanted : mapping of str to Instance
         Instances of one series by their UIDs.
     folder : Path
-        Has a folder for the series.
+        Contains a folder for the series.
     stop : threading.Event
         Ends the stream.
-    told : callable
-        Called for each instance whose file is there.
+    count : callable
+        Called for each complete instance.
 
     Returns
     -------
     set of str
-        The UIDs of those that came whole. The stream may break off, or the PACS give none: who asks for each
-        of the others hears why.
+        The UIDs of the complete ones. The stream may break off or be empty; requests for each of the others
+        then show why.
 
     Raises
     ------
     OSError
-        Where a file cannot be written.
+        If a file cannot be written.
     """
     first = next(iter(wanted.values()))
     part, come = folder / first.series / "series.part", set[str]()
@@ -92,7 +92,7 @@ def fetch_series(
                 if uid in wanted and uid not in come:
                     os.replace(part, file_of(folder, wanted[uid]))
                     come.add(uid)
-                    told()
+                    count()
     except (PacsError, MultipartError):
         return come
     finally:
@@ -106,7 +106,7 @@ def _next_part(reader: PartReader, part: Path) -> bool:
 
 
 def _write(answer: httpx.Response, write: Callable[[bytes], object], stop: threading.Event) -> None:
-    """Hand the one instance in an answer on."""
+    """Pass on the only instance of an answer."""
     try:
         reader = _reader(answer, stop)
         if reader is None:
@@ -117,15 +117,15 @@ def _write(answer: httpx.Response, write: Callable[[bytes], object], stop: threa
             while reader.read(_pass):
                 pass
     except MultipartError as error:
-        raise PacsError("instance", str(error), "a whole instance") from None
+        raise PacsError("instance", str(error), "a complete instance") from None
 
 
 def _pass(_: bytes) -> None:
-    """Take no notice of a part."""
+    """Ignore a part."""
 
 
 def _reader(answer: httpx.Response, stop: threading.Event) -> PartReader | None:
-    """What reads the parts of an answer; None where it has no parts."""
+    """The reader of the parts of an answer; None if it has no parts."""
     boundary = boundary_of(answer.headers.get("content-type", ""))
     return None if boundary is None else PartReader(_chunks(answer, stop), boundary)
 
@@ -133,12 +133,12 @@ def _reader(answer: httpx.Response, stop: threading.Event) -> PartReader | None:
 def _chunks(answer: httpx.Response, stop: threading.Event) -> Iterator[bytes]:
     for chunk in answer.iter_bytes():
         if stop.is_set():
-            raise PacsError("instance", "an end before all was there", "the whole instance")
+            raise PacsError("instance", "an incomplete answer", "the complete instance")
         yield chunk
 
 
 def _uid_in(part: Path) -> str:
-    """The UID of the instance in a file; empty where it is no DICOM file."""
+    """The UID of the instance in a file; empty if it is not a DICOM file."""
     import pydicom
 
     try:
@@ -149,5 +149,5 @@ def _uid_in(part: Path) -> str:
         return str(header.get("SOPInstanceUID") or "")
     except OSError:
         raise
-    except Exception:  # what pydicom raises for what is no DICOM is nearly everything
+    except Exception:  # pydicom raises almost any exception for files that are not DICOM
         return ""

@@ -1,4 +1,4 @@
-"""The addresses that something was pushed to before: the user is asked before the first time."""
+"""The addresses of earlier pushes: the user is asked before the first push."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ from lumencut._files import write_text
 
 
 def is_known(base: str) -> bool:
-    """Tell whether this user has pushed to an address before."""
+    """Return whether this user has pushed to an address before."""
     return base in _known()
 
 
 def remember(base: str) -> None:
-    """Keep an address; where that cannot be, the user is asked again."""
+    """Remember an address; if that fails, the user is asked again."""
     known = _known()
     if base in known:
         return

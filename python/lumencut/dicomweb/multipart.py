@@ -1,4 +1,4 @@
-"""Messages of several parts (multipart/related), in which DICOMweb sends and takes instances."""
+"""Messages of several parts (multipart/related), the format of instances in DICOMweb."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ _LONGEST_HEAD = 1 << 16
 
 
 class MultipartError(ValueError):
-    """A message that is no such message, or ends before its end."""
+    """An invalid or truncated message."""
 
 
 def boundary_of(content_type: str) -> bytes | None:
-    """Return what parts are divided by; None for a message of one part."""
+    """Return the boundary of the parts; None for a message of one part."""
     message = Message()
     message["Content-Type"] = content_type
     if message.get_content_maintype() != "multipart":
@@ -26,14 +26,14 @@ def boundary_of(content_type: str) -> bytes | None:
 
 
 class PartReader:
-    """Reads the parts of a message one after the other, and holds no more of it than a piece.
+    """Reads the parts of a message one after the other, with only a piece of it in memory.
 
     Parameters
     ----------
     chunks : iterable of bytes
-        The message as it comes in.
+        The message.
     boundary : bytes
-        What divides its parts.
+        Separates its parts.
     """
 
     def __init__(self, chunks: Iterable[bytes], boundary: bytes) -> None:
@@ -42,12 +42,12 @@ class PartReader:
         self._has_begun = False
 
     def read(self, write: Callable[[bytes], object]) -> bool:
-        """Hand the content of the next part on, piece by piece; tell whether there was one.
+        """Pass on the content of the next part, piece by piece; return whether there was one.
 
         Raises
         ------
         MultipartError
-            Where the message ends before its end, or is none.
+            If the message is truncated or invalid.
         """
         if not self._has_begun:
             self._skip(self._opening)
@@ -63,7 +63,7 @@ class PartReader:
         return True
 
     def _copy(self, write: Callable[[bytes], object]) -> None:
-        """Hand on what comes before the next boundary, and stand behind it."""
+        """Pass on the content before the next boundary, and skip the boundary."""
         mark = b"\r\n" + self._opening
         while (end := self._held.find(mark)) < 0:
             if len(self._held) >= len(mark):
@@ -74,7 +74,7 @@ class PartReader:
         self._held = self._held[end + len(mark) :]
 
     def _skip(self, wanted: bytes) -> None:
-        """Stand behind the first place of something in what comes; the head of a part cannot be long."""
+        """Skip to after the first match; the head of a part is short."""
         while (place := self._held.find(wanted)) < 0:
             if len(self._held) > _LONGEST_HEAD:
                 raise MultipartError("no part")

@@ -1,4 +1,4 @@
-"""DICOM objects on disk that are to be sent: what each is, and which of them cannot be sent."""
+"""DICOM objects on disk to send: their descriptions, and which of them cannot be sent."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _PREAMBLE = 132
 
 @dataclass(frozen=True)
 class Outgoing:
-    """An object that is to be sent.
+    """An object to send.
 
     Attributes
     ----------
@@ -34,11 +34,11 @@ class Outgoing:
     uid, study, series : str
         Its UIDs.
     kind : str
-        What it is, in the words of the standard.
+        The name of its class in the standard.
     description : str
-        That of its series.
+        The description of its series.
     patient : Patient
-        Whose it is.
+        Its patient.
     """
 
     source: Source
@@ -51,7 +51,7 @@ class Outgoing:
 
     @property
     def size(self) -> int:
-        """How many bytes it has."""
+        """Its size in bytes."""
         return self.source.size
 
     def content(self) -> bytes:
@@ -68,14 +68,14 @@ def outgoing_objects(paths: Iterable[Path]) -> tuple[list[Outgoing], list[str]]:
     objects : list of Outgoing
         In the order of the paths.
     left_out : list of str
-        The files that are no DICOM.
+        The files that are not DICOM.
 
     Raises
     ------
     FormatError
-        For objects without UIDs, for two different files of one UID, and where there is no object at all.
+        For objects without UIDs, two different files of one UID, and no object at all.
     FileError
-        For files that cannot be read.
+        For unreadable files.
     """
     objects: list[Outgoing] = []
     left_out: list[str] = []
@@ -108,26 +108,26 @@ def _object(source: Source) -> Outgoing | None:
         return None
     if not all(is_uid(uid) for uid in (own, study, series, kind)):
         found = "an object without the UIDs of its class, study, series or itself"
-        mend = "a PACS takes no such objects; let the program that made it write them"
-        raise FormatError(str(source), found, "a whole DICOM object", mend)
+        mend = "a PACS rejects such objects; the program that made it must write them"
+        raise FormatError(str(source), found, "a complete DICOM object", mend)
     description = printable(str(data.get("SeriesDescription") or ""))
     patient = Patient.in_header(data)
     return Outgoing(source, own, study, series, printable(kind.name), description, patient)
 
 
 def _once(objects: Sequence[Outgoing]) -> list[Outgoing]:
-    """Each object once: what was written twice is left out, other content under the same UID is refused."""
+    """Each object once: copies are left out, other content under the same UID is rejected."""
     known: dict[str, Outgoing] = {}
     for one in objects:
         first = known.setdefault(one.uid, one)
         if first is not one and _lasting(first) != _lasting(one):
             found = f"the same UID in {first.source}, with other content"
-            raise FormatError(str(one.source), found, "a UID of its own", "leave one of them out")
+            raise FormatError(str(one.source), found, "a separate UID", "leave one of them out")
     return list(known.values())
 
 
 def _lasting(one: Outgoing) -> Any:
-    """The object but for the time at which it was written."""
+    """The object without the time of writing."""
     import pydicom
 
     data = pydicom.dcmread(io.BytesIO(one.content()))

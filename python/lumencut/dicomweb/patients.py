@@ -1,4 +1,4 @@
-"""Whose study is sent to: the patients of objects, compared with those that a PACS has for their studies."""
+"""Compares the patients of objects with those that a PACS has for their studies."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ _LIST = "lumencut push --dry-run lists the patient of each object"
 
 
 def check_objects(objects: Sequence[Outgoing]) -> list[str]:
-    """Refuse objects of two patients in one study.
+    """Reject objects of two patients in one study.
 
     Returns
     -------
     list of str
-        The studies whose patients cannot be compared, in sentences.
+        A sentence for each study whose patients cannot be compared.
 
     Raises
     ------
@@ -41,14 +41,14 @@ def check_objects(objects: Sequence[Outgoing]) -> list[str]:
 
 
 def check_pacs(client: Client, host: str, objects: Sequence[Outgoing]) -> tuple[list[str], list[str]]:
-    """Refuse objects of another patient than that of their study in the PACS.
+    """Reject objects whose patient differs from that of their study in the PACS.
 
     Returns
     -------
     unknown : list of str
         The UIDs of the studies that the PACS does not have.
     doubts : list of str
-        The studies whose patients cannot be compared, in sentences.
+        A sentence for each study whose patients cannot be compared.
 
     Raises
     ------
@@ -73,12 +73,12 @@ def _doubts(uid: str, own: Patient, other: Patient) -> list[str]:
     if not own.is_comparable(other):
         return [f"study {uid}: patients cannot be compared; the objects have {own}, the PACS {other}"]
     if own.has_lone_issuer(other):
-        return [f"study {uid}: one issuer alone is stated; the objects have {own}, the PACS {other}"]
+        return [f"study {uid}: only one issuer is stated; the objects have {own}, the PACS {other}"]
     return []
 
 
 def _first_named(objects: Sequence[Outgoing]) -> Outgoing:
-    """The first object that names its patient, with the issuer where any states it."""
+    """The first object that names its patient, preferably with the issuer."""
     named = [one for one in objects if one.patient.id]
     issued = [one for one in named if one.patient.issuer]
     return (issued or named or objects)[0]

@@ -1,4 +1,4 @@
-"""Instances of a PACS into a folder: each whole or not at all, and only those that are not there yet."""
+"""Fetches instances of a PACS into a folder: only missing ones, each complete or not at all."""
 
 from __future__ import annotations
 
@@ -14,26 +14,26 @@ from lumencut.dicomweb.queries import Instance
 from lumencut.errors import FileError, PacsError
 
 _TRIES = 2
-#: A series of which more than so many instances are missing, and more than half, comes as one stream.
+#: A series is fetched as one stream if more than this many instances and more than half are missing.
 STREAMED = 100
-#: So many failures one after the other, and a PACS is taken to be gone.
+#: Consecutive failures after which a PACS counts as lost.
 _PATIENCE = 12
 
 
 @dataclass
 class Pulled:
-    """What became of a pull.
+    """The result of a pull.
 
     Attributes
     ----------
     folder : Path
-        Where the files lie, as SERIES/INSTANCE.dcm.
+        The folder of the files SERIES/INSTANCE.dcm.
     listed : int
-        How many instances the PACS lists.
+        The number of instances that the PACS lists.
     before : int
-        How many of them were there already.
+        The number that existed before.
     fetched : int
-        How many were fetched now.
+        The number fetched now.
     missing : dict of str to str
         The instances that are still missing, by their UIDs, each with the reason.
     """
@@ -46,12 +46,12 @@ class Pulled:
 
     @property
     def is_complete(self) -> bool:
-        """Whether all that the PACS lists is in the folder."""
+        """Whether all listed instances are in the folder."""
         return not self.missing
 
     @property
     def reasons(self) -> str:
-        """Why instances are missing: each reason once, with how often it holds."""
+        """Why instances are missing: each reason with its count."""
         counts: dict[str, int] = {}
         for reason in self.missing.values():
             counts[reason] = counts.get(reason, 0) + 1
@@ -64,25 +64,25 @@ def pull_instances(
     folder: Path,
     progress: Callable[[int, int], object] | None = None,
 ) -> Pulled:
-    """Fetch instances into a folder; those whose files are there already are not asked for.
+    """Fetch instances into a folder, except those that exist already.
 
-    A series of which much is missing comes as one stream; the rest one by one, several at once.
+    A series with many missing instances is fetched as one stream; the others one by one, several at once.
 
     Parameters
     ----------
     client : Client
         The PACS.
     instances : sequence of Instance
-        What is wanted.
+        The wanted instances.
     folder : Path
-        Made where it is missing.
+        Created if missing.
     progress : callable, optional
-        Called with (instances that are there, instances in all).
+        Called with (existing instances, all instances).
 
     Raises
     ------
     FileError
-        For a folder that cannot be made.
+        For a folder that cannot be created.
     """
     try:
         for series in {one.series for one in instances}:
@@ -96,24 +96,23 @@ def pull_instances(
         work.stream(wanted, instances)
         work.ask([one for one in wanted if not file_of(folder, one).exists()])
     finally:
-        # After Ctrl-C nothing more is asked for, and what is half written goes.
+        # After Ctrl-C nothing more is requested, and partial files are removed.
         work.stop.set()
     return done
 
 
 class _Work:
-    """What is under way."""
+    """A running pull."""
 
     def __init__(
         self, client: Client, folder: Path, done: Pulled, progress: Callable[[int, int], object] | None
     ) -> None:
         self._client, self._folder, self._done, self._progress = client, folder, done, progress
         self.stop = threading.Event()
-        #: Why nothing more can be written.
         self._broken = ""
 
     def stream(self, wanted: Sequence[Instance], instances: Sequence[Instance]) -> None:
-        """Fetch each series of which much is missing as one stream."""
+        """Fetch each series with many missing instances as one stream."""
         for series in dict.fromkeys(one.series for one in wanted):
             missing = {one.uid: one for one in wanted if one.series == series}
             count = sum(one.series == series for one in instances)
@@ -143,15 +142,15 @@ class _Work:
             pool.shutdown(cancel_futures=True)
 
     def _told(self) -> None:
-        """One more is there."""
+        """Count one more instance."""
         done = self._done
         done.fetched += 1
         if self._progress is not None:
             self._progress(done.before + done.fetched, done.listed)
 
     def _fetched(self, one: Instance) -> str:
-        """Fetch one instance; return why that failed, or nothing."""
-        reason = "not asked for any more after the failures before"
+        """Fetch one instance; return the reason of a failure."""
+        reason = "not requested after the earlier failures"
         for _ in range(_TRIES):
             if self._broken or self.stop.is_set():
                 return self._broken or reason
@@ -163,7 +162,7 @@ class _Work:
                 if error.mend:
                     reason += f"; {error.mend}"
             except OSError as error:
-                # A full disk has no room for the others either.
+                # A full disk fails for the others too.
                 self._broken = f"{self._folder}: {error.strerror or error}"
                 return self._broken
         return reason

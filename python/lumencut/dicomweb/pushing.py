@@ -1,4 +1,4 @@
-"""Objects into a PACS (STOW-RS): in batches, what fails once more, and all confirmed by a search."""
+"""Sends objects to a PACS (STOW-RS) in batches, retries failures once, and confirms all by a search."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ from lumencut.errors import PacsError
 _MOST_OBJECTS, _MOST_BYTES = 32, 64 << 20
 _TRIES = 2
 _FAILED, _UID, _REASON = "00081198", "00081155", "00081197"
-#: Failure reasons of PS3.18, table I.2-2, in words, and whether they would be the same another time.
+#: Failure reasons of PS3.18, table I.2-2, and whether they are permanent.
 _REASONS = {
     0x0110: ("processing failure", False),
-    0x0122: ("the PACS does not take this kind of object", True),
+    0x0122: ("the PACS does not accept this kind of object", True),
     0x0124: ("not allowed with these credentials", True),
-    0xC122: ("the PACS does not take this transfer syntax", True),
+    0xC122: ("the PACS does not accept this transfer syntax", True),
 }
-#: Those of which the last digits tell more, in no way that the standard names.
+#: Reasons whose last digits have no meaning in the standard.
 _FAMILIES = {
     0xA7: ("out of resources", False),
     0xA9: ("the object does not fit its class", True),
@@ -33,16 +33,16 @@ _FAMILIES = {
 
 @dataclass(frozen=True)
 class Refusal:
-    """Why an object was not taken.
+    """Why an object was rejected.
 
     Attributes
     ----------
     words : str
         The reason.
     is_final : bool
-        Whether it would be the same another time.
+        Whether it is permanent.
     is_named : bool
-        Whether the PACS named this object; else the request failed that it was in.
+        Whether the PACS named this object; otherwise its whole request failed.
     """
 
     words: str
@@ -50,19 +50,19 @@ class Refusal:
     is_named: bool = True
 
 
-_NOT_FOUND = Refusal("taken, but not found by a search afterwards")
+_NOT_FOUND = Refusal("accepted, but not found by a search afterwards")
 
 
 @dataclass
 class Pushed:
-    """What became of a push.
+    """The result of a push.
 
     Attributes
     ----------
     confirmed : int
-        How many objects were taken and found again.
+        The number of objects that were accepted and found again.
     before : int
-        How many the PACS had before. It says that it takes them again, and mostly keeps what it had.
+        The number that the PACS had before. It accepts them again, and usually keeps its own.
     failed : dict of str to Refusal
         The others, by their UIDs.
     """
@@ -78,7 +78,7 @@ def push_objects(
     objects: Sequence[Outgoing],
     progress: Callable[[int, int], object] | None = None,
 ) -> Pushed:
-    """Send objects, those that fail once more, and search for all of them afterwards.
+    """Send objects, retry failures once, and search for all of them afterwards.
 
     Parameters
     ----------
@@ -87,14 +87,14 @@ def push_objects(
     address : Address
         Its address.
     objects : sequence of Outgoing
-        What is sent.
+        The objects to send.
     progress : callable, optional
-        Called with (objects that were sent, objects in all).
+        Called with (sent objects, all objects).
 
     Raises
     ------
     PacsError
-        Where the PACS refuses who asks.
+        If the PACS rejects the credentials.
     """
     before = _found(client, address, objects)
     failed = _sent(client, objects, progress)
@@ -105,7 +105,7 @@ def push_objects(
         final = {uid: refusal for uid, refusal in failed.items() if refusal.is_final}
         failed = final | _sent(client, again, None)
     there = _found(client, address, objects)
-    # What a search finds is there, whatever was answered.
+    # A search decides what is there, regardless of the answers.
     for one in objects:
         if one.uid not in there:
             failed.setdefault(one.uid, _NOT_FOUND)
@@ -117,7 +117,7 @@ def push_objects(
 def _sent(
     client: Client, objects: Sequence[Outgoing], progress: Callable[[int, int], object] | None
 ) -> dict[str, Refusal]:
-    """Send each object once; return the reasons of those that failed."""
+    """Send each object once; return the reasons of failures."""
     failed: dict[str, Refusal] = {}
     done = 0
     for batch in _batches(objects):
@@ -129,7 +129,7 @@ def _sent(
 
 
 def _batches(objects: Sequence[Outgoing]) -> Iterator[list[Outgoing]]:
-    """The objects in their order, so many at once as one request should hold."""
+    """The objects in order, grouped into requests."""
     batch: list[Outgoing] = []
     size = 0
     for one in objects:
@@ -145,25 +145,25 @@ def _batches(objects: Sequence[Outgoing]) -> Iterator[list[Outgoing]]:
 def _stored(client: Client, batch: Sequence[Outgoing]) -> dict[str, Refusal]:
     body, content_type = written([one.content() for one in batch])
     try:
-        status, told = client.post("/studies", body, content_type)
+        status, answer = client.post("/studies", body, content_type)
     except PacsError as error:
         if error.found.startswith(("status 401", "status 403")):
             raise
         return _all_of(batch, error.found)
-    named = _failures(told)
+    named = _failures(answer)
     if status in (200, 202) or named:
         return {one.uid: named[one.uid] for one in batch if one.uid in named}
-    return _all_of(batch, f"status {status} for the request that it was in")
+    return _all_of(batch, f"status {status} for its request")
 
 
 def _all_of(batch: Sequence[Outgoing], why: str) -> dict[str, Refusal]:
     return {one.uid: Refusal(why, is_named=False) for one in batch}
 
 
-def _failures(told: dict[str, Any]) -> dict[str, Refusal]:
-    """The objects that an answer names as failed, by UID."""
+def _failures(answer: dict[str, Any]) -> dict[str, Refusal]:
+    """The objects that an answer reports as failed, by UID."""
     found = {}
-    for item in (told.get(_FAILED) or {}).get("Value") or ():
+    for item in (answer.get(_FAILED) or {}).get("Value") or ():
         uid = ((item.get(_UID) or {}).get("Value") or [""])[0]
         reason = int(((item.get(_REASON) or {}).get("Value") or [0])[0])
         known = _REASONS.get(reason) or _FAMILIES.get(reason >> 8) or _FAMILIES.get((reason >> 8) & 0xF0)
@@ -179,7 +179,7 @@ def _found(client: Client, address: Address, objects: Sequence[Outgoing]) -> set
         try:
             listed = find_instances(client, Address(address.base, study, series))
         except PacsError:
-            # A series that is not there at all: all of its objects are named.
+            # Without the series all of its objects are missing.
             continue
         found.update(one.uid for one in listed)
     return found

@@ -1,4 +1,4 @@
-"""What a PACS has (QIDO-RS): studies, their series, and the instances of these."""
+"""Searches in a PACS (QIDO-RS): studies, series and instances."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ _SERIES_TEXTS = {
 
 @dataclass(frozen=True)
 class Found:
-    """A study or series that a PACS tells of: its address, and what it says of it as texts."""
+    """A study or series of a PACS: its address and attributes as text."""
 
     address: Address
     texts: Mapping[str, str]
@@ -50,12 +50,12 @@ class Instance:
 
     @property
     def path(self) -> str:
-        """Where it lies in the PACS."""
+        """Its path in the PACS."""
         return f"/studies/{self.study}/series/{self.series}/instances/{self.uid}"
 
 
 def find_studies(client: Client, address: Address, match: Mapping[str, str], most: int) -> list[Found]:
-    """Find studies by attributes of DICOM (wildcards ``*`` and ``?``, dates as ``20260101-20261231``)."""
+    """Find studies by DICOM attributes (wildcards ``*`` and ``?``, dates as ``20260101-20261231``)."""
     fields = {"includefield": ",".join(_STUDY_TEXTS.values()), **match}
     found = []
     for one in _pages(client, "/studies", fields, _STUDY, most):
@@ -65,7 +65,7 @@ def find_studies(client: Client, address: Address, match: Mapping[str, str], mos
 
 
 def find_patients(client: Client, uid: str) -> list[Patient]:
-    """Find the patients that the PACS has for a study; empty where it does not have the study."""
+    """Find the patients of a study; empty if the PACS does not have the study."""
     fields = {"StudyInstanceUID": uid, "includefield": ",".join(_IDENTITY)}
     found = [one for one in client.json("/studies", fields) if _text(one, _STUDY) == uid]
     return list(dict.fromkeys(Patient.of(*(_text(one, tag) for tag in _IDENTITY)) for one in found))
@@ -87,7 +87,7 @@ def find_instances(client: Client, address: Address) -> list[Instance]:
     Raises
     ------
     PacsError
-        Where there are none, or the PACS refuses.
+        If there are none, or the PACS rejects the search.
     """
     series = [address] if address.series else [one.address for one in find_series(client, address)]
     found: list[Instance] = []
@@ -103,7 +103,7 @@ def find_instances(client: Client, address: Address) -> list[Instance]:
 def _pages(
     client: Client, path: str, fields: Mapping[str, str], key: str, most: int | None = None
 ) -> Iterator[dict[str, Any]]:
-    """All that a search finds, page by page, up to `most`. Servers may know no pages, or shorter ones."""
+    """All results of a search, page by page, up to `most`. Servers may ignore paging or use shorter pages."""
     seen: set[str] = set()
     while most is None or len(seen) < most:
         size = _PAGE if most is None else min(_PAGE, most - len(seen))
@@ -112,8 +112,8 @@ def _pages(
         for one in page:
             uid = _text(one, key)
             if not is_uid(uid):
-                raise PacsError(path, f"{uid!r:.80} for a UID", "numbers with points between them")
-            # A series that two patients have, by a mistake of whoever gave its study, is listed twice.
+                raise PacsError(path, f"{uid!r:.80} for a UID", "numbers separated by points")
+            # A series that wrongly belongs to two patients is listed twice.
             if uid not in seen:
                 seen.add(uid)
                 yield one
@@ -126,12 +126,11 @@ def _texts(one: Mapping[str, Any], tags: Mapping[str, str]) -> dict[str, str]:
 
 
 def _text(one: Mapping[str, Any], tag: str) -> str:
-    """The values of an attribute in the JSON of DICOM as one printable text; empty where it has none."""
+    """The values of an attribute in DICOM JSON as one printable text; empty without values."""
     element = one.get(tag)
     values = element.get("Value") if isinstance(element, dict) else None
     texts = []
     for value in values if isinstance(values, list) else ():
-        # A name has several ways to be written.
         shown = next(iter(value.values()), "") if isinstance(value, dict) else value
         texts.append("" if shown is None else str(shown))
     joined = "\\".join(texts)

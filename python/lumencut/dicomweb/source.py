@@ -1,4 +1,4 @@
-"""A series of a PACS as a folder of files, for as long as somebody reads it."""
+"""A series of a PACS as a temporary folder of files."""
 
 from __future__ import annotations
 
@@ -15,17 +15,17 @@ from lumencut.dicomweb.pulling import pull_instances
 from lumencut.dicomweb.queries import find_instances, find_series
 from lumencut.errors import PacsError
 
-#: Of which a series can be a volume; reports and pictures beside them are not fetched.
+#: Modalities of series that can be volumes; reports and pictures are not fetched.
 _MODALITIES = ("CT", "MR", "XA")
 
 
 class FetchedFolder:
-    """A folder of files that were fetched, which goes with the last one who holds it, or with the program.
+    """A folder of fetched files, removed with its last reference, or at the end of the program.
 
     Attributes
     ----------
     path : Path
-        The folder, which only this user can enter.
+        The folder, accessible only to this user.
     """
 
     def __init__(self) -> None:
@@ -38,24 +38,24 @@ def fetched(
     series: str | None = None,
     progress: Callable[[int, int], object] | None = None,
 ) -> FetchedFolder:
-    """Fetch what an address names into a folder.
+    """Fetch a study or series into a folder.
 
     Parameters
     ----------
     given : str or path
-        ``dicomweb:https://HOST/ROOT/studies/UID``, and ``/series/UID`` behind it.
+        ``dicomweb:https://HOST/ROOT/studies/UID``, optionally followed by ``/series/UID``.
     series : str, optional
-        The number or UID of the series of a study that is fetched alone; by default those that can be
-        volumes, or all where none can.
+        The number or UID of the only series to fetch; by default all series that can be volumes, or all if
+        none can.
     progress : callable, optional
-        Called with (instances that are there, instances in all).
+        Called with (existing instances, all instances).
 
     Raises
     ------
     FormatError
-        For what is no such address.
+        For an invalid address.
     PacsError
-        Where the PACS cannot be reached, refuses, or does not give all instances.
+        If the PACS cannot be reached, rejects the request, or does not send all instances.
     """
     address = parsed_address(given)
     if not address.study:
@@ -78,7 +78,7 @@ def _parts(client: Client, address: Address, series: str | None) -> list[Address
     if not every:
         raise PacsError(str(address), "no such study", "a study that the PACS has", "check the UID")
     if series is not None:
-        # A series that is not there is named by whoever reads the files.
+        # The reader of the files reports a missing series.
         chosen = [one for one in every if series in (one.address.series, one.texts["number"])]
     else:
         chosen = [one for one in every if one.texts["modality"] in _MODALITIES]

@@ -29,7 +29,7 @@ def show(
 ) -> VesselWidget:
     """Return a view of an angiography for a notebook, which is turned with the mouse as in the viewer.
 
-    The pictures come from the kernel: nothing else is asked, and the volume stays where it is. Drags turn
+    The kernel makes the pictures; no other server is contacted, and the volume stays there. Drags turn
     (left), pan (middle, or Shift) and change the window (right, or Ctrl); the wheel zooms. A click, or a
     double click, puts the cross-hair there and picks the vessel. docs/notebook.md lists all of it.
 
@@ -38,23 +38,23 @@ def show(
 
     Parameters
     ----------
-    volume : Volume, or whatever else :func:`lumencut.render` takes as one
+    volume : Volume, or anything :func:`lumencut.render` takes as one
         The angiography.
     tree : VesselTree, optional
-        Its centerlines; the context alone is shown where not given.
+        Its centerlines; by default the view shows the context alone.
     camera : Camera, optional
-        The first view; from the front, fitted to the tree or else the volume, where not given.
+        The first view; from the front, fitted to the tree or else the volume by default.
     settings : Settings, optional
-        The knobs; their defaults where not given, and a MIP where vessels are traced.
+        The settings; defaults if omitted, and a MIP where vessels are traced.
     size : (int, int), default (512, 512)
         Width and height of the picture (pixels, at most 4096), where no camera is given.
     trace : bool, default False
         Whether clicks set points of vessels, which are traced through them: a click sets a point, a double
         click ends the vessel, Backspace takes the last point away. ``widget.tree`` has the vessels.
     linked : bool, default True
-        Whether the picked vessel is shown straightened beside the view, with the section across it.
+        Whether to show the picked vessel straightened next to the view, with the section across it.
     names : bool, default True
-        Whether the names of the vessels stand in the picture.
+        Whether to write the names of the vessels into the picture.
     device : {"auto", "cpu", "gpu"}, default "auto"
         What computes, as for :class:`lumencut.Renderer`.
     **changes

@@ -1,4 +1,4 @@
-"""What a notebook shows first, checked: scene, camera and settings from the arguments of `show`."""
+"""The first view of a notebook: scene, camera and settings from the checked arguments of `show`."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ from lumencut.notebook.scene import DeviceName, Scene
 from lumencut.settings import Settings
 from lumencut.vessel_tree import VesselTree
 
-#: The longest side of a picture (pixels): more than a screen has, and what a browser takes at once.
+#: Longest side of a picture (pixels): larger than a screen, and accepted by browsers.
 MOST_PIXELS = 4096
 
 
 @dataclass(frozen=True)
 class FirstView:
-    """A scene, the camera that looks at it, and the settings."""
+    """A scene, its camera and the settings."""
 
     scene: Scene
     camera: Camera
@@ -38,7 +38,7 @@ class FirstView:
         *,
         is_traced: bool,
     ) -> FirstView:
-        """Return what the arguments of :func:`lumencut.show` ask for; errors as told there."""
+        """Return the view of the arguments of :func:`lumencut.show`, with the same errors."""
         chosen = _changed(settings, changes, is_traced=is_traced)
         scene = Scene(volume, tree, device)
         if camera is None:
@@ -61,7 +61,7 @@ def _changed(settings: Settings | None, changes: Mapping[str, Any], *, is_traced
 
 
 def checked_size(size: Any) -> tuple[int, int]:
-    """Return a size of a picture (pixels), refused where it is larger than a notebook shows."""
+    """Return a checked size of a picture (pixels)."""
     width, height = integers(CameraError, "size of the picture", size, 1, 32768, 2)
     if max(width, height) > MOST_PIXELS:
         found, expected = f"{width} × {height} pixels", f"at most {MOST_PIXELS} along each side"

@@ -29,7 +29,7 @@ def turned(camera: Camera, pivot: Point, axis: npt.ArrayLike, angle: float) -> C
 
 
 def trackballed(camera: Camera, pivot: Point, right: float, down: float) -> Camera:
-    """Return the camera after a drag (pixels) over a ball: the whole height of the view is half a turn."""
+    """Return the camera after a drag (pixels) over a ball: the height of the view is half a turn."""
     pixels = math.hypot(right, down)
     if pixels == 0:
         return camera
@@ -43,7 +43,7 @@ def spun(camera: Camera, pivot: Point, axis: npt.ArrayLike, right: float) -> Cam
 
 
 def panned(camera: Camera, right: float, down: float) -> Camera:
-    """Return the camera after the scene was dragged by so many pixels."""
+    """Return the camera after the scene was dragged by these pixels."""
     return camera.panned(-right * camera.pixel_spacing, down * camera.pixel_spacing)
 
 

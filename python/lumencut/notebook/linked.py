@@ -1,4 +1,4 @@
-"""The two pictures beside the turning one: the picked vessel straightened, and the section across it."""
+"""The two pictures next to the turning one: the picked vessel straightened, and its cross section."""
 
 from __future__ import annotations
 
@@ -22,11 +22,11 @@ Pixel = tuple[float, float]
 #: A notch of the wheel turns the straightened vessel by this (radians), or moves the section by this (mm).
 TURN_STEP = math.pi / 36
 STEP = 0.5
-#: A section shows so many radii to each side of the vessel, and is between these sides (mm).
+#: Half width of a section (radii of the vessel), and limits of its side (mm).
 _RADII, _SIDES = 4.0, (12.0, 120.0)
 #: Pixels of a section, and the most rows of a straightened vessel.
 _SECTION_PIXELS, _MOST_ROWS = 160, 512
-#: A straightened vessel has at most so many pixels for each side of a voxel: a short one must be seen.
+#: Largest number of pixels per voxel side of a straightened vessel, which enlarges short vessels.
 _FINER = 3
 
 
@@ -50,11 +50,11 @@ class Linked:
         return self._changed(place, self.straightened)
 
     def turned(self, notches: int) -> Linked:
-        """Return the vessel seen from farther to the right, by so many notches of the wheel."""
+        """Return the vessel seen from farther to the right by notches of the wheel."""
         return self._changed(self.place, self.straightened.rotated(notches * TURN_STEP))
 
     def scrolled(self, notches: int) -> Linked:
-        """Return the pictures of the place that is so many notches farther along the vessel."""
+        """Return the pictures of the place farther along the vessel by notches of the wheel."""
         at = min(max(self.place.at + notches * STEP, 0.0), self.vessel.length)
         return self.moved(replace(self.place, at=at))
 

@@ -14,7 +14,7 @@ _QUALITY = 80
 _QUICK, _SLOW, _VERY_SLOW = 25.0, 60.0, 200.0
 #: The shares of the pixels along a side: few, so that pictures do not pump.
 _SHARES = (1.0, 0.75, 0.5, 0.35, 0.25)
-#: So many slow pictures in a row are a slow machine, and not something else that computes for a moment.
+#: Consecutive slow pictures that indicate a slow machine, not a short disturbance.
 _IN_A_ROW = 3
 
 
@@ -43,7 +43,7 @@ def _written(image: npt.NDArray[np.uint8], kind: str, **options: int) -> bytes:
 
 
 class Pace:
-    """How many pixels a moving picture has: as many as are made in time.
+    """The number of pixels of a moving picture, adapted to the speed of the machine.
 
     Attributes
     ----------
@@ -56,7 +56,7 @@ class Pace:
         self._slow = self._quick = 0
 
     def took(self, milliseconds: float) -> None:
-        """Learn how long a picture of this share took; a very slow one need not be seen three times."""
+        """Record the time of a picture of this share; a very slow one counts at once."""
         if milliseconds > _VERY_SLOW:
             fitting = self.share * math.sqrt(_SLOW / milliseconds)
             self.share = next((share for share in _SHARES if share <= fitting), _SHARES[-1])

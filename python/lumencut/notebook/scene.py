@@ -1,4 +1,4 @@
-"""What a notebook shows: a volume with its vessels, and what a click into a picture of them means."""
+"""The scene of a notebook: a volume with its vessels, and the meaning of clicks into its pictures."""
 
 from __future__ import annotations
 
@@ -34,18 +34,18 @@ class Place:
 
 @dataclass(frozen=True)
 class Pick:
-    """What a pixel shows: the world point (mm, LPS), and the place on the vessel in or beside which it is."""
+    """The world point of a pixel (mm, LPS), and the nearest place on its vessel."""
 
     point: Point
     place: Place | None
 
 
 class Scene:
-    """A volume with its vessels, or alone.
+    """A volume, with or without vessels.
 
     Parameters
     ----------
-    volume : Volume, or whatever else :func:`lumencut.render` takes as one
+    volume : Volume, or anything :func:`lumencut.render` takes as one
         The angiography.
     tree : VesselTree or None
         Its centerlines.
@@ -76,14 +76,14 @@ class Scene:
         return other
 
     def window(self, settings: Settings) -> Window:
-        """Return the window that a picture with these settings has: of the context where there is no tree."""
+        """Return the window that a picture with these settings has: of the context without a tree."""
         used = self.renderer.windowed(settings)
         window = used.context_window if self.tree is None else used.window
         assert isinstance(window, Window)
         return window
 
     def with_window(self, settings: Settings, window: Window | str | None) -> Settings:
-        """Return the settings with another window of what is shown."""
+        """Return the settings with another window."""
         if self.tree is None:
             return replace(settings, context_window=window)
         return replace(settings, window=window)
@@ -91,12 +91,12 @@ class Scene:
     def moving(
         self, camera: Camera, settings: Settings, progress: Callable[[int, int], object] | None = None
     ) -> Frame:
-        """Return a view whose picture alone is asked for, as the viewer shows it while it moves."""
+        """Return a view with only its picture, for movement."""
         quick = replace(settings, samples=1, context_preview=True)
         return self.renderer.render(camera, quick, images=["image"], progress=progress)
 
     def picked(self, camera: Camera, settings: Settings, pixel: tuple[float, float]) -> Pick:
-        """Return what a pixel (column, row) of a view shows.
+        """Return the place that a pixel (column, row) of a view shows.
 
         It is the cut surface as ``Frame.position`` has it, or the brightest place on the ray where no cut
         surface is shown, as with the viewer.
@@ -104,7 +104,7 @@ class Scene:
         Raises
         ------
         TracingError
-            For a ray beside the volume, where no cut surface is shown.
+            For a ray that misses the volume and the cut surface.
         """
         width, height = camera.size
         column = min(max(round(pixel[0]), 0), width - 1)
@@ -117,7 +117,7 @@ class Scene:
         return Pick(point, self._place(int(frame.vessel[row, column]), point, camera.pixel_spacing))
 
     def _shows_cut(self, camera: Camera, settings: Settings, pixel: tuple[float, float]) -> bool:
-        """Whether the pixel shows the cut surface, not what lies around it."""
+        """Whether the pixel shows the cut surface, not its surroundings."""
         if settings.focus is None:
             return True
         used = checked(self.renderer._choosing(settings))
@@ -129,7 +129,7 @@ class Scene:
         return Pick(point, next((place for place in places if place is not None), None))
 
     def _place(self, vessel: int, point: Point, pixel_spacing: float) -> Place | None:
-        """The place on a vessel, where a click at the point means the vessel."""
+        """The place on a vessel, if the click means the vessel."""
         if self.tree is None or vessel < 0:
             return None
         at, is_meant = self._nearest(vessel, point, pixel_spacing)

@@ -1,4 +1,4 @@
-"""All that a notebook shows at a time; a change gives another one, so that a failed one changes nothing."""
+"""The immutable state of a notebook view; a failed change leaves it as it was."""
 
 from __future__ import annotations
 
@@ -25,24 +25,23 @@ Point = npt.NDArray[np.float64]
 Progress = Callable[[int, int], object]
 Pixel = tuple[float, float]
 
-#: A line over the picture has at most so many points.
 _MOST_POINTS = 200
 
 
 @dataclass(frozen=True)
 class Shown:
-    """A scene, the view of it, and what is picked in it.
+    """A scene, its view, and the picked place.
 
     Attributes
     ----------
     scene : Scene
         The volume with its vessels.
     seen : Scene
-        What the view shows: the scene, or its volume alone where vessels are traced, as lines over it.
+        The shown scene: all of it, or while tracing only its volume, with the vessels as lines.
     camera, settings : Camera, Settings
         The view.
     has_names, is_linked : bool
-        Whether the names of the vessels are shown, and the pictures beside the view.
+        Whether to show the names of the vessels, and the pictures next to the view.
     tracing : ClickedVessels or None
         The vessels that clicks trace; None where clicks pick.
     picked : tuple of 3 floats, or None
@@ -50,7 +49,7 @@ class Shown:
     place : Place or None
         The picked vessel and the place on it.
     linked : Linked or None
-        The pictures beside the view.
+        The pictures next to the view.
     """
 
     scene: Scene
@@ -66,7 +65,7 @@ class Shown:
 
     @classmethod
     def first(cls, view: FirstView, *, is_traced: bool, is_linked: bool, has_names: bool) -> Shown:
-        """Return what is shown before anything was done."""
+        """Return the initial state."""
         scene = view.scene
         tracing = ClickedVessels(scene.volume, scene.tree) if is_traced else None
         seen = scene.with_tree(None) if is_traced else scene
@@ -92,7 +91,7 @@ class Shown:
         return self.seen.moving(camera, self.settings, progress)
 
     def with_volume(self, volume: Any, tree: VesselTree | None) -> Shown:
-        """Return another scene, seen as before where it lies where the one before lay."""
+        """Return another scene, with the same view if it lies in the same place."""
         scene = Scene(volume, tree, self.scene.device)
         lies_alike = np.array_equal(scene.volume.corners, self.scene.volume.corners)
         camera = self.camera if lies_alike else Camera.anterior(scene.renderer.scene, self.camera.size)
@@ -102,7 +101,7 @@ class Shown:
         return replace(plain, scene=scene, seen=seen, camera=camera, tracing=tracing)
 
     def with_tree(self, tree: VesselTree | None) -> Shown:
-        """Return the same volume with another tree; what is picked is looked for in it."""
+        """Return the same volume with another tree; with the picked place looked up in it."""
         if tree is self.scene.tree:
             return self
         scene = self.scene.with_tree(tree)
@@ -119,7 +118,7 @@ class Shown:
         return replace(self, picked=(x, y, z))._at(place)
 
     def _at(self, place: Place | None) -> Shown:
-        """The picked vessel, and the pictures of it where they can be made."""
+        """The picked vessel, and its pictures if possible."""
         if place is None or not self.is_linked:
             return replace(self, place=place, linked=None)
         try:
@@ -130,7 +129,7 @@ class Shown:
         return replace(self, place=place, linked=linked)
 
     def with_linked(self, linked: Linked) -> Shown:
-        """Return other pictures beside the view; a place that moved takes the cross-hair along."""
+        """Return other pictures next to the view; the cross-hair follows the place."""
         if linked.place == self.place:
             return replace(self, linked=linked)
         x, y, z = (float(value) for value in linked.vessel_point())
@@ -163,7 +162,7 @@ class Shown:
         return tree.ids(id_or_name(tree, word) if isinstance(word, str) else word)[0]
 
     def assigned(self, name: str, value: Any) -> Shown:
-        """Return what is shown with another value of a trait."""
+        """Return the state with another value of a trait."""
         if name == "tree":
             if self.tracing is None:
                 return self.with_tree(value)
@@ -183,7 +182,7 @@ class Shown:
         Raises
         ------
         TracingError
-            Where no lumen leads to the point.
+            If no lumen leads to the point.
         """
         if self.tracing is None:
             raise TracingError("point", "a view that picks", "one that traces", "use show(…, trace=True)")
@@ -196,11 +195,11 @@ class Shown:
         return self if self.tracing is None else self.with_tree(self.tracing.tree())
 
     def linked_pictures(self) -> dict[str, npt.NDArray[np.uint8]]:
-        """Return the pictures beside the view (H, W, 4), by name; none where no vessel is picked."""
+        """Return the pictures next to the view (H, W, 4), by name; empty without a picked vessel."""
         return {} if self.linked is None else self.linked.pictures(self.settings)
 
-    def told(self) -> dict[str, Any]:
-        """Return what the page draws over the pictures, and says below them."""
+    def state(self) -> dict[str, Any]:
+        """Return the lines over the pictures, and the text below them."""
         marks = {} if self.linked is None or self.picked is None else self.linked.marks(np.array(self.picked))
         return {
             "size": list(self.camera.size),

@@ -19,7 +19,7 @@ from lumencut.window import WINDOW_NAMES, Window
 
 @dataclass(frozen=True)
 class Taken:
-    """What steps lead to, what was shown when the last drag began, and what was wrong with a step."""
+    """The result of steps: state, state at the start of the last drag, and error of a step."""
 
     view: Shown
     before: Shown
@@ -27,14 +27,14 @@ class Taken:
 
 
 def take(view: Shown, before: Shown, steps: Sequence[Sequence[Any]]) -> Taken:
-    """Take steps one after the other; one that fails changes nothing and is told.
+    """Apply steps one after the other; a failed step changes nothing and is reported.
 
     Parameters
     ----------
     view : Shown
-        What is shown.
+        The state.
     before : Shown
-        What was shown when the drag under way began, for a step back.
+        The state at the start of the current drag, for undo.
     steps : sequence of sequences
         The name of each step, then its numbers: a drag in pixels to the right and down, pixels as column and
         row from the middle of the first one.

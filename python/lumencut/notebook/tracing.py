@@ -14,7 +14,7 @@ Point = npt.NDArray[np.float64]
 
 
 class ClickedVessels:
-    """Vessels that are traced point by point, beside those that were there before.
+    """Vessels that are traced point by point, in addition to existing ones.
 
     Parameters
     ----------
@@ -39,7 +39,7 @@ class ClickedVessels:
         Raises
         ------
         TracingError
-            Where no lumen leads to it; the points are as before then.
+            If no lumen leads to it; the points are unchanged.
         """
         vessel = self._current()
         self._tracer.add(point, vessel)
@@ -66,7 +66,7 @@ class ClickedVessels:
             self._ended.add(current)
 
     def undo(self) -> None:
-        """Take the last point away, and go on with its vessel."""
+        """Take the last point away, and continue with its vessel."""
         points = self._tracer.points
         last = next((vessel for vessel in reversed(range(len(points))) if len(points[vessel])), None)
         if last is not None:
@@ -74,12 +74,12 @@ class ClickedVessels:
             self._ended.discard(last)
 
     def tree(self) -> VesselTree | None:
-        """Return all vessels; None where there is none yet.
+        """Return all vessels; None if there are none yet.
 
         Raises
         ------
         TracingError
-            Where no lumen leads from a point to the next.
+            If no lumen leads from a point to the next.
         """
         traced = any(len(vessel) > 1 for vessel in self._tracer.points)
         before = () if self._before is None else tuple(self._before)

@@ -26,7 +26,6 @@ from lumencut.notebook.steps import take
 from lumencut.settings import Settings
 from lumencut.vessel_tree import VesselTree
 
-#: The pictures beside the turning view.
 _LINKED = ("straightened", "section")
 
 
@@ -42,7 +41,7 @@ class _ClosedError(Exception):
 class VesselWidget(anywidget.AnyWidget):
     """A view of vessels in a notebook; :func:`lumencut.show` makes it.
 
-    What is assigned to a trait is shown at once, and what the user does changes the traits: both can be
+    Assigning to a trait updates the view, and actions of the user change the traits: both can be
     observed (``widget.observe(function, "picked")``). An error leaves all as it was.
 
     Attributes
@@ -61,7 +60,7 @@ class VesselWidget(anywidget.AnyWidget):
         The picture at rest with its labels, a PNG file.
     """
 
-    # One module: a notebook loads no second one beside it.
+    # A single module: a notebook cannot load a second one.
     _esm = "\n".join(_front(f"{name}.js") for name in ("asking", "pane", "pointers", "view"))
     _css = _front("view.css")
 
@@ -85,7 +84,7 @@ class VesselWidget(anywidget.AnyWidget):
             "settings": view.settings,
             "tree": view.scene.tree,
             "picture": self._picture(self._view),
-            "_shown": self._view.told(),
+            "_shown": self._view.state(),
         }
         self._at_rest = self._key(self._view)
         super().__init__(**first)
@@ -101,7 +100,7 @@ class VesselWidget(anywidget.AnyWidget):
     def frame(self) -> Frame:
         """Return the view with all its images, as :meth:`lumencut.Renderer.render` does.
 
-        ``widget.frame().save("view.png", annotate=True)`` writes what is shown.
+        ``widget.frame().save("view.png", annotate=True)`` writes the view.
         """
         with self._lock:
             return self._view.frame(images=None)
@@ -113,7 +112,7 @@ class VesselWidget(anywidget.AnyWidget):
 
         Parameters
         ----------
-        volume : Volume, or whatever else :func:`lumencut.render` takes as one
+        volume : Volume, or anything :func:`lumencut.render` takes as one
             The angiography.
         tree : VesselTree, optional
             Its centerlines.
@@ -121,7 +120,7 @@ class VesselWidget(anywidget.AnyWidget):
         Raises
         ------
         VolumeError, VesselTreeError, SettingsError
-            As :func:`lumencut.show`; the widget goes on showing what it showed.
+            As :func:`lumencut.show`; the widget keeps its present view.
         """
         with self._lock:
             other = self._view.with_volume(volume, tree)
@@ -133,7 +132,7 @@ class VesselWidget(anywidget.AnyWidget):
         super().close()
 
     def _repr_mimebundle_(self, **kwargs: Any) -> tuple[dict[str, Any], dict[str, Any]] | None:
-        """The live view, and its picture for whatever shows notebooks without a kernel."""
+        """The live view, and its picture for viewers of notebooks without a kernel."""
         bundle = super()._repr_mimebundle_(**kwargs)
         if bundle is not None:
             bundle[0]["image/png"] = base64.b64encode(self.picture).decode("ascii")
@@ -159,9 +158,9 @@ class VesselWidget(anywidget.AnyWidget):
 
     @traitlets.observe("camera", "settings", "tree", "picked", "vessel")
     def _assigned(self, change: Any) -> None:
-        """Show what was assigned to a trait; put it back where it cannot be shown."""
+        """Show an assigned trait; restore its old value if that fails."""
         with self._lock:
-            # Within the lock: another thread that answers the page tells the traits of what it did, too.
+            # Within the lock: another thread that answers the page also updates the traits.
             if self._is_quiet:
                 return
             try:
@@ -181,7 +180,7 @@ class VesselWidget(anywidget.AnyWidget):
             self._is_quiet = before
 
     def _take_over(self, other: Shown) -> None:
-        """Show another view at rest; nothing changes where that fails."""
+        """Show another view at rest; nothing changes if that fails."""
         key = self._key(other)
         picture = self.picture if key == self._at_rest else self._picture(other)
         small = {name: as_png(image) for name, image in other.linked_pictures().items()}
@@ -192,14 +191,14 @@ class VesselWidget(anywidget.AnyWidget):
             self._tell_traits()
 
     def _tell_traits(self) -> None:
-        """Let the traits say what is shown."""
+        """Update the traits from the view."""
         view = self._view
         self.camera, self.settings, self.tree = view.camera, view.settings, view.scene.tree
         self.vessel, self.picked = view.vessel, view.picked
-        self._shown = view.told()
+        self._shown = view.state()
 
     def _key(self, view: Shown) -> tuple[Scene, Camera, Settings]:
-        """What the picture of the turning view depends on."""
+        """The state that the picture of the turning view depends on."""
         return view.seen, view.camera, view.settings
 
     def _picture(self, view: Shown) -> bytes:
@@ -211,7 +210,7 @@ class VesselWidget(anywidget.AnyWidget):
             raise _ClosedError
 
     def _hear(self, _: Any, content: Any, __: Any) -> None:
-        """Do what the page asks for, and answer it in any case."""
+        """Handle a request of the page, and always answer it."""
         with self._lock:
             if self._is_closed:
                 return
@@ -250,7 +249,7 @@ class VesselWidget(anywidget.AnyWidget):
         if self._key(view) != self._key(self._view):
             start = time.perf_counter()
             frame = view.moving(self._pace.share, self._go_on)
-            # Names take longer than the picture of a large tree: they stand in the picture at rest.
+            # Names take longer than the picture of a large tree, so only the picture at rest has them.
             found["vessels"] = as_jpeg(frame.annotated())
             self._pace.took((time.perf_counter() - start) * 1000)
         if view.linked is not self._view.linked:

@@ -1,4 +1,4 @@
-"""The zip archive of "Save for PACS": what the page sends becomes objects of the scan's study.
+"""The zip archive of "Save for PACS": objects of the study of the scan, made from the request of the page.
 
 All of it stays in memory: no file is made.
 """
@@ -28,32 +28,31 @@ from lumencut.volume import Volume
 _TITLE = "Lumencut: measured vessels"
 _MEND = 'choose "Anonymous", or a DICOM file of the study'
 
-#: The name of an object in the archive, and what writes it.
 _Member = tuple[str, Callable[[BinaryIO], object]]
 
 
 def pacs_zip(content: bytes, served: Volume | None) -> bytes:
-    """Return the zip archive of what the page asks for.
+    """Return the zip archive for a request of the page.
 
     Parameters
     ----------
     content : bytes
         The request as JSON; ``docs/viewer.md`` lists its fields.
     served : Volume or None
-        The volume that the server shows; None where there is none.
+        The served volume, or None.
 
     Returns
     -------
     bytes
         The archive: ``view.dcm``, ``vessel.dcm``, ``finding-1.dcm`` and so on, ``report.dcm`` and
-        ``report-pdf.dcm``, as far as the page shows them.
+        ``report-pdf.dcm``, if the page shows them.
 
     Raises
     ------
     FormatError
-        For a request that is none, and where there is no study to belong to.
+        For an invalid request, and without a study.
     MissingPackageError
-        Without highdicom or matplotlib, where there are findings.
+        For findings without highdicom or matplotlib.
     """
     request = read_json(content)
     if request.number("version") != 1:
@@ -65,20 +64,20 @@ def pacs_zip(content: bytes, served: Volume | None) -> bytes:
         study = study_for(request, origin)
     members = [*_pictures(request, study, origin), *_numbers(request, study)]
     if not members:
-        raise refused("nothing that is shown", "a picture or a finding")
+        raise refused("no picture and no finding", "a picture or a finding")
     return _zipped(members)
 
 
 def _check_findings(request: Given) -> None:
-    """Refuse findings that no report can be made of."""
+    """Reject findings that no report can be made of."""
     check_highdicom()
     check_matplotlib()
     if not request.object("stated").flag("spacing"):
         found, mend = (
-            "a scan that does not say how far its voxels lie apart",
+            "a scan without voxel spacing",
             "leave the findings out of the report",
         )
-        raise FormatError("numbers beside the scan", found, "a scan in millimetres", mend)
+        raise FormatError("measures in the study of the scan", found, "a scan in millimetres", mend)
 
 
 @contextmanager
@@ -91,14 +90,14 @@ def _mended() -> Iterator[None]:
 
 
 def _pictures(request: Given, study: Study, origin: Origin) -> Iterator[_Member]:
-    """What is shown, and the key image of each finding."""
+    """The view, and the key image of each finding."""
     view, pane = request.object("view"), request.object_or_none("pane")
     settings = settings_in(view)
     shown = big_view(view, request.object("stated"), origin)
     yield "view.dcm", lambda file: write_picture(file, shown, study)
     if pane is not None:
-        beside = pane_picture(pane, settings)
-        yield "vessel.dcm", lambda file: write_picture(file, beside, study)
+        reformation = pane_picture(pane, settings)
+        yield "vessel.dcm", lambda file: write_picture(file, reformation, study)
     for number, finding in enumerate(request.objects("findings"), 1):
         yield f"finding-{number}.dcm", _key_image(finding, number, settings, study)
 
@@ -109,7 +108,7 @@ def _key_image(finding: Given, number: int, settings: Settings, study: Study) ->
 
 
 def _numbers(request: Given, study: Study) -> Iterator[_Member]:
-    """The structured report and the PDF of the findings, where there are some."""
+    """The structured report and the PDF of the findings, if any."""
     vessels = _vessels(request)
     if not vessels:
         return
@@ -148,6 +147,6 @@ def _zipped(members: list[_Member]) -> bytes:
         for name, write in members:
             content = io.BytesIO()
             write(content)
-            # Times of files would tell when the page was looked at, and make two archives differ.
+            # File times would reveal the time of the request, and make archives differ.
             into.writestr(zipfile.ZipInfo(name), content.getvalue(), zipfile.ZIP_DEFLATED, 1)
     return archive.getvalue()

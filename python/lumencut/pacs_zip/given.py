@@ -1,4 +1,4 @@
-"""What the page sends, piece by piece: each has the kind that is expected of it, or is refused."""
+"""Checked access to a request of the page: each value has the expected kind, or is rejected."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ from lumencut.errors import FormatError
 _T = TypeVar("_T")
 _SUBJECT = "what the page sent"
 _MEND = "reload the page, which may be of another version, and save again"
-#: The most pixels of a picture: no screen shows so many.
+#: Largest number of pixels of a picture, more than any screen.
 _MOST_PIXELS = 64 << 20
 
 
 def refused(found: str, expected: str) -> FormatError:
-    """Return the error for what the page should not have sent."""
+    """Return the error for an invalid part of a request."""
     return FormatError(_SUBJECT, found, expected, _MEND)
 
 
@@ -33,7 +33,7 @@ def read_json(content: bytes) -> Given:
     Raises
     ------
     FormatError
-        For what is no JSON, or another value than an object.
+        For invalid JSON, or a value other than an object.
     """
     try:
         found = json.loads(content)
@@ -48,9 +48,9 @@ class Given:
     Parameters
     ----------
     value : object
-        What was sent.
+        The value.
     name : str
-        What it is called in errors.
+        Its name in errors.
 
     Raises
     ------
@@ -108,13 +108,13 @@ class Given:
         return [Given(one, f"{self._name}: {name}") for one in self.items(name)]
 
     def plain(self, name: str) -> dict[str, Any]:
-        """Return an object as it is, whose fields somebody else checks."""
+        """Return an object whose fields are checked elsewhere."""
         self.object(name)
         found: dict[str, Any] = self._fields[name]
         return found
 
     def column(self, name: str) -> npt.NDArray[np.float64]:
-        """Return a list of numbers, shape (n,), NaN where one is null."""
+        """Return a list of numbers, shape (n,), NaN for null."""
         values = [np.nan if one is None else one for one in self.items(name)]
         if not all(isinstance(one, (int, float)) and not isinstance(one, bool) for one in values):
             raise refused(f"{name} of {self._name} that are no numbers", "numbers or null")
@@ -147,12 +147,12 @@ def checked(value: _T, name: str, expected: str, is_so: Callable[[Any], bool]) -
 
 
 def is_text(value: Any) -> bool:
-    """Tell whether a value of JSON is a text."""
+    """Return whether a JSON value is text."""
     return isinstance(value, str)
 
 
 def is_number(value: Any) -> bool:
-    """Tell whether a value of JSON is a finite number."""
+    """Return whether a JSON value is a finite number."""
     return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
 
 
@@ -182,6 +182,6 @@ def picture_of(content: bytes) -> npt.NDArray[np.uint8]:
 
 
 def _kind(value: Any) -> str:
-    """What a value is, without telling it."""
+    """The kind of a value, without its content."""
     names = {dict: "an object", list: "a list", str: "a text", bool: "true or false", type(None): "nothing"}
     return names.get(type(value), "a number")

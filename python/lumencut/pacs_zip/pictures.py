@@ -15,7 +15,6 @@ from lumencut.pacs_zip.given import Given, checked, points_of, refused
 from lumencut.session_file import view_settings
 from lumencut.settings import Settings
 
-#: The methods of the page by the names that pictures have for them.
 _METHODS = {"csr": "csr", "csr-paper": "csr", "cr": "cr", "mpcpr": "mpcpr"}
 
 
@@ -25,13 +24,13 @@ def settings_in(view: Given) -> Settings:
     Raises
     ------
     FormatError
-        For what are no settings.
+        For invalid settings.
     """
     method = checked(view.text("method"), "a method", " or ".join(_METHODS), _METHODS.__contains__)
     try:
         return view_settings(method, view.plain("settings"))
     except (SettingsError, TypeError, ValueError) as error:
-        raise refused(f"settings that are none ({error})", "the settings of a view") from error
+        raise refused(f"invalid settings ({error})", "the settings of a view") from error
 
 
 def big_view(view: Given, stated: Given, origin: Origin) -> Picture:
@@ -49,7 +48,7 @@ def big_view(view: Given, stated: Given, origin: Origin) -> Picture:
     Raises
     ------
     FormatError
-        For what is no view.
+        For anything that is not a view.
     """
     image = view.picture("picture")
     height, width = image.shape[:2]
@@ -60,14 +59,14 @@ def big_view(view: Given, stated: Given, origin: Origin) -> Picture:
             size=(width, height), pixel_spacing=given.number("pixel_spacing"),
         )  # fmt: skip
     except CameraError as error:
-        raise refused(f"a camera that is none ({error.found})", error.expected) from error
+        raise refused(f"an invalid camera ({error.found})", error.expected) from error
     how = (settings_in(view), None, stated.flag("spacing"), stated.flag("orientation"))
     source = FrameSource(*how, 0, (), _METHODS[view.text("method")], origin)
     return view_picture(image, camera, source, has_cut=view.flag("has_cut"))
 
 
 def pane_picture(pane: Given, settings: Settings) -> Picture:
-    """Return the reformation that the page shows beside the turning view; no ruler is true across it."""
+    """Return the reformation next to the turning view; rulers across it would be wrong."""
     axes = pane.text("axes")
     words = f"A reformation of the viewer, {written_by()} {axes} {changed(settings)}"
     return Picture(pane.picture("picture"), "CPR", words, settings_text(settings) + axes, None, None, axes)
@@ -75,10 +74,10 @@ def pane_picture(pane: Given, settings: Settings) -> Picture:
 
 def key_image(finding: Given, number: int, settings: Settings) -> Picture:
     """Return the key image of a finding: the straightened vessel, and the sections at its places."""
-    told = f"Key image of finding {number}: the straightened vessel from left to right, sections below it."
-    words = f"{told[:-1]}, {written_by()} {changed(settings)}"
+    caption = f"Key image of finding {number}: the straightened vessel from left to right, sections below it."
+    words = f"{caption[:-1]}, {written_by()} {changed(settings)}"
     text = f"{settings_text(settings)} findings"
-    return Picture(finding.picture("picture"), "CPR key image", words, text, None, None, told)
+    return Picture(finding.picture("picture"), "CPR key image", words, text, None, None, caption)
 
 
 def _vector(given: Given, name: str) -> npt.NDArray[np.float64]:

@@ -15,10 +15,10 @@ from lumencut.pacs_zip.given import Given, checked, read_json, refused
 from lumencut.volume import Volume
 from lumencut.volume_files.dicom.study import study_in
 
-#: Where the objects are put: the scan's own study, one without a patient, that of another file.
+#: Kinds of studies for the objects: that of the scan, an anonymous one, or that of another file.
 _CHOICES = ("scan", "anonymous", "like")
 _FILE = "the DICOM file"
-#: What the page shows of a file, and the attributes that hold it.
+#: Facts about a file for the page, and their attributes.
 _FACTS = {
     "Patient": "PatientName",
     "ID": "PatientID",
@@ -40,9 +40,9 @@ def origin_of(request: Given, served: Volume | None) -> Origin:
     Parameters
     ----------
     request : Given
-        What the page sends; beside a chosen file, ``study.scan`` is the header of the scan.
+        The request of the page; with a chosen file, ``study.scan`` is the header of the scan.
     served : Volume or None
-        The volume that the server shows; None where there is none.
+        The served volume, or None.
 
     Raises
     ------
@@ -70,7 +70,7 @@ def study_for(request: Given, origin: Origin) -> Study:
     Raises
     ------
     FormatError
-        Where there is none, or one of another patient.
+        Without a study, and for one of another patient.
     """
     choice = choice_of(request)
     if choice == "like":
@@ -79,20 +79,20 @@ def study_for(request: Given, origin: Origin) -> Study:
 
 
 def chosen_file(content: bytes, served: Volume | None) -> bytes:
-    """Return what a reader should see of a chosen DICOM file before objects are put into its study.
+    """Return facts about a chosen DICOM file before objects are put into its study.
 
     Parameters
     ----------
     content : bytes
         JSON: ``study`` and ``fingerprint`` as for the objects themselves.
     served : Volume or None
-        The volume that the server shows; None where there is none.
+        The served volume, or None.
 
     Returns
     -------
     bytes
         JSON: the name of the patient, ID, date, modality and body part (``facts``, pairs of texts), what
-        speaks against the file (``doubts``), and why it is refused (``refusal``, null where it is not).
+        speaks against the file (``doubts``), and the reason of a rejection (``refusal``, or null).
 
     Raises
     ------
@@ -107,8 +107,8 @@ def chosen_file(content: bytes, served: Volume | None) -> bytes:
     except FormatError as error:
         refusal = f"found {error.found}; expected {error.expected}"
     facts = [(words, study.text(keyword)) for words, keyword in _FACTS.items()]
-    told = {"facts": facts, "doubts": [] if refusal else doubts(origin, study), "refusal": refusal}
-    return json.dumps(told).encode()
+    answer = {"facts": facts, "doubts": [] if refusal else doubts(origin, study), "refusal": refusal}
+    return json.dumps(answer).encode()
 
 
 def _file(request: Given) -> Study:

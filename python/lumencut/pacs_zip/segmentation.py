@@ -55,7 +55,7 @@ def segmentation_mask(content: bytes, served: Volume | None) -> bytes:
         JSON: the file in base64 with its name, the grid of the scan, and the header of one of its images
         where the page read it.
     served : Volume or None
-        The volume that the server shows; None where there is none.
+        The served volume, or None.
 
     Returns
     -------
@@ -66,7 +66,7 @@ def segmentation_mask(content: bytes, served: Volume | None) -> bytes:
     Raises
     ------
     FormatError
-        For what is no segmentation, such as an RT Structure Set, and for segments that overlap.
+        For anything that is not a segmentation, such as an RT Structure Set, and for segments that overlap.
     VolumeError
         For a segmentation in another frame of reference, or on another grid.
     """
@@ -83,12 +83,12 @@ def segmentation_mask(content: bytes, served: Volume | None) -> bytes:
     labels = {str(label): words for label, words in file.label_names.items()}
     doubt = other_patient(file.patient, scan.patient)
     notes = [*file.notes, *([doubt] if doubt else [])]
-    told = {"mask": base64.b64encode(_nrrd(mask)).decode(), "names": labels, "notes": notes}
-    return json.dumps(told).encode()
+    answer = {"mask": base64.b64encode(_nrrd(mask)).decode(), "names": labels, "notes": notes}
+    return json.dumps(answer).encode()
 
 
 def _opened(content: bytes) -> VolumeFile:
-    """The file, of which nothing is put on a disk."""
+    """The file, kept in memory only."""
     import pydicom
 
     with refusing("segmentation", "DICOM", []):
@@ -120,7 +120,7 @@ def _is_size(size: list[object]) -> bool:
 
 
 def _identity(request: Given, served: Volume | None) -> tuple[str, Patient]:
-    """The frame of reference and the patient of the scan, empty where there are none."""
+    """The frame of reference and the patient of the scan, empty if unknown."""
     if request.flag("is_served"):
         if served is None:
             raise refused("the scan of the server", "a scan that is read to its end")
@@ -132,7 +132,7 @@ def _identity(request: Given, served: Volume | None) -> tuple[str, Patient]:
 
 
 def _nrrd(mask: Volume) -> bytes:
-    """A mask as NRRD: what the page reads already."""
+    """A mask as NRRD, which the page can read."""
     affine = mask.world_from_index
     vectors = [f"({','.join(repr(float(one)) for one in affine[:3, axis])})" for axis in range(4)]
     words = _HEADER.format(

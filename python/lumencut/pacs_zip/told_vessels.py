@@ -92,7 +92,7 @@ class _ToldCore:
 
 @dataclass(frozen=True)
 class _ToldGrade:
-    """A stenosis as the page tells it, in the place of one that the core graded."""
+    """A stenosis as the page tells it, instead of one that the core graded."""
 
     told: Given
     words: str
@@ -160,7 +160,7 @@ def told_vessel(numbers: Given, finding: Given, *, has_name: bool) -> ToldVessel
     Raises
     ------
     FormatError
-        For what is no such vessel.
+        For anything that is not a such vessel.
     """
     profile = ToldProfile(numbers, finding.items("contours"))
     marks = tuple(_mark(one, profile) for one in finding.items("marks"))

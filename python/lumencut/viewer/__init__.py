@@ -1,1 +1,1 @@
-"""The viewer's server: the built page and the data of one scene, for a browser of this machine alone."""
+"""The viewer's server: the built page and the data of one scene, only for browsers of this machine."""

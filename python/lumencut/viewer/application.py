@@ -1,4 +1,4 @@
-"""What the server answers: the page, the data of the scene and what is made of them; nothing to others."""
+"""The answers of the server: the page, the data of the scene, and objects made from them."""
 
 from __future__ import annotations
 
@@ -29,13 +29,12 @@ from lumencut.viewer.refusing import refusal, unreadable
 
 _log = logging.getLogger("lumencut")
 
-#: How long to wait before looking again whether more is read (s).
 _PAUSE = 0.02
 _VTP = "application/vnd.vtk.polydata+xml"
 
 
 class _BrokenOffError(Exception):
-    """The rest of a volume cannot be had: the connection ends before the length that was stated."""
+    """The rest of a volume is missing: the connection ends before the stated length."""
 
 
 class Application:
@@ -76,7 +75,7 @@ class Application:
         if has_body(request.headers):
             return refusal(400)
         if path == "":
-            # The names of the page's files are relative to its folder.
+            # File names of the page are relative to its folder.
             return RedirectResponse(f"/{self._place.token}/", 308)
         return await self._file(path.removeprefix("/"), is_head=request.method == "HEAD")
 
@@ -113,7 +112,7 @@ async def _volume(scene: ArrivingScene, *, is_head: bool) -> Response:
 async def _stream(
     scene: ArrivingScene, header: bytes, read_type: np.dtype[Any]
 ) -> AsyncIterator[bytes | memoryview]:
-    """The header at once, and slices as they come in."""
+    """The header at once, and slices as they are read."""
     yield header
     sent = 0
     while sent < scene.slices:
@@ -123,7 +122,7 @@ async def _stream(
             raise _BrokenOffError
         for piece in volume_stream.pieces(voxels[sent:count]):
             yield piece
-            # The others have their turn, and an end of this connection is heard of.
+            # Yields to other tasks, and notices the end of this connection.
             await asyncio.sleep(0)
         sent = count
 
@@ -137,6 +136,6 @@ async def _centerlines(scene: ArrivingScene) -> Response:
 
 
 async def _until(is_so: Callable[[], bool]) -> None:
-    """Wait for what the thread that reads does."""
+    """Wait for the reading thread."""
     while not is_so():
         await asyncio.sleep(_PAUSE)

@@ -1,4 +1,4 @@
-"""A scene that is read while the server already answers, and how far its reading is."""
+"""A scene that is read while the server already answers, and its progress."""
 
 from __future__ import annotations
 
@@ -21,41 +21,36 @@ from lumencut.volume_files.opened import VolumeFile
 
 _log = logging.getLogger("lumencut")
 
-#: How long the end of the server waits for its reader, which hears of it between two slices (s).
+#: How long the server waits at its end for the reader, which stops between two slices (s).
 _PATIENCE = 5.0
 
 
 class _StoppedError(BaseException):
-    """The server ends; no error, so that no reader takes it for one."""
+    """The server ends; not an Exception, so that no reader handles it."""
 
 
 class ArrivingScene:
-    """A volume that a thread of its own reads, and the centerlines that it decides the place of.
+    """A volume that a separate thread reads, and the centerlines that it places.
 
-    The thread alone writes; each attribute that others read changes at once.
+    Only that thread writes; each attribute that others read changes atomically.
 
     Parameters
     ----------
     file : VolumeFile
-        The volume, of which the headers are read.
+        The volume, with its headers read.
     tree_in : callable, optional
-        Gives the vessel tree where it gets the volume; None where there are no centerlines.
+        Returns the vessel tree for the volume; None without centerlines.
     """
 
     def __init__(self, file: VolumeFile, tree_in: Callable[[Volume], VesselTree] | None = None) -> None:
         self._file, self._tree_in = file, tree_in
         self._is_stopped = False
         self._thread = threading.Thread(target=self._read, name="lumencut volume", daemon=True)
-        #: The type of the voxels; None as long as it is not known.
         self.read_type: np.dtype[Any] | None = file.settled_type
-        #: The voxels [k, j, i] and how many of their first slices are final.
         self.voxels: tuple[npt.NDArray[Any] | None, int] = (None, 0)
-        #: The volume, once it is read to its end.
         self.volume: Volume | None = None
-        #: What is wrong with the volume, and with the centerlines.
         self.problem: LumencutError | None = None
         self.centerline_problem: LumencutError | None = None
-        #: The centerlines as a .vtp file; None as long as they are not placed.
         self.centerlines: bytes | None = None
 
     @property
@@ -65,7 +60,7 @@ class ArrivingScene:
 
     @property
     def is_whole(self) -> bool:
-        """Whether all voxels are there."""
+        """Whether all voxels are read."""
         return self.voxels[1] == self.slices
 
     @property
@@ -82,15 +77,15 @@ class ArrivingScene:
         return volume_stream.length(self._file, read_type)
 
     def has_news(self, count: int) -> bool:
-        """Tell whether more slices than these are there, or will never be."""
+        """Return whether more slices than these are read, or reading has ended."""
         return self.voxels[1] > count or self.problem is not None
 
     def start(self) -> None:
-        """Begin to read."""
+        """Start reading."""
         self._thread.start()
 
     def stop(self) -> None:
-        """Give up what is not read yet."""
+        """Stop reading."""
         self._is_stopped = True
         if self._thread.is_alive():
             self._thread.join(_PATIENCE)
@@ -111,7 +106,7 @@ class ArrivingScene:
         self.voxels, self.volume = (volume.array, self.slices), volume
         log_oddities(self._file)
         if promised not in (None, volume.dtype):
-            # Whoever has the header of before cannot take these voxels; the next one gets the right header.
+            # These voxels do not match the header already sent; the next request gets the right one.
             found, expected = f"voxels of type {volume.dtype}", f"{promised} as its headers say"
             self.problem = FormatError(self._file.path.name, found, expected, "load the page again")
         if self._tree_in is not None:
@@ -129,13 +124,13 @@ class ArrivingScene:
             raise _StoppedError
 
     def _fill(self, voxels: npt.NDArray[Any], count: int) -> None:
-        """Let others see slices that are final, in an array that will not be replaced by another."""
+        """Publish final slices, in an array that will not be replaced."""
         self._heed(count, self.slices)
         if voxels.dtype == self.read_type and voxels.shape[0] == self.slices:
             self.voxels = voxels, count
 
     def _told(self, error: Exception) -> LumencutError:
-        """The error in words for the page, which learns the names of files but not of folders."""
+        """The error for the page, with names of files but not of folders."""
         if isinstance(error, MemoryError):
             found, expected = "more than the free memory holds", "a scene that fits into it"
             return FormatError(self._file.path.name, found, expected)

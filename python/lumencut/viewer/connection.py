@@ -1,6 +1,6 @@
-"""A connection with bounds: how many there are, and how long one may take to say what it wants.
+"""Limits of connections: their number, and the time for a request.
 
-Whoever has shown the token is the owner; all others are strangers, who cannot keep the owner out.
+A client that has shown the token is the owner; all others are strangers, who cannot block the owner.
 """
 
 from __future__ import annotations
@@ -15,14 +15,14 @@ from lumencut.viewer.guard import HEADERS, Place
 
 
 class Connection(H11Protocol):
-    """HTTP/1.1 as uvicorn has it, which by itself waits for a request for ever."""
+    """HTTP/1.1 of uvicorn with limits; uvicorn alone waits forever for a request."""
 
     #: Connections of the owner; a browser opens six.
     most: ClassVar[int] = 32
-    #: Connections of strangers: beyond these the oldest one ends. More than come in at once (`BACKLOG`), so
+    #: Connections of strangers; beyond this number the oldest one is closed. Larger than `BACKLOG`, so
     #: that the owner's request is read before its connection is the oldest one.
     most_strangers: ClassVar[int] = 96
-    #: How long the headers of a request may take (s).
+    #: Time limit for the headers of a request (s).
     patience: ClassVar[float] = 10.0
 
     def __init__(self, place: Place, **named: Any) -> None:
@@ -33,7 +33,7 @@ class Connection(H11Protocol):
         self._limit: asyncio.TimerHandle | None = None
 
     def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
-        """Begin, and end the oldest stranger where there are too many."""
+        """Start, and close the oldest stranger if there are too many."""
         super().connection_made(transport)
         self._limit_waiting()
         strangers = self._open_ones(is_owner=False)
@@ -67,7 +67,7 @@ class Connection(H11Protocol):
         self._limit_waiting()
 
     def send_400_response(self, msg: str) -> None:
-        """Answer what is no HTTP, with the headers of every other answer."""
+        """Answer invalid HTTP, with the usual headers."""
         if self.conn.our_state not in (h11.IDLE, h11.SEND_RESPONSE) or self._is_answering():
             self.transport.abort()
             return

@@ -1,4 +1,4 @@
-"""What the server refuses, and what it tells the browser to refuse.
+"""Requests that the server rejects, and headers that restrict the browser.
 
 A page of another site may be open in the same browser, and other programs run on the same machine. None of
 them may read a scan, so every request must know the token, and must name this server as its host.
@@ -11,7 +11,7 @@ import secrets
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-#: The page gets everything from this server, and nobody may show it within another page.
+#: The page loads everything from this server, and no other page may embed it.
 _CONTENT_SECURITY_POLICY = {
     "default-src": "'none'",
     "script-src": "'self' 'wasm-unsafe-eval'",
@@ -24,14 +24,13 @@ _CONTENT_SECURITY_POLICY = {
     "form-action": "'none'",
     "frame-ancestors": "'none'",
 }
-#: Only features that browsers know: of others they complain.
+#: Only known features: browsers warn about others.
 _DENIED_FEATURES = (
     *("accelerometer", "browsing-topics", "camera", "display-capture", "geolocation", "gyroscope", "hid"),
     *("idle-detection", "local-fonts", "magnetometer", "microphone", "midi", "payment", "serial", "usb"),
     "xr-spatial-tracking",
 )
 
-#: What every response says, errors too.
 HEADERS = {
     "Content-Security-Policy": "; ".join(
         f"{name} {value}" for name, value in _CONTENT_SECURITY_POLICY.items()
@@ -47,14 +46,14 @@ HEADERS = {
     "Permissions-Policy": ", ".join(f"{feature}=()" for feature in _DENIED_FEATURES),
 }
 
-#: Letters of paths that are served. Without % no path has a second spelling.
+#: Allowed characters of paths. Without % each path has only one spelling.
 _PLAIN = re.compile(rb"/[\w.~/-]*", re.ASCII)
 _LONGEST = 512
 
 
 @dataclass(frozen=True)
 class Place:
-    """Where the server is: its port, and the token that stands for the right to read."""
+    """The port of the server, and the token that grants the right to read."""
 
     port: int
     token: str
@@ -65,21 +64,21 @@ class Place:
         return f"http://127.0.0.1:{self.port}/{self.token}/"
 
     def is_host(self, host: str | None) -> bool:
-        """Tell whether a request is for this server: a name of another site may lead to this machine too."""
+        """Return whether a request names this server: another site may also resolve to this machine."""
         return host in (f"127.0.0.1:{self.port}", f"localhost:{self.port}")
 
     def is_own_page(self, headers: Mapping[str, str]) -> bool:
-        """Tell whether a request is none that a browser sends for a page of another site."""
+        """Return whether a request does not come from a page of another site."""
         origin = headers.get("origin")
         is_own = origin is None or self.is_host(origin.removeprefix("http://"))
         return is_own and headers.get("sec-fetch-site", "same-origin") == "same-origin"
 
     def inside(self, raw_path: bytes) -> str | None:
-        """Return what follows the token in a path as it was sent; None for all that is not plainly within."""
+        """Return the part of a raw path after the token; None for any path not plainly below it."""
         if len(raw_path) > _LONGEST or not _PLAIN.fullmatch(raw_path):
             return None
         _, first, *rest = raw_path.split(b"/")
-        # How long this takes tells nothing of the token.
+        # Constant time: the duration reveals nothing about the token.
         is_ours = secrets.compare_digest(first, self.token.encode())
         is_plain = all(part not in (b"", b".", b"..") for part in rest[:-1])
         if not is_ours or not is_plain or rest[-1:] in ([b"."], [b".."]):
@@ -88,5 +87,5 @@ class Place:
 
 
 def has_body(headers: Mapping[str, str]) -> bool:
-    """Tell whether more follows the headers of a request, which none of ours has."""
+    """Return whether a request has a body; requests of the page have none."""
     return headers.get("content-length", "0") != "0" or "transfer-encoding" in headers

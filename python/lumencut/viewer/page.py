@@ -1,4 +1,4 @@
-"""The built page: its files, and which of them a request may have."""
+"""The built page, and the files that a request may read."""
 
 from __future__ import annotations
 
@@ -9,10 +9,10 @@ from pathlib import Path
 
 from lumencut.errors import FileError, FormatError
 
-#: Where `make page` and the wheels put the page.
+#: Folder of the page from `make page` and in wheels.
 FOLDER = Path(__file__).parent / "page"
 
-#: Browsers are told to believe nothing but these types.
+#: Media types; browsers are forbidden to guess others.
 _TYPES = {
     ".css": "text/css; charset=utf-8",
     ".html": "text/html; charset=utf-8",
@@ -33,7 +33,7 @@ _HEAD = re.compile(r"<head(\s[^>]*)?>", re.IGNORECASE)
 
 @dataclass(frozen=True)
 class Page:
-    """The files of the page by their names in an address, and the text of its index."""
+    """The files of the page by their paths in the address, and the text of its index."""
 
     index: str
     files: dict[str, Path]
@@ -42,14 +42,14 @@ class Page:
     def of(cls, folder: Path) -> Page:
         """Find the files of a built page.
 
-        A request names one of these files or none: no path is ever made out of what a request says.
+        A request can only name one of these files: no path is ever built from a request.
 
         Raises
         ------
         FileError
-            Where the page was not built.
+            If the page was not built.
         FormatError
-            Where its index is no page.
+            If its index is invalid.
         """
         index = folder / "index.html"
         if not index.is_file():

@@ -1,4 +1,4 @@
-"""What the page has the server make: it sends content and gets the result back; nothing is kept."""
+"""Objects that the server makes for the page from posted content; nothing is stored."""
 
 from __future__ import annotations
 
@@ -16,31 +16,27 @@ from lumencut.viewer.guard import Place
 from lumencut.viewer.refusing import refusal, unreadable
 from lumencut.volume import Volume
 
-#: Where "Save for PACS" asks for its objects, and for what a chosen file says of its study, and where a
-#: segmentation of DICOM becomes a mask.
+#: Paths of "Save for PACS", of the study of a chosen file, and of a DICOM segmentation as a mask.
 OBJECTS, STUDY, MASK = "make/objects", "make/study", "make/mask"
 
-#: What a request may hold: pictures of large screens, twice, and reports of many vessels (bytes).
+#: Size limits of requests: two pictures of large screens, and reports of many vessels (bytes).
 _MOST = 128 << 20
-#: How long the content of a request may take to come (s).
 _PATIENCE = 60.0
 _JSON, _ZIP = "application/json", "application/zip"
 
 
 class Posts:
-    """Answers the requests that have content, one after the other.
+    """Answers requests with content, one after the other.
 
     Parameters
     ----------
     scene : ArrivingScene or None
-        What the server shows.
+        The served scene.
     place : Place
-        Where it is.
+        The address of the server.
     """
 
-    #: The names that take content.
     names = (OBJECTS, STUDY, MASK)
-    #: How many bytes a request may hold, and how long they may take to come (s).
     most, patience = _MOST, _PATIENCE
 
     def __init__(self, scene: ArrivingScene | None, place: Place) -> None:
@@ -48,7 +44,7 @@ class Posts:
         self._is_busy = False
 
     async def answer(self, name: str, request: Request) -> Response:
-        """Make what is asked for; whoever may not ask is told nothing."""
+        """Make the requested object; unauthorized requests get no details."""
         if (refused := self._refused(request)) is not None:
             return refused
         if self._is_busy:
@@ -61,7 +57,7 @@ class Posts:
             self._is_busy = False
 
     def _refused(self, request: Request) -> Response | None:
-        """Why a request is refused by its headers; None where it is not."""
+        """Why the headers of a request are rejected; None if accepted."""
         headers = request.headers
         if request.method != "POST":
             return refusal(405, {"Allow": "POST"})
@@ -75,7 +71,7 @@ class Posts:
         return None if headers.get("content-type") == _JSON else refusal(415)
 
     async def _content(self, request: Request) -> bytes | None:
-        """What a request holds; None where it does not come in time, or not to its end."""
+        """The content of a request; None if it is late or incomplete."""
         try:
             return await asyncio.wait_for(request.body(), self.patience)
         except (TimeoutError, ClientDisconnect):
@@ -94,7 +90,7 @@ class Posts:
 
 
 def _made_of(name: str, content: bytes, volume: Volume | None) -> bytes:
-    """What a request asks for by its name."""
+    """The object that a request names."""
     from lumencut.pacs_zip.archive import pacs_zip
     from lumencut.pacs_zip.placing import chosen_file
     from lumencut.pacs_zip.segmentation import segmentation_mask
@@ -104,7 +100,7 @@ def _made_of(name: str, content: bytes, volume: Volume | None) -> bytes:
 
 
 async def _apart(work: Callable[[], bytes]) -> bytes:
-    """Let a thread of its own work, for which the end of the server does not wait."""
+    """Run work in a separate thread, which the server does not await at its end."""
     loop = asyncio.get_running_loop()
     ended: asyncio.Future[bytes] = loop.create_future()
 
@@ -120,9 +116,9 @@ async def _apart(work: Callable[[], bytes]) -> bytes:
         error, made = None, b""
         try:
             made = work()
-        except BaseException as raised:  # whoever waits for it hears of all
+        except BaseException as raised:  # passed on to the waiting task
             error = raised
-        # Where the server has ended meanwhile, nobody waits.
+        # If the server has ended, no task waits.
         with contextlib.suppress(RuntimeError):
             loop.call_soon_threadsafe(say, error, made)
 

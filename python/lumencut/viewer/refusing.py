@@ -1,4 +1,4 @@
-"""How the server says no: with nothing but a status, or with an error that the page reads."""
+"""Rejections of the server: only a status, or an error for the page."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ from lumencut.mends import as_option, written
 
 
 def refusal(status: int, headers: dict[str, str] | None = None) -> Response:
-    """Return an answer that tells nothing, after which the connection ends."""
+    """Return an answer without details that ends the connection."""
     return Response(status_code=status, headers={"Connection": "close"} | (headers or {}))
 
 
 def unreadable(error: LumencutError) -> Response:
-    """Return an error as the page reads it; what mends it are options of the command that serves."""
-    told = {"kind": "format", "subject": error.subject, "found": error.found, "expected": error.expected}
-    return JSONResponse({**told, "mend": written(error.mend, as_option)}, 422)
+    """Return an error for the page; its mends are options of the serving command."""
+    fields = {"kind": "format", "subject": error.subject, "found": error.found, "expected": error.expected}
+    return JSONResponse({**fields, "mend": written(error.mend, as_option)}, 422)

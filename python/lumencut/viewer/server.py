@@ -1,4 +1,4 @@
-"""The run of the server: its socket, its thread, its limits and its end."""
+"""The running server: its socket, thread, limits and end."""
 
 from __future__ import annotations
 
@@ -20,31 +20,31 @@ from lumencut.viewer.guard import HEADERS, Place
 from lumencut.viewer.page import Page
 
 _LOOPBACK = "127.0.0.1"
-#: The waiting connections that the system keeps for the server, which takes so many at once.
+#: Backlog of the socket, and number of connections accepted at once.
 BACKLOG = 64
 _TOKEN_BYTES = 32
-#: Browsers send what other servers of this machine had them keep, which may be a lot (bytes).
+#: Limit of headers (bytes); browsers also send the cookies of other servers of this machine.
 _MOST_HEADERS = 32 << 10
-#: How long the end waits for the thread, which hears of it ten times a second (s).
+#: How long the end waits for the thread, which checks ten times a second (s).
 _PATIENCE = 5.0
 
 
 class ViewerServer:
-    """A server for browsers of this machine, in a thread of its own as long as its context is open.
+    """A server for browsers of this machine, in its own thread while its context is open.
 
     Parameters
     ----------
     page : Page
         The built page.
     scene : ArrivingScene, optional
-        What it shows; without one the page is empty.
+        The scene; without one the page is empty.
     port : int, default 0
-        The port to listen on; 0 for any that is free.
+        The port to listen on; 0 for any free port.
 
     Raises
     ------
     FileError
-        Where the port cannot be had.
+        If the port is not available.
     """
 
     def __init__(self, page: Page, scene: ArrivingScene | None = None, port: int = 0) -> None:
@@ -67,7 +67,7 @@ class ViewerServer:
             headers=list(HEADERS.items()),
         )
         self._server = uvicorn.Server(config)
-        # Signals come to the main thread, which ends this one: uvicorn would take them for itself.
+        # The main thread receives signals and ends this one; uvicorn must not handle them.
         self._thread = threading.Thread(
             target=self._server.run, args=([self._socket],), name="lumencut server", daemon=True
         )
@@ -81,7 +81,6 @@ class ViewerServer:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        # Whoever still reads is cut off.
         self._server.should_exit = self._server.force_exit = True
         self._thread.join(_PATIENCE)
         if self._scene is not None:
@@ -89,19 +88,19 @@ class ViewerServer:
         self._socket.close()
 
     def wait(self) -> None:
-        """Wait for a signal, which raises an error here; by itself the server never ends."""
+        """Wait for a signal, which raises an error here; the server does not end by itself."""
         while self._thread.is_alive():
-            # In pieces: some systems deliver signals only between them.
+            # In short waits: some systems deliver signals only between them.
             self._thread.join(0.5)
         raise RuntimeError("the viewer's server ended by itself")
 
 
 def _listening(port: int) -> socket.socket:
-    """A socket that listens on loopback and nowhere else."""
+    """A socket that listens on loopback only."""
     own = socket.socket(socket.AF_INET, socket.SOCK_STREAM)
     try:
         if os.name == "posix":
-            # A port can be had again at once; two servers on one port are still refused.
+            # Allows to reuse a port at once; two servers on one port still fail.
             own.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         own.bind((_LOOPBACK, port))
         own.listen(BACKLOG)
@@ -109,5 +108,5 @@ def _listening(port: int) -> socket.socket:
         own.close()
         taken = error.errno == errno.EADDRINUSE
         found = "another program on it" if taken else error.strerror or str(error)
-        raise FileError(f"port {port}", found, "a free port", "give another --port, or none") from error
+        raise FileError(f"port {port}", found, "a free port", "give another --port, or omit it") from error
     return own

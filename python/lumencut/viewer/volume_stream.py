@@ -1,7 +1,7 @@
-"""A volume as the page reads it: a header that says what follows, then the voxels as bytes.
+"""The stream of a volume for the page: a header, then the voxels as bytes.
 
 The stream is the magic ``LCVOLUME``, the length of the JSON (uint32, little-endian), the JSON, padded with
-blanks so that the voxels begin at a multiple of 16 bytes, and the voxels, little-endian, i fastest, then j,
+spaces so that the voxels begin at a multiple of 16 bytes, and the voxels, little-endian, i fastest, then j,
 then k.
 """
 
@@ -28,17 +28,17 @@ _SENT_AS_THEY_ARE = ("int8", "uint8", "int16", "uint16", "int32", "uint32", "flo
 
 
 def sent_type(dtype: np.dtype[Any]) -> np.dtype[Any]:
-    """Return the type in which voxels of a type are sent: their own, or float32."""
+    """Return the type of sent voxels: their own type, or float32."""
     return np.dtype(dtype.name if dtype.name in _SENT_AS_THEY_ARE else np.float32).newbyteorder("<")
 
 
 def header(file: VolumeFile, read_type: np.dtype[Any]) -> bytes:
-    """Return the bytes before the voxels of a file, which are read as a type."""
+    """Return the bytes before the voxels of a file with this type of voxels."""
     sent = sent_type(read_type)
     notes: Sequence[str] = file.notes
     if sent.name != read_type.name:
         notes = [*notes, f"voxels of type {read_type.name} are shown as {sent.name}"]
-    told = {
+    header = {
         "version": 1,
         "name": printable(file.path.resolve().name),
         "size": list(file.size),
@@ -51,27 +51,27 @@ def header(file: VolumeFile, read_type: np.dtype[Any]) -> bytes:
         "scan": _scan_record(file.scan),
         "notes": list(notes),
     }
-    text = json.dumps(told, allow_nan=False).encode()
+    text = json.dumps(header, allow_nan=False).encode()
     before = len(_MAGIC) + 4
     text += b" " * (-(before + len(text)) % _ALIGNMENT)
     return _MAGIC + len(text).to_bytes(4, "little") + text
 
 
 def _scan_record(scan: ScanDetails) -> dict[str, Any]:
-    """How a scan was made, by the names that the engine has."""
-    told = asdict(scan)
-    thickness = told.pop("slice_thickness")
-    return {**told, "slice_thickness_mm": thickness}
+    """Acquisition details of a scan, by the names of the engine."""
+    details = asdict(scan)
+    thickness = details.pop("slice_thickness")
+    return {**details, "slice_thickness_mm": thickness}
 
 
 def length(file: VolumeFile, read_type: np.dtype[Any]) -> int:
-    """Return how many bytes of voxels follow the header."""
+    """Return the number of bytes of voxels after the header."""
     ni, nj, nk = file.size
     return ni * nj * nk * sent_type(read_type).itemsize
 
 
 def pieces(voxels: npt.NDArray[Any]) -> Iterator[memoryview]:
-    """Yield voxels [k, j, i] as bytes, a piece at a time: no second copy of them ever exists."""
+    """Yield voxels [k, j, i] as bytes, piece by piece, without a second copy in memory."""
     sent = sent_type(voxels.dtype)
     for slab in slabs(voxels):
         with np.errstate(over="ignore"):

@@ -48,7 +48,7 @@ _KNOWN = (
 
 @dataclass(frozen=True, eq=False)
 class VolumeReport:
-    """What a volume file holds.
+    """The content of a volume file.
 
     Attributes
     ----------
@@ -67,13 +67,13 @@ class VolumeReport:
     world_from_index : ndarray, shape (4, 4)
         Affine from index (i, j, k) to world (mm, LPS).
     value_range : tuple of 2 float, or None
-        Smallest and largest finite value; None if there is none or the values were not asked for.
+        Smallest and largest finite value; None without finite values, or if values were not requested.
     details : dict of str
-        What else the format tells of the scan: for DICOM the series, its modality, files and codec.
+        Further facts: for DICOM the series, its modality, files and codec.
     filled_slices : tuple of int
         The indices k of slices that are missing and were interpolated.
     notes : tuple of str
-        Whatever is odd or was assumed.
+        Anything unusual or assumed.
     """
 
     path: Path
@@ -99,7 +99,7 @@ def read_volume(
     segments: Iterable[int] | None = None,
     progress: Progress | None = None,
 ) -> Volume:
-    """Read a volume; nothing is resampled unless asked for, shear and flips are kept.
+    """Read a volume; nothing is resampled unless requested, shear and flips are kept.
 
     Parameters
     ----------
@@ -111,15 +111,15 @@ def read_volume(
         that can be an angiography volume.
     phase : str or number, optional
         Which phase (or echo, or kernel) of a DICOM series that mixes several: the value of the attribute that
-        tells them apart, as the refusal without it lists them.
+        distinguishes them, as listed by the error without this argument.
     fill_gaps : bool, default False
         Interpolate missing DICOM slices linearly between their neighbours instead of refusing the series;
-        `Volume.filled_slices` tells which.
+        `Volume.filled_slices` lists them.
     resample_slices : bool, default False
         Put a DICOM series of uneven slice distances on a regular grid, linearly between neighbouring slices,
-        instead of refusing it. The grid has the largest distance of which all distances are multiples, where
+        instead of rejecting it. The grid has the largest distance of which all distances are multiples, where
         that makes at most four times as many slices as there are; else the smallest distance, or what makes
-        four times as many. `Volume.filled_slices` tells which slices are interpolated.
+        four times as many. `Volume.filled_slices` lists the interpolated slices.
     segments : iterable of int, optional
         The numbers of the segments of a segmentation (DICOM SEG, or .seg.nrrd of 3D Slicer) that are read; by
         default all, which must not overlap then.
@@ -137,20 +137,20 @@ def read_volume(
     Raises
     ------
     SeriesError
-        A FormatError for several DICOM series of which none is chosen; its `series` describes them.
+        A FormatError for several DICOM series without a choice; its `series` describes them.
     FormatError
-        For an unknown format, damaged files and whatever cannot be one regular volume.
+        For an unknown format, damaged files, and data that is not one regular volume.
     FileError
         For a file that is missing or cannot be read.
     PacsError
-        For a PACS that cannot be reached, refuses, or does not give all of a series.
+        For a PACS that cannot be reached, rejects the request, or does not send the complete series.
     """
     callback(FormatError, "progress", progress)
-    told = progress if progress is not None else _untold
-    file = _open(path, _wanted(series, phase, fill_gaps, resample_slices, segments), told)
-    volume = file.volume(told)
+    counted = progress if progress is not None else _silent
+    file = _open(path, _wanted(series, phase, fill_gaps, resample_slices, segments), counted)
+    volume = file.volume(counted)
     if not file.format.startswith("DICOM"):
-        told(volume.size[2], volume.size[2])
+        counted(volume.size[2], volume.size[2])
     log_oddities(file)
     return volume
 
@@ -166,12 +166,12 @@ def open_volume(
     progress: Progress | None = None,
 ) -> VolumeFile:
     """Read the headers that `read_volume` reads, and leave the voxels on disk; parameters are the same."""
-    told = progress if progress is not None else _untold
-    return _open(path, _wanted(series, phase, fill_gaps, resample_slices, segments), told)
+    counted = progress if progress is not None else _silent
+    return _open(path, _wanted(series, phase, fill_gaps, resample_slices, segments), counted)
 
 
 def log_oddities(file: VolumeFile) -> None:
-    """Log what was assumed of a file that is read."""
+    """Log the assumptions about a file."""
     for note in file.notes:
         _log.warning("%s: %s", file.path, note)
     for remark in file.remarks:
@@ -188,7 +188,7 @@ def inspect_volume(
     values: bool = True,
     progress: Progress | None = None,
 ) -> VolumeReport:
-    """Tell what a volume file holds, and what is odd about it.
+    """Report what a volume file holds, and anything unusual.
 
     Parameters
     ----------
@@ -209,9 +209,9 @@ def inspect_volume(
         Format, grid, values and oddities.
     """
     callback(FormatError, "progress", progress)
-    told = progress if progress is not None else _untold
-    file = _open(path, _wanted(series, phase, fill_gaps, resample_slices), told)
-    return _report(file, _values(file, told) if values else None)
+    counted = progress if progress is not None else _silent
+    file = _open(path, _wanted(series, phase, fill_gaps, resample_slices), counted)
+    return _report(file, _values(file, counted) if values else None)
 
 
 def inspected_volume(
@@ -223,11 +223,11 @@ def inspected_volume(
     resample_slices: bool = False,
     progress: Progress | None = None,
 ) -> tuple[VolumeReport, Volume]:
-    """Give what `inspect_volume` tells of a file, and the volume; parameters and errors are the same."""
+    """Return the report of `inspect_volume` and the volume; same parameters and errors."""
     callback(FormatError, "progress", progress)
-    told = progress if progress is not None else _untold
-    file = _open(path, _wanted(series, phase, fill_gaps, resample_slices), told)
-    volume = _values(file, told)
+    counted = progress if progress is not None else _silent
+    file = _open(path, _wanted(series, phase, fill_gaps, resample_slices), counted)
+    volume = _values(file, counted)
     report = _report(file, volume)
     if volume is None:
         # No label map shows segments that overlap; the grid is known all the same.
@@ -235,17 +235,17 @@ def inspected_volume(
     return report, volume
 
 
-def _values(file: VolumeFile, told: Progress) -> Volume | None:
+def _values(file: VolumeFile, counted: Progress) -> Volume | None:
     """The volume; none, and a note, for segments that overlap."""
     try:
-        return file.volume(told)
+        return file.volume(counted)
     except OverlapError as error:
         file.notes.append(f"{error.found}; {error.mend}")
         return None
 
 
 def _report(file: VolumeFile, volume: Volume | None) -> VolumeReport:
-    """What a file holds; without its volume no more than its headers tell."""
+    """The content of a file; without its volume only that of its headers."""
     dtype, value_range = file.dtype.newbyteorder("="), None
     if volume is not None:
         dtype, value_range = volume.array.dtype, _finite_range(volume.array, file.notes)
@@ -271,11 +271,11 @@ def list_series(path: str | os.PathLike[str]) -> list[SeriesReport]:
     Raises
     ------
     FormatError
-        Where no image is found, or a file is damaged.
+        If no image is found, or a file is damaged.
     FileError
         For a path that is missing or cannot be read.
     PacsError
-        For a PACS that cannot be reached, refuses, or does not give all of a study.
+        For a PACS that cannot be reached, rejects the request, or does not send the complete study.
     """
     if is_address(path):
         from lumencut.dicomweb.source import fetched
@@ -286,7 +286,7 @@ def list_series(path: str | os.PathLike[str]) -> list[SeriesReport]:
     return list_dicom_series(_existing(path))
 
 
-def _untold(done: int, total: int) -> None:
+def _silent(done: int, total: int) -> None:
     """Report progress to nobody."""
 
 
@@ -334,21 +334,21 @@ def _text(value: object) -> str | None:
 
 
 def _open(given: str | os.PathLike[str], wanted: Wanted, progress: Progress) -> VolumeFile:
-    """Find the room by what the file holds, by its name only where the content does not tell."""
+    """Choose the reader by content, or by name if the content is ambiguous."""
     if is_address(given):
         return _fetched(given, wanted, progress)
     path = _existing(given)
     notes: list[str] = []
-    with heeding(progress) as told, refusing(path, "volume", notes):
+    with heeding(progress) as counted, refusing(path, "volume", notes):
         if path.is_dir() or _is_archive(path):
-            return open_dicom(path, wanted, told).checked()
+            return open_dicom(path, wanted, counted).checked()
         head = head_bytes(path, 352)
         if not head:
             raise FormatError(str(path), "an empty file", _KNOWN, "copy or export it again")
         if head.startswith(b"NRRD"):
             file = open_nrrd(path, wanted.segments)
         elif is_dicom(head):
-            file = open_dicom(path, wanted, told)
+            file = open_dicom(path, wanted, counted)
         elif _is_metaimage(path, head):
             file = open_metaimage(path)
         elif nifti_kind(head) is not None or _has_nifti_name(path):
@@ -362,12 +362,12 @@ def _open(given: str | os.PathLike[str], wanted: Wanted, progress: Progress) -> 
 
 
 def _fetched(given: str | os.PathLike[str], wanted: Wanted, progress: Progress) -> VolumeFile:
-    """A volume of a PACS, whose files lie in a folder of their own as long as it is held."""
+    """A volume of a PACS, whose files stay in a temporary folder while it exists."""
     from lumencut.dicomweb.source import fetched
 
-    with heeding(progress) as told:
-        folder = fetched(given, wanted.series, told)
-        file = opened(Path(given), wanted, lambda notes: read_files(folder.path, notes, told)).checked()
+    with heeding(progress) as counted:
+        folder = fetched(given, wanted.series, counted)
+        file = opened(Path(given), wanted, lambda notes: read_files(folder.path, notes, counted)).checked()
     return replace(file, holds=folder)
 
 

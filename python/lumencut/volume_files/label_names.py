@@ -13,7 +13,7 @@ from lumencut.volume_files.nrrd import open_nrrd
 
 
 def read_label_names(path: str | os.PathLike[str]) -> dict[int, str]:
-    """Read the names of labels that a label map holds beside its voxels.
+    """Read the names of labels of a label map.
 
     Known are the segments of 3D Slicer (``.seg.nrrd``, ``Segment0_Name`` and ``Segment0_LabelValue``) and the
     table of labels that TotalSegmentator writes into NIfTI files as an extension of the header.
@@ -31,7 +31,7 @@ def read_label_names(path: str | os.PathLike[str]) -> dict[int, str]:
     Raises
     ------
     FileError
-        Where the file cannot be read.
+        If the file cannot be read.
     """
     place = checked_path(path, "the path of a label map")
     try:

@@ -1,6 +1,6 @@
 """Images of other packages in memory → volumes, without an import and, where the package permits, a copy.
 
-An image only exists where its package is loaded: whatever is needed from it is found in `sys.modules`.
+An image only exists if its package is loaded, so the package is found in `sys.modules`.
 """
 
 from __future__ import annotations
@@ -59,7 +59,7 @@ def as_volume(image: Any) -> Volume:
 
 
 def is_image(image: Any) -> bool:
-    """Tell what `as_volume` knows how to take from what it refuses by its kind alone."""
+    """Return whether `as_volume` accepts objects of this kind."""
     return isinstance(image, Volume) or _room(image) is not None
 
 
@@ -124,7 +124,7 @@ def _from_simpleitk(image: Any) -> Volume:
     if "complex" in image.GetPixelIDTypeAsString() or "label" in image.GetPixelIDTypeAsString():
         raise VolumeError("SimpleITK image", image.GetPixelIDTypeAsString(), "one number per voxel")
     view = package.GetArrayViewFromImage(image)
-    # The second image shares the voxels, copy-on-write: they outlive whatever happens to the caller's image.
+    # The second image shares the voxels, copy-on-write: they survive changes to the caller's image.
     voxels = np.asarray(_Kept(view, package.Image(image)))
     spacing, origin, direction = image.GetSpacing(), image.GetOrigin(), image.GetDirection()
     affine = _affine(spacing, origin, direction, (0, 0, 0))

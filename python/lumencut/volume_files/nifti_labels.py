@@ -7,12 +7,12 @@ import re
 from lumencut.volume_files.opened import printable
 
 LONGEST = 1 << 20
-"""Bytes of extensions that are looked at."""
+"""Largest number of bytes of extensions to read."""
 _LABEL = re.compile(r"<Label\b[^>]*?\bKey=\"(-?\d{1,9})\"[^>]*>(?:<!\[CDATA\[)?([^<\]]*)")
 
 
 def has_extensions(head: bytes, length: int) -> bool:
-    """Tell whether extensions follow a header of this length; four bytes behind it say so."""
+    """Return whether extensions follow a header of this length; four bytes behind it say so."""
     return len(head) >= length + 4 and head[length] != 0
 
 
@@ -28,7 +28,7 @@ def label_names_in(head: bytes, length: int, end: int, order: str) -> dict[int, 
     end : int
         Where extensions end: at the first of the voxels.
     order : {'little', 'big'}
-        The order of the bytes in whole numbers.
+        The byte order of integers.
     """
     names: dict[int, str] = {}
     start = length + 4

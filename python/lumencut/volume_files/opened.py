@@ -36,7 +36,7 @@ def unfollowed(voxels: npt.NDArray[Any], count: int) -> None:
 
 
 def unproven() -> bool:
-    """Tell that nothing but reading the voxels shows whether a file has all of them."""
+    """Return no proof: only reading the voxels shows whether the file is complete."""
     return False
 
 
@@ -56,32 +56,32 @@ class VolumeFile:
     details: dict[str, str] = field(default_factory=dict)
     scan: ScanDetails = field(default_factory=ScanDetails)
     remarks: list[str] = field(default_factory=list)
-    """What is told of the file to whoever asks, and is no reason to warn every reader."""
+    """Notes on the file for reports, without a warning to every reader."""
     states_spacing: bool = True
     states_orientation: bool = True
     study: Study | None = None
     settled_type: np.dtype[Any] | None = None
-    """The type that the voxels will have, where the headers alone settle it."""
+    """The type of the voxels, if the headers decide it."""
     frame_of_reference: str = ""
     """The UID of the space that DICOM places the voxels in; empty where none is stated."""
     patient: Patient = field(default_factory=Patient)
     """Whose it is, as DICOM says it."""
     label_names: dict[int, str] = field(default_factory=dict)
-    """The names of the labels, where the file has them."""
+    """The names of the labels, if the file has them."""
     is_segmentation: bool = False
     """Whether it is one, whose segments can be chosen: it may hold a part of the voxels of its scan."""
     check_length: Callable[[], bool] = unproven
-    """Refuses files that are too short for their voxels; tells whether lengths prove that they are not."""
+    """Rejects files that are too short for their voxels; returns whether lengths prove completeness."""
     holds: object = None
     """What must not go while the voxels are still to be read."""
 
     def volume(self, progress: Progress, filled: Filled = unfollowed) -> Volume:
         """Read the voxels; what `progress` raises passes through.
 
-        `filled` is told of voxels that others may look at while the rest is read. Not every reader has such.
+        `filled` is called with voxels that others may use while the rest is read; not every reader calls it.
         """
-        with heeding(progress) as told_on, refusing(self.path, self.format, self.notes):
-            voxels = self.load(told_on, filled)
+        with heeding(progress) as report, refusing(self.path, self.format, self.notes):
+            voxels = self.load(report, filled)
         volume = _placed(self, voxels)
         volume._frame_of_reference, volume._is_segmentation = self.frame_of_reference, self.is_segmentation
         volume._label_names = self.label_names
@@ -90,7 +90,7 @@ class VolumeFile:
         return volume
 
     def checked(self) -> VolumeFile:
-        """Refuse a grid that no volume can have before any voxel is read, and note a doubtful size."""
+        """Reject a grid that no volume can have before any voxel is read, and note a doubtful size."""
         _placed(self, np.zeros((1, 1, 1), np.uint8))
         doubt = _lumencut.doubted_size(self.size, self.world_from_index[:3].tolist())
         if doubt and doubt not in self.notes:
@@ -123,10 +123,10 @@ def _placed(file: VolumeFile, voxels: npt.NDArray[Any]) -> Volume:
 
 @contextmanager
 def heeding(progress: Progress) -> Iterator[Progress]:
-    """Give a progress function whose own errors pass through everything that refuses files."""
+    """Yield a progress function whose own errors pass through `refusing`."""
     raised: list[Exception] = []
 
-    def told_on(done: int, total: int) -> None:
+    def report(done: int, total: int) -> None:
         try:
             progress(done, total)
         except Exception as error:
@@ -134,7 +134,7 @@ def heeding(progress: Progress) -> Iterator[Progress]:
             raise
 
     try:
-        yield told_on
+        yield report
     except Exception:
         if raised:
             raise raised[0] from None
@@ -148,7 +148,7 @@ logging.getLogger("pydicom").addFilter(lambda record: not _reading.get())
 
 @contextmanager
 def refusing(subject: object, kind: str, notes: list[str]) -> Iterator[None]:
-    """Turn whatever a foreign reader raises into an error that names the file, and its warnings into notes.
+    """Convert any exception of a foreign reader into an error that names the file, and its warnings to notes.
 
     Damaged files make the readers below raise nearly every built-in exception; none of them names the file,
     and many quote it: neither the error nor a printed traceback shows a value out of the file.
@@ -166,11 +166,11 @@ def refusing(subject: object, kind: str, notes: list[str]) -> Iterator[None]:
         if isinstance(error, OSError) and error.errno is not None:
             found = error.strerror or type(error).__name__
             raise FileError(str(error.filename or subject), found, "a readable file") from None
-        raise FormatError(str(subject), told(error), f"a sound {kind} file") from None
+        raise FormatError(str(subject), impersonal(error), f"a sound {kind} file") from None
     finally:
         _reading.reset(before)
     for warning in caught:
-        if (text := told(warning)) not in notes:
+        if (text := impersonal(warning)) not in notes:
             notes.append(text)
 
 
@@ -179,7 +179,7 @@ _NOT_OF_FILES = (DeprecationWarning, PendingDeprecationWarning, ImportWarning, R
 
 
 class _Hearing:
-    """The way of warnings to whoever reads in their thread.
+    """Routes warnings to the reader in the same thread.
 
     Python has one way for all threads: the first reader bends it, the last one puts it back.
     """
@@ -194,7 +194,7 @@ class _Hearing:
                 self._usual, self._catcher = warnings.showwarning, warnings.catch_warnings()
                 self._catcher.__enter__()
                 warnings.simplefilter("always")
-                warnings.showwarning = self._told
+                warnings.showwarning = self._received
             self._readers += 1
 
     def end(self) -> None:
@@ -204,7 +204,7 @@ class _Hearing:
                 self._catcher.__exit__(None, None, None)
                 warnings.showwarning = self._usual
 
-    def _told(self, message: Warning | str, category: type[Warning], *where: Any, **more: Any) -> None:
+    def _received(self, message: Warning | str, category: type[Warning], *where: Any, **more: Any) -> None:
         caught = _caught.get()
         if caught is None:
             self._usual(message, category, *where, **more)
@@ -232,10 +232,10 @@ _VALUE = re.compile(r"""[^ -~]|[\d"'`:=<>^(\[{\\]""")
 _LONG_ENOUGH = 3
 
 
-def told(message: BaseException | str) -> str:
-    """What a foreign error or warning says before it quotes a value, which may be a patient's name.
+def impersonal(message: BaseException | str) -> str:
+    """The part of a foreign message before any quoted value, which may be a patient's name.
 
-    Values follow a colon, a quotation mark or a bracket; whatever has digits is one.
+    Values follow a colon, a quotation mark or a bracket; words with digits are values.
     """
     words = _VALUE.split(str(message), maxsplit=1)[0]
     words = textwrap.shorten(words.rstrip(" -,.;"), 100, placeholder=" …")
@@ -250,7 +250,7 @@ def shown(value: object) -> str:
 
 
 def printable(text: str) -> str:
-    """A text with nothing in it that breaks a line or steers a terminal."""
+    """A text without line breaks and control characters."""
     return "".join(letter if letter.isprintable() else "�" for letter in text)
 
 
@@ -283,7 +283,7 @@ def inside(header: Path, name: str, field: str) -> Path:
     windows = PureWindowsPath(name)
     parts = windows.parts
     if not parts or not name.isprintable():
-        raise FormatError(str(header), f"no file's name in {field}", "the name of a file beside the header")
+        raise FormatError(str(header), f"no file's name in {field}", "the name of a file next to the header")
     leaves = windows.drive or windows.root or ".." in parts or name.startswith("~")
     home = header.parent.resolve()
     place = header.parent.joinpath(*parts)

@@ -11,7 +11,7 @@ import numpy.typing as npt
 from lumencut.errors import FormatError
 
 Overlaps = Counter[tuple[int, int]]
-"""For two segments, by their numbers, how many voxels they share."""
+"""The number of shared voxels for two segments, by their numbers."""
 
 
 class OverlapError(FormatError):
@@ -29,7 +29,7 @@ def put(
 
 
 def refuse_overlaps(subject: object, names: Mapping[int, str], overlaps: Overlaps) -> None:
-    """Refuse segments that share voxels.
+    """Reject segments that share voxels.
 
     Raises
     ------

@@ -11,22 +11,22 @@ from pathlib import Path
 from lumencut.errors import FormatError
 
 _UNKNOWN = 1 << 48
-"""Stands for the memory of a system that does not say how much it has."""
+"""The memory of a system that does not report it."""
 _SMALL = 16 << 20
 """So much is never asked about: it takes longer to ask than to take it."""
 _CONTROL_GROUPS = Path("/sys/fs/cgroup")
-_MEND = "crop or resample it, free memory, or raise the limit of memory where one is set"
+_MEND = "crop or resample it, free memory, or raise the memory limit if there is one"
 
 
 def require_memory(subject: object, needed: int) -> None:
-    """Refuse what needs more memory than is available.
+    """Reject what needs more memory than is available.
 
     Parameters
     ----------
     subject : object
         Names the file in the error.
     needed : int
-        Bytes that will be taken at once.
+        Bytes to allocate at once.
 
     Raises
     ------
@@ -60,7 +60,7 @@ def _of_machine() -> Iterator[int]:
             if line.startswith("MemAvailable:"):
                 yield int(line.split()[1]) << 10
                 return
-    # Other systems state what they have, not what of it is free.
+    # Other systems report the total memory, not the free memory.
     with suppress(AttributeError, OSError, ValueError):
         yield os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
 
@@ -76,7 +76,7 @@ def _of_windows() -> int:
 
 
 def _of_control_groups() -> Iterator[int]:
-    """What is left of the limits of the control groups that hold this process, of either version."""
+    """The remaining memory of the control groups of this process, version 1 or 2."""
     with suppress(OSError, ValueError):
         for line in Path("/proc/self/cgroup").read_text("utf-8").splitlines():
             _, controllers, group = line.split(":", 2)
@@ -88,7 +88,7 @@ def _of_control_groups() -> Iterator[int]:
 
 
 def _left(root: Path, group: str, limit: str, used: str) -> Iterator[int]:
-    """What a group and those above it have left; files that the system may drop again count as free."""
+    """The remaining memory of a group and its parents; reclaimable file cache counts as free."""
     place = root / group.strip("/")
     for folder in (place, *place.parents):
         with suppress(OSError, ValueError):
@@ -103,7 +103,7 @@ def _left(root: Path, group: str, limit: str, used: str) -> Iterator[int]:
 
 
 def _of_process() -> Iterator[int]:
-    """What is left of the address space of this process, where it has a limit."""
+    """The remaining address space of this process, if limited."""
     with suppress(ImportError, OSError, ValueError):
         import resource
 

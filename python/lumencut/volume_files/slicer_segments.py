@@ -35,13 +35,13 @@ class Segment:
 
 
 def has_segments(lines: Iterable[bytes]) -> bool:
-    """Tell whether a header describes segments."""
+    """Return whether a header describes segments."""
     return any(_FIELD.fullmatch(decoded(line).strip()) for line in lines)
 
 
 def no_segmentation(path: Path) -> FormatError:
-    """Return the error for segments that are asked of something else."""
-    expected = "a segmentation (DICOM SEG, or .seg.nrrd of 3D Slicer), of which segments are read"
+    """Return the error for segments of a file without segments."""
+    expected = "a segmentation (DICOM SEG, or .seg.nrrd of 3D Slicer), to choose segments"
     return FormatError(str(path), "no segmentation", expected, "leave segments out")
 
 

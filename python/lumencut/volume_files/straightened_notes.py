@@ -1,4 +1,4 @@
-"""What a file of a straightened volume says of its sides."""
+"""Notes on the sides of a straightened volume, from the header of its file."""
 
 from __future__ import annotations
 
@@ -6,12 +6,12 @@ from lumencut import _lumencut
 
 
 def note_sides(text: str, notes: list[str], remarks: list[str]) -> None:
-    """Add what the mark of a straightened volume says. Another text may name a patient: nothing is added.
+    """Add the notes of the mark of a straightened volume. Other texts may name a patient and are ignored.
 
     Parameters
     ----------
     text : str
-        The text of the header in which marks stand.
+        The text of the header that may contain the mark.
     notes : list of str
         Takes what every reader must know.
     remarks : list of str

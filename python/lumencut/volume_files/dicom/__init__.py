@@ -45,9 +45,7 @@ def opened(path: Path, wanted: Wanted, read: Callable[[list[str]], Sequence[File
         if segmentation is not None:
             return open_segmentation(path, segmentation, wanted.segments)
         if wanted.segments is not None:
-            raise FormatError(
-                str(path), "no segmentation", "a DICOM segmentation, of which segments are read"
-            )
+            raise FormatError(str(path), "no segmentation", "a DICOM segmentation, to choose segments")
         series = judged(path, files, wanted, notes)
     stack, space = series.stack, "LPS (as every DICOM)"
     note_sides(comments_of(stack.slices[0].image), notes, remarks)

@@ -1,4 +1,4 @@
-"""Whether slices that a plan takes for one hold the same values: the judge sees headers alone."""
+"""Compares the values of slices at one place; the judge sees only headers."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ _CHUNK = 1 << 20
 
 
 def same_values(pairs: Sequence[tuple[Slice, Slice]], notes: list[str]) -> Iterator[bool]:
-    """Tell of each pair of slices whether all of their values are equal; equal copies are not decoded."""
+    """Return for each pair of slices whether all values are equal; equal copies are not decoded."""
     equal: dict[tuple[int, int], bool] = {}
     for one, other in pairs:
         key = id(one.image), id(other.image)

@@ -21,7 +21,7 @@ _PIXELS = ("PixelData", "FloatPixelData", "DoubleFloatPixelData")
 
 @dataclass(frozen=True, eq=False)
 class _Held(Source):
-    """The pixels of a dataset in the place of a file; its first byte is the first of them."""
+    """The pixels of a dataset instead of a file; its first byte is the first of them."""
 
     number: int = 0
     pixels: bytes = b""
@@ -64,7 +64,7 @@ def open_datasets(datasets: Sequence[Any]) -> VolumeFile:
     Raises
     ------
     SeriesError
-        For several series of which none is the only angiography.
+        For several series without a single angiography.
     FormatError
         For datasets that are not one regular stack of grey slices.
     """

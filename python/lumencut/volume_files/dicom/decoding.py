@@ -28,7 +28,7 @@ PLUGINS = {
 def decode_native(
     syntax: str, stream: BinaryIO | bytes, frame: int, options: dict[str, Any]
 ) -> npt.NDArray[Any]:
-    """Read one frame of pixels that are not compressed; a stream stands at the first of all frames."""
+    """Read one frame of uncompressed pixels from a stream at the first frame."""
     from pydicom.pixels.decoders.base import get_decoder
 
     return np.asarray(get_decoder(syntax).as_array(stream, index=frame, **options)[0])
@@ -88,7 +88,7 @@ def _jpeg_of_12_bits(frame: bytes, options: dict[str, Any]) -> npt.NDArray[Any]:
 
 
 def _require_codestream(subject: str, frame: bytes, options: dict[str, Any]) -> None:
-    """Refuse a codestream of another size than the header's before its decoder sets memory aside."""
+    """Reject a codestream of another size than the header's before its decoder sets memory aside."""
     start = frame.find(_SIZ_MARKER)
     fields = frame[start + 8 : start + 42]
     if start < 0 or len(fields) < 34:

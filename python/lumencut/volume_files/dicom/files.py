@@ -1,4 +1,4 @@
-"""The files below a folder, in an archive or alone, each with its header as it is and as it is judged."""
+"""DICOM files of a folder, an archive or alone, each with its header, raw and for the judge."""
 
 from __future__ import annotations
 

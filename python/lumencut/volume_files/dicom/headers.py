@@ -23,7 +23,7 @@ _OWN_KEYWORDS = (
         "PerFrameFunctionalGroupsSequence",
     ),
 )
-"""What is read beside the attributes that the core judges by."""
+"""Attributes to read in addition to those that the core judges by."""
 _HEAD = 1 << 17
 """Bytes that hold the header of nearly every single-frame image: parsing memory is fast and bounded."""
 _PIXELS = {
@@ -49,22 +49,22 @@ class Image:
 
     @cached_property
     def frame_count(self) -> int:
-        """How many frames it states."""
+        """The stated number of frames."""
         return int(self.header.get("NumberOfFrames") or 1)
 
     @cached_property
     def transfer_syntax(self) -> Any:
-        """How the pixels are written."""
+        """The transfer syntax."""
         return transfer_syntax(self.header)
 
 
 def is_dicom(head: bytes) -> bool:
-    """Tell DICOM by the first bytes (at least 132) of a file: the preamble, or a bare identifying group."""
+    """Return whether the first bytes (at least 132) are DICOM: a preamble, or a bare identifying group."""
     return head[128:132] == b"DICM" or (head[:2] in (b"\x08\x00", b"\x02\x00") and head[3:4] == b"\x00")
 
 
 def transfer_syntax(header: Header) -> Any:
-    """Name how the pixels are written; files without that information are plain little-endian."""
+    """Return the transfer syntax; files without one are plain little-endian."""
     from pydicom.uid import ExplicitVRLittleEndian, ImplicitVRLittleEndian
 
     stated = header.file_meta.get("TransferSyntaxUID")
@@ -92,7 +92,7 @@ def _within(source: Source, head: bytes) -> Image | None:
     stream = io.BytesIO(head)
     try:
         header = _parsed(stream)
-    except Exception:  # cut off somewhere, or damaged: the whole file will tell
+    except Exception:  # truncated or damaged: reading the whole file will show it
         return None
     image = _with_pixels(source, header, head[stream.tell() : stream.tell() + 12], stream.tell())
     return image if image.pixel_keyword else None

@@ -1,4 +1,4 @@
-"""What the core makes of headers: one series as a stack of slices, or why there is none.
+"""The judgement of headers by the core: one series as a stack of slices, or the reason against it.
 
 The judgements are those of the crate ``lumencut-dicom``, which every host shares; here its answers become
 objects and errors of Python.
@@ -16,7 +16,7 @@ import numpy as np
 
 from lumencut._lumencut import describe_dicom, judge_dicom
 from lumencut.errors import FormatError, SeriesError
-from lumencut.mends import told
+from lumencut.mends import advised
 from lumencut.scan_details import ScanDetails
 from lumencut.series_report import SeriesReport
 from lumencut.volume_files.dicom.comparing import same_values
@@ -28,7 +28,7 @@ from lumencut.volume_files.dicom.stack import Fill, Slice, Stack
 
 @dataclass(frozen=True)
 class Wanted:
-    """What of a DICOM folder is to be read: which series, phase and segments, and what is mended of it."""
+    """The choice of series, phase, segments and mends for a DICOM folder."""
 
     series: str | None = None
     phase: str | None = None
@@ -98,13 +98,13 @@ def headers_document(files: Sequence[File], unlike: Sequence[Record] = ()) -> by
 
 
 def wanted_document(wanted: Wanted) -> bytes:
-    """Give what is to be read as the core takes it."""
+    """Return the choice in the form of the core."""
     # Segments are no matter of series, which the core judges.
     return _document({name: value for name, value in asdict(wanted).items() if name != "segments"})
 
 
 def _document(record: Record) -> bytes:
-    # Letters that UTF-8 cannot write stand in no value that is judged by.
+    # Values for the judge contain no letters outside UTF-8.
     return json.dumps(record, ensure_ascii=False, allow_nan=False).encode("utf-8", "replace")
 
 
@@ -118,7 +118,7 @@ def _answer(path: Path, files: Sequence[File], answer: str) -> Record:
 def _error(path: Path, files: Sequence[File], error: Record) -> FormatError:
     subject = str(path if error["file"] is None else files[error["file"]].source)
     mends = [(mend["name"], mend["values"]) for mend in error["mends"]]
-    words = subject, error["found"], error["expected"], told(error["advice"], mends)
+    words = subject, error["found"], error["expected"], advised(error["advice"], mends)
     if error["kind"] != "series":
         return FormatError(*words)
     several = SeriesError(*words)

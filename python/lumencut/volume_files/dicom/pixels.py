@@ -1,6 +1,6 @@
 """The stored pixels of the slices of a stack, in their order.
 
-Uncompressed pixels are read here. Compressed ones are decoded by processes of their own, or here where they
+Uncompressed pixels are read here. Compressed ones are decoded by separate processes, or here where they
 are few and their decoder takes damage as an ordinary error.
 """
 
@@ -29,7 +29,7 @@ _FEW = 40
 
 
 class PixelReader:
-    """Reads the pixels of slices one after the other; a context that ends what was started for it."""
+    """Reads the pixels of slices one after the other; a context that ends its workers."""
 
     def __init__(self, slices: Sequence[Slice], notes: list[str]) -> None:
         self._slices, self._notes = iter(slices), notes
@@ -86,7 +86,7 @@ class PixelReader:
 
 
 def check_pixels(images: Iterable[Image]) -> bool:
-    """Tell whether the sizes of files prove that each image has all of its pixels.
+    """Return whether the sizes of files prove that each image has all of its pixels.
 
     Raises
     ------
@@ -137,7 +137,7 @@ class _OpenImage:
         return decode_native(syntax, self._held, frame, options)
 
     def _read(self, needed: int, frames: int) -> bytes:
-        """The bytes of some frames of a packed file; behind the last one its check sum is looked at."""
+        """The bytes of some frames of a packed file; after the last one the checksum is verified."""
         # An odd number of bytes is followed by one that fills it up.
         pixels = self.stream.read(needed + needed % 2)
         if len(pixels) < needed:
@@ -172,7 +172,7 @@ class _OpenImage:
 
 
 def _options(image: Image) -> dict[str, Any]:
-    """What the decoder has to know, in types that JSON has."""
+    """The parameters of the decoder, in JSON types."""
     header = image.header
     options = {
         "rows": int(header.Rows),

@@ -38,7 +38,7 @@ def header_record(image: Image) -> Record:
 
 
 def plain(value: Any) -> Any:
-    """Give a value in a form that JSON has, true where there is none; DS and IS are the texts of the file."""
+    """Return a value for JSON, true if it has no JSON form; DS and IS stay the texts of the file."""
     if value is None or isinstance(value, str):
         return value
     if isinstance(value, _as_text()):
@@ -106,7 +106,7 @@ def _of_groups(groups: Header) -> Record:
 
 
 def _of_group(group: Header, tag: int) -> Any:
-    """A value of a functional group, true where it is damaged: who asks for it will hear of that."""
+    """A value of a functional group, true if damaged; the judge reports it if needed."""
     try:
         return plain(group[tag].value)
     except Exception:  # what pydicom raises for damaged values is nearly everything

@@ -1,4 +1,4 @@
-"""Where the frames of a DICOM segmentation lie, and on which grid: by their positions, not their order."""
+"""The grid of a DICOM segmentation, from the positions of its frames, not their order."""
 
 from __future__ import annotations
 
@@ -89,9 +89,7 @@ def segment_grid(subject: str, dataset: Any) -> SegmentGrid:
         along_k = (positions[last] - positions[first]) / k[last]
     off = positions - positions[first] - k[:, None] * along_k
     if np.abs(off).max() > _EVEN * max(step, float(spacing.max())):
-        raise FormatError(
-            subject, "frames that lie beside each other", "frames of one straight stack", _AGAIN
-        )
+        raise FormatError(subject, "frames side by side", "frames of one straight stack", _AGAIN)
     affine = np.eye(4)
     affine[:3] = np.stack([row * spacing[1], column * spacing[0], along_k, positions[first]], axis=1)
     frames = [SegmentFrame(n, segment, int(k[n])) for n, segment in enumerate(segments)]
@@ -110,7 +108,7 @@ def _directions(
 
 
 def _step(subject: str, depths: npt.NDArray[np.float64], stated: float) -> float:
-    """The distance of slices (mm): the stated one where all places are multiples of it, else the least."""
+    """The distance of slices (mm): the stated one if all places are its multiples, else the smallest."""
     offsets = np.sort(depths) - depths.min()
     gaps = np.diff(offsets)
     gaps = gaps[gaps > _ONE_PLACE]
@@ -126,7 +124,7 @@ def _step(subject: str, depths: npt.NDArray[np.float64], stated: float) -> float
 
 
 class _Groups:
-    """What the frames of a segmentation say of themselves, or all of them together."""
+    """The attributes of each frame of a segmentation, or of all together."""
 
     def __init__(self, subject: str, dataset: Any) -> None:
         self._subject = subject

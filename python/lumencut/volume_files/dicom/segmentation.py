@@ -28,7 +28,7 @@ _LARGEST_NUMBER = 65535
 
 
 def is_segmentation(image: Image) -> bool:
-    """Tell a segmentation by its class."""
+    """Return whether an object is a segmentation, by its class."""
     return str(image.header.get("SOPClassUID") or "") in _SEGMENTATIONS
 
 
@@ -38,7 +38,7 @@ def wanted_segmentation(path: Path, files: Sequence[File], wanted: Wanted) -> Im
     Raises
     ------
     FormatError
-        For several segmentations of which none is chosen.
+        For several segmentations without a choice.
     """
     images = [file.image for file in files if file.image is not None and file.image.header.get("Rows")]
     found = [image for image in images if is_segmentation(image)]
@@ -114,7 +114,7 @@ def open_segmentation(path: Path, image: Image, segments: Collection[int] | None
 
 
 def _check(subject: str, image: Image, names: dict[int, str], segments: Collection[int] | None) -> None:
-    """Refuse what no frame needs to be looked at for."""
+    """Reject what is invalid without reading any frame."""
     known = ", ".join(f"{number} {name}" for number, name in names.items())
     for number in segments or ():
         if number not in names:

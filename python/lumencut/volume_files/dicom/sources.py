@@ -84,7 +84,7 @@ def sources(path: Path) -> list[Source]:
 
 
 def _below(folder: Path) -> Iterator[Path]:
-    """The files below a folder; linked folders are entered too, each real one once."""
+    """The files below a folder, including linked folders, each real folder once."""
     seen: set[tuple[int, int]] = set()
     for place, folders, names in os.walk(folder, followlinks=True, onerror=_unreadable):
         state = os.stat(place)
@@ -100,19 +100,19 @@ def _unreadable(error: OSError) -> None:
 
 
 def is_zip(head: bytes) -> bool:
-    """Tell a zip archive by its first bytes."""
+    """Return whether the first bytes are those of a zip archive."""
     return head[:4] in _ZIP_SIGNATURES
 
 
 def not_dicom(source: Source) -> str:
-    """Name what a file is that is no DICOM as it lies there."""
+    """Return the kind of a file that is not plain DICOM."""
     head = source.head(4)
     packed = "zip archive" if is_zip(head) else "gzipped" if head[:2] == b"\x1f\x8b" else ""
     return f"{packed}; unpack it first" if packed else "no DICOM"
 
 
 def _members(path: Path) -> list[Source]:
-    """The files of an archive in the order of their names; nothing is unpacked to disk."""
+    """The files of an archive, sorted by name; nothing is unpacked to disk."""
     with refusing(path, "zip archive", []):
         archive = zipfile.ZipFile(path)
     infos = sorted((info for info in archive.infolist() if not info.is_dir()), key=lambda one: one.filename)
@@ -155,7 +155,7 @@ class Deflated(Source):
 
 
 def is_deflated(head: bytes) -> bool:
-    """Tell by the first bytes of a file whether its dataset is deflated."""
+    """Return whether the dataset of a file is deflated, by its first bytes."""
     return DEFLATED in head[: _behind_meta(head)]
 
 
@@ -165,5 +165,5 @@ def inflated(source: Source) -> Deflated:
 
 
 def _behind_meta(head: bytes) -> int:
-    """The first byte of the dataset; the first element of what precedes it says how long that is."""
+    """The first byte of the dataset; the first element of the preceding group states its length."""
     return min(144 + int.from_bytes(head[140:144], "little"), _META_LIMIT)

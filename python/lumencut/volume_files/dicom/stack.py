@@ -1,4 +1,4 @@
-"""Slices on an even, straight grid: which pixels are read, and where they go."""
+"""Slices on an even, straight grid: the pixels to read, and their places."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ class Fill:
 
 @dataclass(frozen=True, eq=False)
 class Stack:
-    """The slices of a volume in their order, and what the indices are filled with that have none.
+    """The slices of a volume in order, and how to fill indices without a slice.
 
     Only places of resampled slices may be fractions.
     """

@@ -21,15 +21,15 @@ from lumencut.volume_files.opened import refusing
 
 _EXPECTED = "a DICOM folder, file or zip archive"
 _IMAGE_COMMENTS = 0x00204000
-#: The most series of which a header is read once more.
+#: Largest number of series whose headers are read again.
 _MOST_SERIES = 64
 
 
 def study_of(images: Sequence[Image]) -> Study:
-    """Return the study of images, the first of which tells what is repeated.
+    """Return the study of images; the first one gives the repeated attributes.
 
-    An attribute that cannot be read is left out, as if the image did not have it. What is odd about one, such
-    as a name of too many letters, is no matter of whoever looks at the scan.
+    An unreadable attribute is omitted. Unusual values, such as an overlong name, do not matter to readers of
+    the scan.
     """
     seen: dict[str, str] = {}
     studies: dict[str, None] = {}
@@ -53,13 +53,13 @@ def _few(firsts: list[Image]) -> list[Image]:
 
 
 def _repeated(source: Source) -> Any:
-    """What is repeated of the header of a file."""
+    """The repeated attributes of the header of a file."""
     with refusing(source, "DICOM", []):
         return _readable(source.attributes(_tags()))
 
 
 def comments_of(image: Image) -> str:
-    """Return the comments of an image, which may name a patient; empty where they cannot be read."""
+    """Return the comments of an image, which may name a patient; empty if unreadable."""
     try:
         return str(image.source.attributes([_IMAGE_COMMENTS]).get("ImageComments") or "")
     except Exception:  # what pydicom raises for damaged values is nearly everything
@@ -75,7 +75,7 @@ def study_below(path: str | os.PathLike[str]) -> Study:
     Raises
     ------
     FormatError
-        Where there is no DICOM file.
+        Without a DICOM file.
     FileError
         For a path that is missing or cannot be read.
     """
@@ -98,9 +98,9 @@ def study_in(header: bytes, instances: Sequence[str] = ()) -> Study:
     Parameters
     ----------
     header : bytes
-        A DICOM file, or what of it stands before its pixels.
+        A DICOM file, or its part before the pixels.
     instances : sequence of str, default ()
-        The UIDs of all images of the scan, which are of the class of this one; without them it stands alone.
+        The UIDs of all images of the scan, which are of the class of this one; without them only this one.
 
     Raises
     ------
@@ -112,19 +112,19 @@ def study_in(header: bytes, instances: Sequence[str] = ()) -> Study:
     subject, of_image = "the DICOM file", ("SOPClassUID", "SOPInstanceUID")
     wanted = [*_tags(), *header_tags()]
     with refusing(subject, "DICOM", []):
-        # Files without the preamble are DICOM too: what they hold tells.
+        # Files without the preamble may be DICOM too: the content decides.
         read = pydicom.dcmread(io.BytesIO(header), stop_before_pixels=True, specific_tags=wanted, force=True)
         kind, own = (str(read.get(keyword) or "") for keyword in of_image)
         box = _box_in(read, len(header))
     if not kind:
         mend = "choose another file of the scan's folder"
-        raise FormatError(subject, "what is no DICOM image", "an image of the study", mend)
+        raise FormatError(subject, "a file that is not a DICOM image", "an image of the study", mend)
     uids = instances or ([own] if own else [])
     return Study(_readable(read), tuple((kind, uid) for uid in uids), box=box)
 
 
 def _box_in(header: Any, size: int) -> Box | None:
-    """What holds the frames of one header; None where it does not say where they lie."""
+    """The bounding box of the frames of one header; None if their places are unknown."""
     image = Image(Source(Path("header"), size), header, 0, "", "")
     try:
         return box_of_slices([header_record(image)])

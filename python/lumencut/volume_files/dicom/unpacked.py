@@ -60,11 +60,11 @@ class Unpacked(io.RawIOBase):
         self._at = self._wanted = 0
 
     def readable(self) -> bool:
-        """Tell that bytes can be read."""
+        """Return True: bytes can be read."""
         return True
 
     def seekable(self) -> bool:
-        """Tell that places can be chosen."""
+        """Return True: the stream is seekable."""
         return True
 
     def tell(self) -> int:
@@ -92,7 +92,7 @@ class Unpacked(io.RawIOBase):
         super().close()
 
     def _go(self) -> None:
-        """Unpack what lies before the place that is wanted."""
+        """Unpack everything before the requested place."""
         if self._wanted < self._at:
             self._stream.close()
             self._stream, self._at = self._begin(), 0
@@ -104,7 +104,7 @@ class Unpacked(io.RawIOBase):
 
 
 class Inflating:
-    """Some plain bytes, and what a bare deflate stream becomes."""
+    """Plain bytes followed by an inflated deflate stream."""
 
     def __init__(self, plain: bytes, packed: BinaryIO) -> None:
         self._plain, self._packed = plain, packed

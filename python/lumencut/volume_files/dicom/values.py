@@ -17,12 +17,11 @@ _INT32 = np.iinfo(np.int32)
 
 
 def load(stack: Stack, notes: list[str], progress: Progress, filled: Filled) -> npt.NDArray[Any]:
-    """Read slice after slice, and fill in between them what the grid asks for."""
+    """Read slice after slice, and fill in missing ones."""
     places = np.array([one.place for one in stack.slices])
     whole = np.flatnonzero(places % 1 == 0)
     if len(whole) == len(places):
         rows = places.astype(np.int64)
-        # Missing slices are interpolated only once all others are there.
         followed = filled if len(rows) == rows[-1] + 1 else unfollowed
         volume = measured = _read(stack, rows, notes, progress, followed)
     else:
@@ -36,7 +35,7 @@ def load(stack: Stack, notes: list[str], progress: Progress, filled: Filled) -> 
 
 
 def settled_type(stack: Stack) -> np.dtype[Any] | None:
-    """The type that the values will have; None where it takes the values themselves to tell."""
+    """The type of the values; None if only the values themselves decide."""
     if not _is_exact(stack) or all(s.image.pixel_keyword != "PixelData" for s in stack.slices):
         return np.dtype(np.float32)
     limits = np.iinfo(np.int16)
@@ -47,7 +46,7 @@ def settled_type(stack: Stack) -> np.dtype[Any] | None:
 
 
 def memory_needed(stack: Stack) -> int:
-    """Return how many bytes the values take at least, the measured slices of a resampled stack included."""
+    """Return the smallest size of the values in bytes, including measured slices of a resampled stack."""
     settled = settled_type(stack)
     ni, nj, nk = stack.size
     is_resampled = any(one.place % 1 for one in stack.slices)

@@ -10,7 +10,7 @@ import numpy as np
 
 from lumencut.errors import FormatError
 from lumencut.volume_files.dicom.decoding import decode_frame
-from lumencut.volume_files.opened import told
+from lumencut.volume_files.opened import impersonal
 
 _MEMORY = 4 << 30
 """Far above what one slice needs, far below what a damaged one may ask for."""
@@ -29,7 +29,7 @@ def _limit_memory() -> None:
 def main() -> None:
     """Decode until the input ends."""
     _limit_memory()
-    # GDCM may print; nothing but answers may reach the pipe.
+    # GDCM may print; only answers may reach the pipe.
     answers = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)
     for line in sys.stdin.buffer:
@@ -40,6 +40,6 @@ def main() -> None:
             data = pixels.tobytes()
             head: dict[str, object] = {"shape": pixels.shape, "dtype": pixels.dtype.str, "length": len(data)}
         except Exception as error:
-            data, head = b"", {"error": error.found if isinstance(error, FormatError) else told(error)}
+            data, head = b"", {"error": error.found if isinstance(error, FormatError) else impersonal(error)}
         answers.write(json.dumps(head).encode() + b"\n" + data)
         answers.flush()

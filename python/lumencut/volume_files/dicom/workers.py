@@ -1,4 +1,4 @@
-"""Decoders in processes of their own: one that crashes or hangs takes nothing with it, several work at once.
+"""Decoders in separate processes, which work in parallel and may crash or hang without harm.
 
 GDCM, the only free decoder of lossless JPEG and JPEG-LS, brings its process down on some damaged files; no
 decoder lets other threads of its process work meanwhile.
@@ -34,7 +34,7 @@ _START = "import sys; sys.path[:] = sys.argv[1:]; from lumencut.volume_files.dic
 
 @dataclass(frozen=True)
 class Request:
-    """A compressed frame, how it is to be decoded, and the bytes that it may become at most."""
+    """A compressed frame, its decoding parameters, and its largest decoded size (bytes)."""
 
     subject: str
     syntax: str
@@ -56,7 +56,7 @@ class Worker:
         )
 
     def kill(self) -> None:
-        """End the process, whatever it does."""
+        """End the process in any state."""
         self._process.kill()
 
     def close(self) -> None:
