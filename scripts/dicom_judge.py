@@ -58,7 +58,7 @@ def judged(case: Case, made: Made, answer: Answer) -> Verdict:
     if case.words and right and not faults:
         return Verdict(RIGHT, "each stack on its own" if len(right) > 1 else "")
     if not case.words and made.wanted in right:
-        return Verdict(RIGHT, f"a second volume beside it is not: {faults[0]}" if faults else "")
+        return Verdict(RIGHT, f"a second volume is not: {faults[0]}" if faults else "")
     everything = sum(one.slices for one in found) == len(made.images)
     if not case.words and everything and whole == {made.wanted} and all(one.lost for one in found):
         return Verdict(CANNOT, f"{len(found)} volumes, one of each file")

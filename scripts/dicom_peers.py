@@ -209,8 +209,8 @@ PEERS: dict[str, Reader] = {"SimpleITK": simpleitk, "highdicom": highdicom, "dcm
 def version(name: str) -> str:
     """The version of a reader."""
     if name == "dcm2niix":
-        told = subprocess.run([_dcm2niix_binary(), "--version"], capture_output=True, text=True).stdout
-        found = re.search(r"v[\d.]+", told)
+        printed = subprocess.run([_dcm2niix_binary(), "--version"], capture_output=True, text=True).stdout
+        found = re.search(r"v[\d.]+", printed)
         return found[0] if found else metadata.version(name)
     if name == "Lumencut":
         import lumencut

@@ -90,8 +90,8 @@ def api_pages() -> dict[str, str]:
     homes = public_names()
     pages = {}
     for page, (title, names) in GROUPS.items():
-        told = "\n\n".join(f"::: {homes[name]}.{name}" for name in names)
-        pages[f"api/{page}.md"] = f"# {title}\n\nAll of these are names of `lumencut`.\n\n{told}\n"
+        listed = "\n\n".join(f"::: {homes[name]}.{name}" for name in names)
+        pages[f"api/{page}.md"] = f"# {title}\n\nAll of these are names of `lumencut`.\n\n{listed}\n"
     return pages
 
 

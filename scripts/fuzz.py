@@ -71,8 +71,8 @@ class Outcome:
 
 def build() -> Path:
     """Build the targets; returns the folder where they are."""
-    told = subprocess.run(("rustc", "-vV"), cwd=ROOT, check=True, capture_output=True, text=True).stdout
-    host: str = re.findall(r"^host: (.*)$", told, re.MULTILINE)[0]
+    printed = subprocess.run(("rustc", "-vV"), cwd=ROOT, check=True, capture_output=True, text=True).stdout
+    host: str = re.findall(r"^host: (.*)$", printed, re.MULTILINE)[0]
     # With a named target, build scripts and macros are compiled without the flags.
     command = ("cargo", "build", "--quiet", "--locked", "--release", "--bins", "--target", host)
     environment = os.environ | {"RUSTFLAGS": " ".join(COVERAGE), "CARGO_TARGET_DIR": str(TARGET)}
@@ -101,7 +101,7 @@ def fuzz(program: Path, runs: int) -> Outcome:
     return Outcome(program.name, done.returncode, time.monotonic() - start, done.stdout)
 
 
-def told_wrong(outcome: Outcome) -> str:
+def fault_of(outcome: Outcome) -> str:
     """The fault of a target with the failing input, or nothing."""
     if outcome.status == 0 and outcome.inputs:
         return ""
@@ -133,7 +133,7 @@ def main() -> int:
     with ThreadPoolExecutor(arguments.jobs) as pool:
         for outcome in pool.map(lambda name: fuzz(folder / name, runs), targets):
             print(outcome, flush=True)
-            wrong += [told] if (told := told_wrong(outcome)) else []
+            wrong += [fault] if (fault := fault_of(outcome)) else []
     print(*wrong, sep="\n", end="\n" if wrong else "")
     return 1 if wrong else 0
 

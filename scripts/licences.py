@@ -129,8 +129,8 @@ def linked_crates(targets: Sequence[str], root: str = PACKAGE) -> list[Crate]:
     found: dict[str, dict[str, Any]] = {}
     for target in targets:
         command = ("cargo", "metadata", "--locked", "--format-version=1", "--filter-platform", target)
-        told = subprocess.run(command, cwd=ROOT, check=True, stdout=subprocess.PIPE).stdout
-        found |= {package["id"]: package for package in linked(json.loads(told), root)}
+        printed = subprocess.run(command, cwd=ROOT, check=True, stdout=subprocess.PIPE).stdout
+        found |= {package["id"]: package for package in linked(json.loads(printed), root)}
     crates = [crate_of(package) for package in found.values()]
     unused = WITHOUT_TEXT - {crate.name for crate in crates}
     # The WebAssembly links fewer crates than the extension module.

@@ -40,31 +40,31 @@ scripts/notices.py writes this file.
 def packages(web: Path) -> list[Crate]:
     """The npm packages that the page needs at run time."""
     locked: dict[str, dict[str, Any]] = json.loads((web / "package-lock.json").read_text("utf-8"))["packages"]
-    return [package_of(web / place, told) for place, told in needed(locked)]
+    return [package_of(web / place, package) for place, package in needed(locked)]
 
 
 def needed(locked: dict[str, dict[str, Any]]) -> Iterator[tuple[str, dict[str, Any]]]:
     """The paths of run-time packages in a lock file; the empty path is the page itself."""
-    for place, told in locked.items():
-        if place and not (told.get("dev") or told.get("devOptional") or told.get("link")):
-            yield place, told
+    for place, package in locked.items():
+        if place and not (package.get("dev") or package.get("devOptional") or package.get("link")):
+            yield place, package
 
 
-def package_of(folder: Path, told: dict[str, Any]) -> Crate:
+def package_of(folder: Path, package: dict[str, Any]) -> Crate:
     """A package as the lock file describes it, with its texts."""
     name = folder.as_posix().rpartition("node_modules/")[2]
-    licence = told.get("license") or "none stated"
+    licence = package.get("license") or "none stated"
     texts = shipped_texts(folder) if folder.is_dir() else []
     if not texts and name not in WITHOUT_TEXT | COMPILED.keys():
         raise LicenceError(
-            f"{name} {told.get('version')}: found no licence text; expected one in {folder}; if the standard "
+            f"{name} {package.get('version')}: found no licence text; expected one in {folder}; if the standard "
             f"text of {licence!r} will do, add the package to WITHOUT_TEXT in scripts/notices.py"
         )
     ships_none = not texts
     if name in WITHOUT_TEXT:
         texts = [standard_text(licence, f"the authors of {name}")]
     texts += [(WEB / f"licences/{text}.txt").read_text("utf-8") for text in COMPILED.get(name, ())]
-    return Crate(name, str(told.get("version", "")), licence, tuple(texts), is_standard=ships_none)
+    return Crate(name, str(package.get("version", "")), licence, tuple(texts), is_standard=ships_none)
 
 
 def crates() -> list[Crate]:

@@ -61,8 +61,8 @@ def main() -> int:
         print("types: found no pyright; expected that npm installs it, as it says above", file=sys.stderr)
         return 1
     status = pyright("--warnings").returncode
-    told = pyright("--verifytypes", "lumencut", "--ignoreexternal", "--outputjson", captured=True)
-    wrong = list(unknown(json.loads(told.stdout), public_names().keys() - UNTOLD - UNKNOWABLE))
+    report = pyright("--verifytypes", "lumencut", "--ignoreexternal", "--outputjson", captured=True)
+    wrong = list(unknown(json.loads(report.stdout), public_names().keys() - UNTOLD - UNKNOWABLE))
     for name in wrong:
         print(f"types: found a type of {name} that is not stated; expected that all are", file=sys.stderr)
     return 1 if status or wrong else 0

@@ -58,8 +58,8 @@ def rows() -> list[str]:
         places = " | ".join("–" if np.isnan(parts[one]) else f"{100 * parts[one]:.0f}" for one in TISSUES)
         ahead = []
         for context in ("mip", "mida"):
-            lumen, beside = contrast(scene, context)
-            ahead.append(f"{100 * lumen:.0f} over {100 * beside:.0f}")
+            lumen, around = contrast(scene, context)
+            ahead.append(f"{100 * lumen:.0f} over {100 * around:.0f}")
         found.append(
             f"| {name} | {ends(along)} | {places} | {ends(alone)} | {ends(mip)} | {' | '.join(ahead)} |"
         )

@@ -39,8 +39,8 @@ def document(case: Case, path: Path) -> dict[str, Any]:
     except FormatError as error:
         return found | {"error": _trouble(error)}
     digest = hashlib.sha256(volume.array.astype("<f4").tobytes()).hexdigest()
-    told = {"type": volume.array.dtype.name, "size": volume.size, "sha256": digest}
-    return found | {"volume": told}
+    described = {"type": volume.array.dtype.name, "size": volume.size, "sha256": digest}
+    return found | {"volume": described}
 
 
 def _trouble(error: FormatError) -> dict[str, Any]:
@@ -56,8 +56,8 @@ def write(case: Case, place: Path) -> None:
         # Some cases break rules that the writer checks.
         warnings.simplefilter("ignore")
         path = case.write(place).path
-    told = document(case, path) | {"path": path.relative_to(place.parent).as_posix()}
-    place.with_suffix(".json").write_text(json.dumps(told, ensure_ascii=False), "utf-8")
+    described = document(case, path) | {"path": path.relative_to(place.parent).as_posix()}
+    place.with_suffix(".json").write_text(json.dumps(described, ensure_ascii=False), "utf-8")
 
 
 def main() -> None:
