@@ -57,7 +57,8 @@ def package_of(folder: Path, package: dict[str, Any]) -> Crate:
     texts = shipped_texts(folder) if folder.is_dir() else []
     if not texts and name not in WITHOUT_TEXT | COMPILED.keys():
         raise LicenceError(
-            f"{name} {package.get('version')}: found no licence text; expected one in {folder}; if the standard "
+            f"{name} {package.get('version')}: found no licence text; expected one in {folder}; if the "
+            "standard "
             f"text of {licence!r} will do, add the package to WITHOUT_TEXT in scripts/notices.py"
         )
     ships_none = not texts
