@@ -83,8 +83,8 @@ calibration: develop ## See whether the uncertainty of measured diameters holds,
 bench-gpu: toolchain ## Measure the GPU, this machine's CPU beside it; QUICK=--quick for slow ones.
 	cargo bench --locked --package lumencut-gpu --bench stages -- $(QUICK)
 
-compare-dicom: develop $(VENV)/.peers ## Have other readers read the DICOM cases too; rewrites the table of docs/dicom.md.
-	$(BIN)/python scripts/compare_dicom.py --update docs/dicom.md
+compare-dicom: develop $(VENV)/.peers ## Have other readers read the DICOM cases too; rewrites the table of docs/clinic.md.
+	$(BIN)/python scripts/compare_dicom.py --update docs/clinic.md
 
 bench-dicom: develop tools ## Measure how fast long DICOM series are read, the decoder alone beside it.
 	$(BIN)/python benches/read_dicom.py

@@ -1,4 +1,4 @@
-"""How Lumencut and other readers of DICOM fare with series of known truth: the table of `docs/dicom.md`.
+"""How Lumencut and other readers of DICOM fare with series of known truth: the table of `docs/clinic.md`.
 
 Prints the table; `--cases` prints every case instead, `--update` writes the table between the marks of a
 document, `--check` tells whether the column of Lumencut there is what it does now (needs no other reader).

@@ -131,7 +131,7 @@ def test_every_name_that_a_page_shows_is_public():
 
 @pytest.mark.parametrize("path", [*EXAMPLES, *GALLERY], ids=lambda path: path.stem)
 def test_every_script_is_a_card_of_one_page(path):
-    page = "gallery.md" if path in GALLERY else "how-to.md"
+    page = "gallery.md" if path in GALLERY else "python.md"
     assert (ROOT / "docs" / page).read_text("utf-8").count(f"(../{path.relative_to(ROOT)})") == 1
     text, _ = docs_pages.site_page(ROOT / "docs" / page)
     script = docs_pages.script_of(path)
