@@ -1,7 +1,7 @@
-"""How Lumencut and other readers of DICOM fare with series of known truth: the table of `docs/clinic.md`.
+"""Compares how Lumencut and other DICOM readers read series of known truth.
 
-Prints the table; `--cases` prints every case instead, `--update` writes the table between the marks of a
-document, `--check` tells whether the column of Lumencut there is what it does now (needs no other reader).
+Prints the table; `--cases` prints every case, `--update` writes the table between the marks of a document,
+`--check` checks the column of Lumencut there (needs no other reader).
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ def verdicts_of(cases: Iterable[Case], readers: Mapping[str, Reader]) -> Iterato
     for case in cases:
         with tempfile.TemporaryDirectory() as folder:
             with warnings.catch_warnings():
-                # Some cases are meant to break rules that the writer knows.
+                # Some cases break rules that the writer checks.
                 warnings.simplefilter("ignore")
                 made = case.write(Path(folder))
             for name, reader in readers.items():
@@ -50,7 +50,7 @@ def grouped(cases: Iterable[Case], readers: Mapping[str, Reader]) -> dict[str, V
 
 
 def cell(verdicts: list[Verdict]) -> str:
-    """What the table says of one reader and one group."""
+    """The cell of one reader and one group."""
     counts = Counter(one.kind for one in verdicts)
     parts = []
     for kind in sorted(counts, key=ORDER.index):
@@ -101,7 +101,7 @@ def check(document: Path) -> int:
 
 
 def main() -> int:
-    """Make the table and do with it what was asked."""
+    """Make the table, then print, write or check it."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--update", type=Path, metavar="DOCUMENT")
     parser.add_argument("--check", type=Path, metavar="DOCUMENT")
@@ -110,7 +110,7 @@ def main() -> int:
     if arguments.check:
         return check(arguments.check)
     readers = {**PEERS, OURS: lumencut}
-    # What a peer wrote itself is no fair test of peers.
+    # Cases written by a peer are no fair test of peers.
     cases = [case for case in CASES if not case.needs]
     if arguments.cases:
         for case, name, verdict in verdicts_of(cases, readers):
