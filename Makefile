@@ -84,8 +84,8 @@ calibration: develop ## Check the uncertainty of measured diameters in 288 scene
 bench-gpu: toolchain ## Measure GPU and CPU of this machine; QUICK=--quick for slow ones.
 	cargo bench --locked --package lumencut-gpu --bench stages -- $(QUICK)
 
-compare-dicom: develop $(VENV)/.peers ## Read the DICOM cases with other readers too; rewrites the table of docs/dicom.md.
-	$(BIN)/python scripts/compare_dicom.py --update docs/dicom.md
+compare-dicom: develop $(VENV)/.peers ## Read the DICOM cases with other readers too; rewrites the table of docs/clinic.md.
+	$(BIN)/python scripts/compare_dicom.py --update docs/clinic.md
 
 bench-dicom: develop tools ## Measure the reading of long DICOM series and of the decoder alone.
 	$(BIN)/python benches/read_dicom.py

@@ -1,6 +1,7 @@
-"""Errors say what was found, what was expected, and what mends it.
+"""Errors that name a remedy.
 
-Each is a `LumencutError`, and one of Python's own errors too, so that programs can tell them apart.
+An error states what was found, what was expected and what mends it. Each is a `LumencutError` and also one
+of Python's own errors, so programs can distinguish them.
 """
 
 import numpy as np
@@ -11,6 +12,6 @@ try:
     lumencut.Volume(np.zeros((8, 8, 8), np.int16), spacing=(0.5, 0.5, -1.0))
 except lumencut.VolumeError as error:
     print(f"{error.subject}: found {error.found}, expected {error.expected}")
-    print("what mends it:", error.advice or "nothing but another value")
+    print("remedy:", error.advice or "another value")
 else:
-    raise SystemExit("a spacing below zero was taken")
+    raise SystemExit("a negative spacing was accepted")

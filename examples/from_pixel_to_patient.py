@@ -1,6 +1,6 @@
 """What a pixel shows: its vessel, its depth, and its place in the patient.
 
-Every picture comes with images of the same size that tell where each pixel looks (LPS, millimetres).
+Every picture comes with images of the same size that give the place of each pixel (LPS, mm).
 """
 
 import lumencut

@@ -1,7 +1,6 @@
-"""A picture from an array of your own.
+"""A picture from your own array.
 
-Whatever you have as an array of voxels, with its spacing, can be shown; vessels are points with radii, in
-millimetres.
+Lumencut can show any array of voxels with known spacing. Vessels are points with radii (mm).
 """
 
 import numpy as np
@@ -19,4 +18,4 @@ tree = lumencut.VesselTree([lumencut.Vessel(line, radius=3.0, name="tube")])
 frame = lumencut.render(volume, tree)
 frame.save("own_array.png", annotate=True)
 height, width = frame.value.shape
-print(f"in the middle the value is {frame.value[height // 2, width // 2]:.0f}")
+print(f"the value in the middle is {frame.value[height // 2, width // 2]:.0f}")

@@ -1,7 +1,6 @@
 """From two points to a table of diameters.
 
-A vessel is traced between two points along it and measured; the table has a row for each section, with its
-uncertainty.
+`trace` follows the vessel between two points, and `measure` returns a row per section with its uncertainty.
 """
 
 import lumencut
@@ -15,5 +14,5 @@ lumencut.write_centerlines(tree, "helix.vtp")
 profile = lumencut.measure(scan.volume, tree[0])
 profile.save("helix.csv")
 middle = len(profile.arc_length) // 2
-diameter, doubt = profile.diameter_equivalent[middle], profile.uncertainty[middle]
-print(f"{tree[0].length:.0f} mm long, in the middle {diameter:.2f} ± {doubt:.2f} mm wide")
+diameter, deviation = profile.diameter_equivalent[middle], profile.uncertainty[middle]
+print(f"{tree[0].length:.0f} mm long; in the middle {diameter:.2f} ± {deviation:.2f} mm wide")

@@ -1,6 +1,6 @@
-"""Writes what repeats the table of settings: the class `Settings` of the package, and ``docs/settings.md``.
+"""Generate the class `Settings` and ``docs/settings.md`` from the table of settings.
 
-The table is `crates/lumencut-core/src/settings/table.rs`; this script reads it from the built package.
+The table is `crates/lumencut-core/src/settings/table.rs`, read from the built package.
 """
 
 from __future__ import annotations
@@ -13,9 +13,9 @@ from lumencut.window import WINDOW_NAMES
 
 ROOT = Path(__file__).resolve().parent.parent
 
-CLASS_HEAD = '''"""Every setting of the method, with its unit and its default.
+CLASS_HEAD = '''"""All settings with units and defaults.
 
-``make settings`` writes this file from the table of settings in the core.
+``make settings`` generates this file from the table of settings in the core.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ CLASS = '''
 @by_name
 @dataclass(frozen=True)
 class Settings(CheckedSettings):
-    """How the cut surface is made and shown (Auzinger et al. 2013, section 3), and what is behind it.
+    """Settings of the cut surface (Auzinger et al. 2013, section 3) and of the context behind it.
 
     Parameters
     ----------
@@ -52,9 +52,9 @@ class Settings(CheckedSettings):
 '''
 PAGE = """# Settings
 
-Each setting is a field of `lumencut.Settings` under this name, and an option of `lumencut render` and
-`lumencut turntable` with hyphens in the place of underscores. `make settings` writes this page from the table
-of settings in the core.
+Each setting is a field of `lumencut.Settings`. It is also an option of `lumencut render` and
+`lumencut turntable`, with hyphens instead of underscores. A value outside the range is rejected.
+[Files](files.md) describes settings in a TOML file. `make settings` generates this page.
 
 | setting | kind | range | unit | default | what it does |
 |---|---|---|---|---|---|
@@ -96,7 +96,7 @@ def parameter(name: str, setting: Setting) -> str:
     parts.append("optional" if setting.open is not None else f"default {default}")
     text = described(setting)
     if setting.open is not None:
-        text += f" Where not given: {setting.open}."
+        text += f" If not given: {setting.open}."
     lines = textwrap.wrap(text.replace("`", "``"), 100, break_on_hyphens=False)
     return "\n".join([f"    {name} : {', '.join(parts)}", *(f"        {line}" for line in lines)])
 

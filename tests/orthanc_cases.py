@@ -193,7 +193,7 @@ def test_the_line_for_dcmtk_stores_the_same_files(orthanc, stored, tmp_path):
     data = single(PLAIN_STACK[0], 1, series=8)
     (tmp_path / "results").mkdir()
     save(data, tmp_path / "results" / "one.dcm")
-    words = Path(__file__).parents[1].joinpath("docs/dicomweb.md").read_text()
+    words = Path(__file__).parents[1].joinpath("docs/clinic.md").read_text()
     (line,) = re.findall(r"^dcmsend .*$", words, re.MULTILINE)
     line = line.replace("PACS pacs.example 11112", f"ORTHANC 127.0.0.1 {orthanc.dicom}")
     subprocess.run(line.split(), cwd=tmp_path, check=True, capture_output=True, timeout=60)

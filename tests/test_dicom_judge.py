@@ -100,7 +100,7 @@ def test_cells():
 
 
 def test_the_document_has_the_table():
-    document = (compare_dicom.ROOT / "docs/dicom.md").read_text("utf-8")
+    document = (compare_dicom.ROOT / "docs/clinic.md").read_text("utf-8")
     written = compare_dicom.column(compare_dicom.between(document)[1])
     groups = dict.fromkeys(case.group for case in compare_dicom.CASES)
     assert [name.split(" (")[0] for name in written] == list(groups)

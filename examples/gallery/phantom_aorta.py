@@ -1,6 +1,6 @@
 """Fifty vessels in one picture.
 
-A phantom of the aorta with the arteries of the bowel, the kidneys and the pelvis, whose tree is known
+A phantom of the aorta with the arteries of the bowel, the kidneys and the pelvis. Its tree is known
 exactly.
 """
 

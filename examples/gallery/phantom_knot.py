@@ -1,7 +1,7 @@
-"""A vessel that is knotted.
+"""A knotted vessel.
 
-A phantom, made from a formula: a trefoil knot with a wall of calcium. Where two stretches cross, the nearer
-one is in front.
+A phantom from a formula: a trefoil knot with a calcified wall. Where it crosses itself, the nearer part is
+in front.
 """
 
 import lumencut

@@ -1,7 +1,7 @@
-"""A narrowing, measured.
+"""A stenosis, measured.
 
-A phantom of 8 mm that is 4 mm wide where it is narrow: the diameter along it, with its uncertainty as a
-band. Needs `lumencut[plot]`.
+A phantom of 8 mm with a stenosis of 4 mm: its diameter along the vessel, with the uncertainty as a band.
+Needs `lumencut[plot]`.
 """
 
 import numpy as np

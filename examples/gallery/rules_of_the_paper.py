@@ -1,7 +1,7 @@
-"""What the rules change.
+"""The rules of the paper and those of Lumencut.
 
-The graft from below, by the rules of the paper (left) and by those of Lumencut (right): surroundings of a
-near vessel no longer hide the lumen behind them.
+The graft from below, by the rules of the paper (left) and of Lumencut (right). With the latter,
+surroundings of a near vessel never hide the lumen behind them.
 """
 
 import numpy as np

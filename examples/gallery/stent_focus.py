@@ -1,7 +1,6 @@
-"""The exact cut amid the body.
+"""The exact cut with the body around it.
 
-The grey cut shows the inside of the vessels exactly, and the body around them is shaded: where a vessel
-lies is seen at once.
+The grey cut shows the exact inside of the vessels. The shaded body shows where each vessel lies.
 """
 
 import lumencut

@@ -1,7 +1,7 @@
 """From a scan alone.
 
-Left a maximum intensity projection of the scan, right the vessels that were found in it and cut open. No
-point was given.
+Left: a maximum intensity projection of the scan. Right: the vessels that Lumencut found in it without any
+point, cut open.
 """
 
 import numpy as np

@@ -1,6 +1,6 @@
 """A view that turns.
 
-One view shows one diameter: a narrowing that is not round is judged from all sides.
+One view shows one diameter. Judge an eccentric stenosis from all sides.
 """
 
 import lumencut

@@ -1,7 +1,7 @@
-"""A tree without overlap: untangled CPR.
+"""Untangled CPR: a tree without overlap.
 
-Every vessel is cut open in one map, none before another, with true lengths. Branches are turned by as little
-as that takes, so angles between vessels are not those of the body.
+One map shows every vessel cut open, with true lengths and without overlap. Branches are rotated by the
+smallest angle that separates them, so angles between vessels are not those of the body.
 """
 
 import lumencut

@@ -1,7 +1,7 @@
 """All vessels cut open in one view.
 
-An aorta with a stent graft, from the front and obliquely from the left: every lumen is as wide as it is,
-and the struts of the stent are white. Yellow lines mark where the depth of the cut leaps.
+An aorta with a stent graft, from the front and obliquely from the left. Every lumen has its true width, and
+stent struts are white. Yellow lines mark jumps in the depth of the cut.
 """
 
 import numpy as np

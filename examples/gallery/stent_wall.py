@@ -1,7 +1,7 @@
-"""The wall unrolled: lumen map.
+"""Lumen map: the wall unrolled.
 
-The wall of the same way, cut open along it: the largest values at the wall with every strut, and how far
-the wall is from the centerline. The hole is the opening of the other limb.
+The wall of the same path, cut open along its length. Left: the largest values at the wall show every strut.
+Right: the distance of the wall from the centerline. The hole is the opening of the other limb.
 """
 
 import numpy as np

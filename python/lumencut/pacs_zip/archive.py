@@ -37,7 +37,8 @@ def pacs_zip(content: bytes, served: Volume | None) -> bytes:
     Parameters
     ----------
     content : bytes
-        The request as JSON; ``docs/viewer.md`` lists its fields.
+        The request as JSON: PNG pictures in base64, numbers of the findings, the report as HTML, and the
+        header of one slice with the UIDs of the others.
     served : Volume or None
         The served volume, or None.
 
