@@ -76,7 +76,7 @@ def test_a_part_of_a_list_is_indented_by_four(name):
 def test_links_are_those_of_the_site(tmp_path):
     text, files = docs_pages.site_page(ROOT / "docs/pictures.md")
     assert "](METHOD.md)" in text
-    assert "](BENCHMARKS.md#five-criteria)" in text
+    assert "](results/accuracy.md" in text
     assert files["images/csr.webp"] == ROOT / "docs/images/csr.webp"
     assert "](command-line.md)" in docs_pages.site_page(ROOT / "docs/gallery.md")[0]
 
