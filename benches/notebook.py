@@ -42,7 +42,6 @@ def _():
 if __name__ == "__main__":
     app.run()
 """
-#: Records every round trip that the view reports.
 _LISTEN = """view => {
   window.trips = []; window.sizes = [];
   new MutationObserver(() => {

@@ -14,8 +14,7 @@ import numpy as np
 
 from lumencut import Vessel, Volume, cpr, lumen_map, measure, spiral
 
-#: Pixel side (mm) for about 1024 rows.
-SPACING = 0.125
+SPACING_MM = 0.125
 
 
 def scene() -> tuple[Volume, Vessel]:
@@ -50,19 +49,19 @@ def main() -> None:
     profile = measure(volume, vessel)
 
     def straight(_: Any = None) -> Any:
-        return cpr(volume, vessel, "straightened", 64.0, SPACING)
+        return cpr(volume, vessel, "straightened", 64.0, SPACING_MM)
 
     def rolled(_: Any = None) -> Any:
-        return cpr(volume, vessel, "straightened", 64.0, SPACING, roll="narrowest", profile=profile)
+        return cpr(volume, vessel, "straightened", 64.0, SPACING_MM, roll="narrowest", profile=profile)
 
     def mapped(mode: Any) -> tuple[Callable[[], Any], Callable[[Any], Any]]:
         return (
-            lambda: lumen_map(volume, vessel, mode, SPACING, angle=0.0, profile=profile),
+            lambda: lumen_map(volume, vessel, mode, SPACING_MM, angle=0.0, profile=profile),
             lambda made: made.changed(mode),
         )
 
     def wound(_: Any = None) -> Any:
-        return spiral(volume, vessel, 8.0, 12.8, pixel_spacing=SPACING)
+        return spiral(volume, vessel, 8.0, 12.8, pixel_spacing=SPACING_MM)
 
     rows = {"straightened CPR": (straight, straight), "narrowest roll": (rolled, rolled)}
     rows |= {f"lumen map, {mode}": mapped(mode) for mode in ("wall", "radius", "thickness", "shaded")}

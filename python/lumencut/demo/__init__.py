@@ -40,7 +40,6 @@ STENT_POINTS = (
     ((56, 92, 235), (75, 7, 183)),
 )
 
-#: Timeout of the package index.
 _TIMEOUT_S = 10
 
 

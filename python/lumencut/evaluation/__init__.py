@@ -26,7 +26,6 @@ __all__ = ["Evaluation", "evaluate"]
 
 _MOST_VIEWS = 10_000
 
-#: Counts of a method in one view, by measure.
 _Counts = dict[str, Amounts]
 
 

@@ -11,7 +11,6 @@ from lumencut.evaluation.silhouettes import leap_bounds, leaps_along
 from lumencut.evaluation.truth import Truth
 from lumencut.evaluation.width import clear_stations, lying
 
-#: Judged distance from the wall (mm).
 MAX_DISTANCE_MM = 20.0
 
 

@@ -15,11 +15,10 @@ if TYPE_CHECKING:
     from lumencut.vessel_tree import VesselTree
 
 #: Closer points are duplicates, and shorter projected segments have no direction (mm).
-COLLINEAR = 1e-3
+COLLINEAR_MM = 1e-3
 #: Points of one vessel farther apart than this along it count as separate (mm of arc length).
 SEPARATE_ARC_MM = 20.0
-#: Arc length between width stations (mm).
-STATION_STEP = 5.0
+STATION_STEP_MM = 5.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -116,7 +115,7 @@ def width_stations(centerline: Centerline) -> tuple[Stations, int]:
     Excluded are stations within two radii of an end, and those whose lumen touches another vessel or a part
     of the same vessel more than 20 mm of arc length away: a junction has no width.
     """
-    stations = centerline.every(STATION_STEP)
+    stations = centerline.every(STATION_STEP_MM)
     to_end = np.minimum(stations.arc, centerline.lengths[stations.vessel] - stations.arc)
     alone = to_end >= 2 * stations.radius
     others = centerline.every(1.0)
@@ -159,10 +158,10 @@ def _radius(vessel: Vessel) -> npt.NDArray[np.float64]:
 
 def _kept(points: npt.NDArray[np.float64]) -> npt.NDArray[np.intp]:
     """Indices of the points without duplicates."""
-    if (np.linalg.norm(np.diff(points, axis=0), axis=1) >= COLLINEAR).all():
+    if (np.linalg.norm(np.diff(points, axis=0), axis=1) >= COLLINEAR_MM).all():
         return np.arange(len(points))
     kept = [0]
     for index in range(1, len(points)):
-        if np.linalg.norm(points[index] - points[kept[-1]]) >= COLLINEAR:
+        if np.linalg.norm(points[index] - points[kept[-1]]) >= COLLINEAR_MM:
             kept.append(index)
     return np.array(kept)

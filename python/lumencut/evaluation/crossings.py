@@ -72,7 +72,6 @@ def _met(
     area = _cross(edge, other)
     with np.errstate(divide="ignore", invalid="ignore"):
         t, u = _cross(offset, other) / area, _cross(offset, edge) / area
-    # The end of a segment is the start of the next one.
     meets = (area != 0) & (t >= 0) & (t < 1) & (u >= 0) & (u < 1)
     t, u, first, second = t[meets], u[meets], first[meets], second[meets]
     depth = np.stack([_between(seen.depth, first, t), _between(seen.depth, second, u)])

@@ -92,7 +92,6 @@ def _reformation(method: tuple[Any, ...], **more: Any) -> Method:
         return renderer._by(method, camera, settings)
 
     def details(renderer: Renderer, camera: Camera, settings: Settings) -> dict[str, npt.NDArray[np.float32]]:
-        # No pixel blends.
         width, height = camera.size
         found = {"sheet_gap": np.zeros((height, width), np.float32)}
         if settings.silhouettes:

@@ -17,7 +17,6 @@ if TYPE_CHECKING:
     from lumencut.renderer import Renderer
     from lumencut.settings import Settings
 
-#: Measures of such a picture; the others need pixels of the view.
 COUNTED = ("tissue", "centerline")
 
 

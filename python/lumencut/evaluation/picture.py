@@ -9,7 +9,6 @@ from lumencut.evaluation.centerline import SEPARATE_ARC_MM
 from lumencut.evaluation.shown import Shown
 from lumencut.evaluation.truth import Truth
 
-#: Smallest change of depth that counts as a jump.
 _JUMP_MM = 5.0
 
 

@@ -12,7 +12,7 @@ from typing import NamedTuple, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from lumencut.evaluation.centerline import COLLINEAR
+from lumencut.evaluation.centerline import COLLINEAR_MM
 from lumencut.evaluation.projection import Projection
 from lumencut.evaluation.raster import Regions
 
@@ -103,8 +103,7 @@ def pieces_of(seen: Projection) -> tuple[Stripes, Fans]:
     edge = np.append(np.diff(seen.place, axis=0), np.zeros((1, 2)), axis=0)
     vessel = seen.centerline.vessel
     within = np.append(vessel[:-1] == vessel[1:], False)
-    solid = within & (np.linalg.norm(edge, axis=1) >= COLLINEAR)
-    # Edges without a stripe set no condition.
+    solid = within & (np.linalg.norm(edge, axis=1) >= COLLINEAR_MM)
     edge = np.where(solid[:, None], edge, 0.0)
     fans = [_after_stripes(solid, within, edge), *_at_ends(seen, solid, edge)]
     point, before, after = (np.concatenate(column) for column in zip(*fans, strict=True))
@@ -142,7 +141,6 @@ def _at_ends(
     lone = np.array(
         [a + np.argmin(seen.depth[a : b + 1]) for a, b in zip(first[flat], last[flat], strict=True)]
     )
-    # Without a stripe at its last segment the vessel ends in a run.
     runs_out = ~flat & ~solid[np.maximum(last - 1, 0)]
     starts, ends = first[~flat], np.concatenate([last[runs_out], lone.astype(int)])
     nothing = np.zeros((len(ends), 2))

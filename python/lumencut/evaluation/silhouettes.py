@@ -9,8 +9,7 @@ from lumencut.evaluation.amounts import Amounts, Columns, counted, percent, rati
 from lumencut.evaluation.shown import Shown
 from lumencut.evaluation.truth import Truth
 
-#: Silhouettes stronger than this are lines.
-_MIN_STRENGTH = 0.25
+_MIN_LINE_STRENGTH = 0.25
 #: Smallest leap, for vessels with less than half this radius.
 _MIN_LEAP_MM = 2.0
 
@@ -21,7 +20,7 @@ def silhouette_amounts(truth: Truth, shown: Shown) -> Amounts:
         return dict.fromkeys(("leaps", "drawn", "stray", "area"))
     side = truth.seen.grid.side
     across, down = leaps(shown.plain_depth, leap_bounds(truth, shown))
-    line = shown.strength > _MIN_STRENGTH
+    line = shown.strength > _MIN_LINE_STRENGTH
     near = _grown(line)
     drawn = counted(across & (near[:, :-1] | near[:, 1:])) + counted(down & (near[:-1] | near[1:]))
     at_leap = np.zeros(line.shape, bool)
@@ -56,7 +55,6 @@ def leap_bounds(truth: Truth, shown: Shown) -> npt.NDArray[np.float64]:
     line = truth.seen.centerline
     starts = np.flatnonzero(np.diff(line.vessel)) + 1
     usual = np.array([np.median(radii) for radii in np.split(line.radius, starts)])
-    # Pixels that show nothing have no leap.
     of_zone = np.where(shown.vessel >= 0, usual[shown.vessel], np.inf)
     radius = np.where(np.isnan(truth.nearest.radius), of_zone, truth.nearest.radius)
     bounds: npt.NDArray[np.float64] = np.maximum(2 * radius, _MIN_LEAP_MM)

@@ -84,7 +84,6 @@ def nearest_lumen(seen: Projection) -> Nearest:
             offer = pieces.offer(piece, grid.centers(pixel))
             nearer = offer.covers & (offer.depth < depth[pixel])
             np.minimum.at(depth, pixel[nearer], offer.depth[nearer])
-            # The last of equally near ones wins.
             won = np.flatnonzero(nearer & (offer.depth == depth[pixel]))
             for image, values in ((vessel, offer.vessel), (arc, offer.arc), (radius, offer.radius)):
                 image[pixel[won]] = values[won]

@@ -22,7 +22,6 @@ def directions(count: int) -> npt.NDArray[np.float64]:
     number = np.arange(count)
     z = 1 - (2 * number + 1) / count
     across, angle = np.sqrt(1 - z**2), number * _GOLDEN_ANGLE
-    # A single view is from the front.
     return np.stack([across * np.sin(angle), across * np.cos(angle), z], axis=1)
 
 

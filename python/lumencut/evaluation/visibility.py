@@ -9,7 +9,6 @@ from lumencut.evaluation.shown import Shown
 from lumencut.evaluation.truth import EXACT, Truth
 from lumencut.evaluation.width import inside_vessel
 
-#: Tolerances of the depth of a lumen pixel.
 TOLERANCES_MM = (0.05, 0.5, 2.0)
 #: Tolerance, beyond the radius, of the depth shown at a crossing.
 _CROSSING_MARGIN_MM = 0.5

@@ -100,12 +100,10 @@ def inside_vessel(
     line, reach = truth.seen.centerline, 3 * stations.radius + _EXTRA_LENGTH_MM
     first = line.indices(stations.vessel, stations.arc - reach)
     last = np.maximum(line.indices(stations.vessel, stations.arc + reach), first + 1)
-    # Include the next point, unless the vessel ends.
     last = np.minimum(last + 1, line.indices(stations.vessel, line.lengths[stations.vessel]))
     count = last - first
     inside = np.zeros(position.shape[:2], bool)
     for part in parts(np.full(len(stations), position.shape[1]) * count):
-        # Vessels with fewer segments repeat their last one.
         segment = first[part, None] + np.minimum(np.arange(count[part].max()), count[part, None] - 1)
         # Relative to the station, squared distances keep their digits.
         middle = stations.points[part, None]
