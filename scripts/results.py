@@ -71,12 +71,14 @@ def subject(path: Path, machines: dict[str, str]) -> dict[str, Any]:
 def section(found: dict[str, Any]) -> list[str]:
     """The lines of one subject."""
     table = [found["columns"], ["-"] * len(found["columns"]), *found["rows"]]
+    command = found["command"]
+    shown = "command not recorded" if command == "not recorded" else f"`{command}`"
     return [
         f"## {found['title']}",
         "",
         *("|" + "|".join(str(cell) for cell in row) + "|" for row in table),
         "",
-        f"{found['machine']}, {found['date']}, `{found['command']}`. {found['bound']}",
+        f"{found['machine']}, {found['date']}, {shown}. {found['bound']}",
         "",
     ]
 
