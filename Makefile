@@ -18,7 +18,7 @@ RUST_SOURCES := Cargo.toml Cargo.lock pyproject.toml $(wildcard crates/*/Cargo.t
 
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
-.PHONY: help demo docs page site test test-long lint format settings types fuzz bench bench-gpu bench-dicom calibration compare-dicom wheel licences lock clean develop tools toolchain
+.PHONY: help demo docs page site test test-long lint format settings results types fuzz bench bench-gpu bench-dicom calibration compare-dicom wheel licences lock clean develop tools toolchain
 
 help: ## List the commands.
 	@sed -n 's/^\([a-z-]*\):.*## /  make \1\t/p' $(MAKEFILE_LIST) | expand -t 22
@@ -61,6 +61,9 @@ format: tools ## Format Rust and Python, and apply the safe fixes of the linter.
 
 settings: develop ## Write the files that repeat the table of settings: the class and docs/settings.md.
 	$(BIN)/python scripts/settings.py
+
+results: ## Write docs/results/speed.md and accuracy.md from the JSON files in benches/results.
+	@$(PYTHON) scripts/results.py
 
 types: toolchain ## Write the file that repeats the table of questions: the types of the page.
 	LUMENCUT_WRITE_TYPES=1 cargo test --quiet --profile checks --package lumencut --lib types_of_the_page

@@ -1,7 +1,4 @@
-"""What another tree costs a renderer of a large volume: its levels of detail, and nothing of the volume.
-
-``make bench`` runs it; ``python benches/another_tree.py`` alone needs the installed package.
-"""
+"""Time for `Renderer.with_tree` on a large volume: ``python benches/another_tree.py``."""
 
 from __future__ import annotations
 
@@ -12,14 +9,12 @@ import numpy as np
 
 from lumencut import Camera, Renderer, Settings, Vessel, VesselTree, Volume
 
-SIDE = 512
-"""Voxels along each side of the volume."""
+VOXELS_PER_SIDE = 512
 TREES = 21
-"""How many trees are exchanged."""
 
 
 def tree(seed: int, vessels: int = 31, points: int = 160) -> VesselTree:
-    """Smooth vessels that wander through the volume, 0.5 mm per segment."""
+    """Smooth random vessels with segments of 0.5 mm."""
     random = np.random.default_rng(seed)
     made = []
     for _ in range(vessels):
@@ -30,14 +25,16 @@ def tree(seed: int, vessels: int = 31, points: int = 160) -> VesselTree:
 
 
 def milliseconds(start: float) -> float:
-    """The time since `start`."""
+    """Milliseconds since `start`."""
     return (time.perf_counter() - start) * 1e3
 
 
 def main() -> None:
-    """Exchange trees and print a Markdown table."""
-    voxels = np.random.default_rng(1).integers(-1000, 1000, (SIDE, SIDE, SIDE), dtype=np.int16)
-    volume = Volume(voxels, spacing=(0.5,) * 3, origin=(-SIDE / 4,) * 3)
+    """Print the table."""
+    voxels = np.random.default_rng(1).integers(
+        -1000, 1000, (VOXELS_PER_SIDE, VOXELS_PER_SIDE, VOXELS_PER_SIDE), dtype=np.int16
+    )
+    volume = Volume(voxels, spacing=(0.5,) * 3, origin=(-VOXELS_PER_SIDE / 4,) * 3)
     renderer = Renderer(volume, tree(0), "cpu")
     camera, settings = Camera.anterior(tree(0), (64, 64)), Settings(window=renderer.window)
     start = time.perf_counter()
@@ -51,15 +48,13 @@ def main() -> None:
         exchanged.append(milliseconds(start))
         levels.append(renderer.render(camera, settings).timings["levels"])
     segments = sum(len(vessel) - 1 for vessel in other)
-    print(f"\nAnother tree of {segments} segments, volume of {SIDE}³ voxels (ms)\n")
-    print("| what | median | worst |\n| --- | --- | --- |")
+    print(f"\nNew tree of {segments} segments, volume of {VOXELS_PER_SIDE}³ voxels (ms)\n")
+    print("| step | median | worst |\n| --- | --- | --- |")
     print(f"| `with_tree` | {statistics.median(exchanged):.2f} | {max(exchanged):.2f} |")
-    print(
-        f"| its levels of detail, in its first view | {statistics.median(levels):.2f} | {max(levels):.2f} |"
-    )
+    print(f"| levels of detail | {statistics.median(levels):.2f} | {max(levels):.2f} |")
     both = [sum(pair) for pair in zip(exchanged, levels, strict=True)]
     print(f"| both | {statistics.median(both):.2f} | {max(both):.2f} |")
-    print(f"| the first view of the volume, which reads it all | {first_view:.1f} | |")
+    print(f"| first view of the volume | {first_view:.1f} | |")
 
 
 if __name__ == "__main__":

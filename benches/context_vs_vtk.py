@@ -1,8 +1,7 @@
-"""How long the context takes, beside VTK's ray caster for the CPU: same volume, view, colours and step.
+"""Time of the context against VTK's CPU ray caster: same volume, view, colours and step.
 
-Both use all cores and run in turn; what each prepares once for a volume is done before. Prints a Markdown
-table. Unshaded, both draw the same picture. Shaded, VTK's is darker: it shades voxels and interpolates their
-light, where Lumencut takes the gradient at the sample itself. VTK has no MIDA.
+Both use all cores and alternate; preparation per volume is not counted. Unshaded pictures are equal. Shaded
+ones differ: VTK shades voxels and interpolates their light, Lumencut takes the gradient at each sample.
 
     python benches/context_vs_vtk.py [--runs 7] [--save FOLDER]
 """
@@ -38,7 +37,7 @@ DVR = [
     (800.0, (255, 245, 225), 0.6),
 ]
 GREY = [(-200.0, (0, 0, 0), 0.0), (800.0, (255, 255, 255), 1.0)]
-#: Context of ours, blend mode of VTK, transfer function, shading; VTK has no MIDA.
+#: Lumencut's context, VTK's blend mode, transfer function, shading; VTK has no MIDA.
 MODES = {
     "MIP": ("mip", "mip", GREY, False),
     "DVR": ("dvr", "dvr", DVR, False),
@@ -50,7 +49,7 @@ MODES = {
 
 @dataclass
 class Scene:
-    """A volume, the distance of samples (mm) and a view of it."""
+    """A volume, its step (mm) and a view."""
 
     name: str
     volume: Volume
@@ -59,9 +58,9 @@ class Scene:
 
 
 def scenes() -> Iterator[Scene]:
-    """The phantom of an aorta: all of it, and 256 × 256 × 256 voxels of its middle taken as cubes of ½ mm.
+    """The phantom of an aorta, its middle 256³ voxels taken as 0.5 mm, and 256³ voxels of noise.
 
-    As many voxels of noise are the worst case of a MIP: no block of them can be skipped.
+    Noise is the worst case of a MIP: no block can be skipped.
     """
     whole = phantom.aorta().volume
     middle = tuple(slice((n - 256) // 2, (n + 256) // 2) for n in whole.array.shape)
@@ -80,14 +79,14 @@ def scenes() -> Iterator[Scene]:
 
 
 def milliseconds(work: Callable[[], object]) -> tuple[float, float]:
-    """Wall time of one call, and what it took of all cores together."""
+    """Wall time and CPU time of one call (ms)."""
     start = time.perf_counter(), time.process_time()
     work()
     return (time.perf_counter() - start[0]) * 1e3, (time.process_time() - start[1]) * 1e3
 
 
-def ours(scene: Scene, mode: str, points: list, shading: bool) -> Callable[[], Picture]:
-    """One view of Lumencut, colours times opacity, and opacity."""
+def lumencut_drawing(scene: Scene, mode: str, points: list, shading: bool) -> Callable[[], Picture]:
+    """Return a function that renders the context with Lumencut."""
     renderer = Renderer(scene.volume, None)
     settings = Settings(
         context=mode,
@@ -105,32 +104,32 @@ def ours(scene: Scene, mode: str, points: list, shading: bool) -> Callable[[], P
 
 
 def share_of_hits(picture: Picture) -> str:
-    """The share of rays that see something, half a grey value at least."""
+    """The share of rays with an opacity of at least half a grey value."""
     return f"{(picture[..., 3] * 255 >= 0.5).mean():.1%}"
 
 
 def measure(scene: Scene, name: str, runs: int, save: Path | None) -> str:
     """One row of the table."""
-    mode, theirs, points, shading = MODES[name]
-    draw = ours(scene, mode, points, shading)
+    mode, vtk_mode, points, shading = MODES[name]
+    draw = lumencut_drawing(scene, mode, points, shading)
     image = draw() / 255.0
     image[..., :3] *= image[..., 3:]
-    pictures, times, hits = [image], {"ours": [], "vtk": []}, [share_of_hits(image)]
+    pictures, times, hits = [image], {"lumencut": [], "vtk": []}, [share_of_hits(image)]
     vtk = None
-    if theirs:
-        looks = {"shading": shading, "threads": os.cpu_count()}
-        vtk = Drawing(scene.volume, scene.camera, theirs, points, scene.step, **looks)
+    if vtk_mode:
+        options = {"shading": shading, "threads": os.cpu_count()}
+        vtk = Drawing(scene.volume, scene.camera, vtk_mode, points, scene.step, **options)
         pictures.append(vtk.image())
         hits.append(share_of_hits(pictures[1]))
     for _ in range(runs):
-        times["ours"].append(milliseconds(draw))
+        times["lumencut"].append(milliseconds(draw))
         if vtk:
             times["vtk"].append(milliseconds(vtk.render))
     if save:
         side_by_side = np.hstack([255 * picture[..., :3] for picture in pictures])
         path = save / f"{scene.name.split(',')[0]}-{name}.png"
         Image.fromarray(side_by_side.round().astype(np.uint8)).save(path)
-    wall, cores = (median(column) for column in zip(*times["ours"], strict=True))
+    wall, cores = (median(column) for column in zip(*times["lumencut"], strict=True))
     cells = [scene.name, name, f"{wall:.0f}", f"{cores:.0f}"]
     if vtk:
         gap = 255 * np.abs(pictures[0] - pictures[1])[..., :3].mean()
@@ -145,14 +144,14 @@ def measure(scene: Scene, name: str, runs: int, save: Path | None) -> str:
 def main() -> None:
     """Measure every mode in every scene."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--runs", type=int, default=7, help="runs of each, of which the median counts")
-    parser.add_argument("--save", type=Path, help="folder for the pictures, ours on the left")
+    parser.add_argument("--runs", type=int, default=7, help="number of runs; the median counts")
+    parser.add_argument("--save", type=Path, help="folder for the pictures, Lumencut on the left")
     arguments = parser.parse_args()
     print(
         f"{SIZE[0]} × {SIZE[1]} pixels, {os.cpu_count()} cores, {platform.machine()}, {arguments.runs} runs\n"
     )
     columns = ["volume", "mode", "Lumencut (ms)", "CPU time", "VTK (ms)", "CPU time"]
-    columns += ["VTK / Lumencut", "CPU time", "rays that hit", "mean difference"]
+    columns += ["VTK / Lumencut", "CPU time", "visible rays", "mean difference"]
     print("| " + " | ".join(columns) + " |\n|" + "---|" * len(columns))
     for scene in scenes():
         for name in MODES:

@@ -1,7 +1,6 @@
-"""How long CPR takes: beside vtkProbeFilter on the same points, and turning about the vessel.
+"""Time of CPR: against vtkProbeFilter on the same points, and while turning around the vessel.
 
-Both use all cores, and run in turn, several times in a row each; what each prepares once for a volume and a
-vessel is done before. Prints two Markdown tables.
+Both use all cores and alternate in batches; preparation per volume and vessel is not counted.
 
     python benches/cpr_vs_vtk.py [--runs 15]
 """
@@ -28,7 +27,6 @@ from lumencut import Reformation, Settings, Vessel, Volume, Window, cpr, phantom
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "tests"))
 from vtk_context import image_data
 
-#: How often both take their turn.
 BATCHES = 3
 SETTINGS = Settings(window=Window(300, 900))
 
@@ -41,20 +39,20 @@ def milliseconds(work: Callable[[], object]) -> float:
 
 
 def straightened(volume: Volume, vessel: Vessel, columns: int, rows: int) -> Reformation:
-    """A straightened CPR with this number of columns and rows, within a pixel."""
+    """A straightened CPR of this size, within a pixel."""
     length = vessel.length
     spacing = length / (rows - 0.5)
     return cpr(volume, vessel, "straightened", (columns - 0.5) * spacing, spacing, settings=SETTINGS)
 
 
 def probe(volume: Volume, points: np.ndarray) -> Callable[[], tuple[np.ndarray, np.ndarray]]:
-    """What looks the volume up at these points in VTK."""
+    """Return a function that samples the volume at `points` with VTK."""
     source = image_data(volume)
 
-    def look() -> tuple[np.ndarray, np.ndarray]:
-        data, places = vtkPolyData(), vtkPoints()
-        places.SetData(numpy_to_vtk(points.reshape(-1, 3)))
-        data.SetPoints(places)
+    def sample() -> tuple[np.ndarray, np.ndarray]:
+        data, positions = vtkPolyData(), vtkPoints()
+        positions.SetData(numpy_to_vtk(points.reshape(-1, 3)))
+        data.SetPoints(positions)
         filter_ = vtkProbeFilter()
         filter_.SetInputData(data)
         filter_.SetSourceData(source)
@@ -62,26 +60,26 @@ def probe(volume: Volume, points: np.ndarray) -> Callable[[], tuple[np.ndarray, 
         found = filter_.GetOutput().GetPointData()
         return vtk_to_numpy(found.GetScalars()), vtk_to_numpy(found.GetArray("vtkValidPointMask"))
 
-    return look
+    return sample
 
 
-def beside_vtk(volume: Volume, vessel: Vessel, runs: int) -> str:
-    """A row of the table: finding places and values of 300 × 512 samples, and VTK at these places."""
+def against_vtk(volume: Volume, vessel: Vessel, runs: int) -> str:
+    """A row: positions and values of 301 × 512 samples with Lumencut, values at these positions with VTK."""
     made = straightened(volume, vessel, 301, 512)
-    look = probe(volume, np.ascontiguousarray(made.position))
-    ours, theirs = [], []
+    sample = probe(volume, np.ascontiguousarray(made.position))
+    lumencut, vtk = [], []
     for _ in range(BATCHES):
-        ours += [milliseconds(lambda: made.rotated(0.0).value) for _ in range(runs)]
-        theirs += [milliseconds(look) for _ in range(runs)]
-    found, is_valid = (array.reshape(made.value.shape) for array in look())
+        lumencut += [milliseconds(lambda: made.rotated(0.0).value) for _ in range(runs)]
+        vtk += [milliseconds(sample) for _ in range(runs)]
+    found, is_valid = (array.reshape(made.value.shape) for array in sample())
     gap = np.abs(found - made.value)[is_valid == 1].max()
     width, height = made.size
-    cells = [f"{width} × {height}", f"{median(ours):.2f}", f"{median(theirs):.2f}"]
-    return "| " + " | ".join([*cells, f"{median(theirs) / median(ours):.1f}", f"{gap:.2g}"]) + " |"
+    cells = [f"{width} × {height}", f"{median(lumencut):.2f}", f"{median(vtk):.2f}"]
+    return "| " + " | ".join([*cells, f"{median(vtk) / median(lumencut):.1f}", f"{gap:.2g}"]) + " |"
 
 
 def turning(volume: Volume, vessel: Vessel, size: tuple[int, int], runs: int, device: str) -> str:
-    """A row of the table: pictures of a vessel that turns."""
+    """A row: pictures while turning around the vessel."""
     spacing = vessel.length / (size[1] - 0.5)
     width = (size[0] - 0.5) * spacing
     made = cpr(volume, vessel, "straightened", width, spacing, settings=SETTINGS, device=device)
@@ -104,10 +102,10 @@ def turning(volume: Volume, vessel: Vessel, size: tuple[int, int], runs: int, de
 
 
 def main() -> None:
-    """Measure both."""
+    """Print both tables."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--runs", type=int, default=15, help="runs in a row, of which the median counts")
-    parser.add_argument("--devices", default="cpu", help="what turns, with commas between")
+    parser.add_argument("--runs", type=int, default=15, help="runs in a row; the median counts")
+    parser.add_argument("--devices", default="cpu", help="devices for turning, separated by commas")
     arguments = parser.parse_args()
     made = phantom.aorta()
     volume = Volume(made.volume.array, spacing=made.volume.spacing, origin=made.volume.origin)
@@ -118,10 +116,8 @@ def main() -> None:
         "| samples | Lumencut (ms) | vtkProbeFilter (ms) | VTK / Lumencut | largest difference |\n|"
         + "---|" * 5
     )
-    print(beside_vtk(volume, vessel, arguments.runs), flush=True)
-    print(
-        "\n| device | size | a picture (ms) | pictures per second | last one's stages (ms) |\n|" + "---|" * 5
-    )
+    print(against_vtk(volume, vessel, arguments.runs), flush=True)
+    print("\n| device | size | time (ms) | pictures per second | stages of the last (ms) |\n|" + "---|" * 5)
     for device in arguments.devices.split(","):
         for size in ((301, 512), (512, 1024)):
             print(turning(volume, vessel, size, arguments.runs, device), flush=True)

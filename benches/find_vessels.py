@@ -1,8 +1,8 @@
-"""How much of a tree is found without a seed and from many seeds, and how much of what is found is false.
+"""Recall and false vessels of `find_vessels` and `trace_from`, as a Markdown table.
 
-``python benches/find_vessels.py`` prints a Markdown table; names of rows, such as ``stent-cta`` or
-``aorta@0.5+noise20``, print these alone. ``--picture DIR`` draws the lines of each row over projections from
-four sides, coloured by confidence. Patients need the folder ``../shared/data`` beside the repository.
+``python benches/find_vessels.py [ROW ...]`` takes rows such as ``stent-cta`` or ``aorta@0.5+noise20``.
+``--picture DIR`` draws the lines over four projections, coloured by confidence. Scans of patients must be in
+``../shared/data``.
 """
 
 from __future__ import annotations
@@ -25,22 +25,20 @@ ROWS = (
     *NEGATIVE,
 )
 COLUMNS = (
-    "volume", "time", "level, contrast", "recall, first part", "from seeds: min, median, max", "false, sure",
-    "false, with doubtful", "sure", "doubtful", "parts",
+    "volume", "time", "level, contrast", "recall, first part", "by seed: min, median, max", "false, sure",
+    "false, doubtful included", "sure", "doubtful", "parts",
 )  # fmt: skip
 SEEDS = 16
-"""How many seeds are put along the truth, each this share of the radius from the middle."""
-OFF_MIDDLE = 0.6
-REACH = 1.5
-"""A line farther than so many radii from all of the truth is false."""
-WIDE = 1.5
-"""Vessels of this radius are to be found (voxels)."""
+SEED_OFFSET_RADII = 0.6
+FALSE_BEYOND_RADII = 1.5
+MIN_RADIUS_VOXELS = 1.5
+"""Only the truth with at least this radius counts for the recall."""
 
 Floats = npt.NDArray[np.float64]
 
 
-def places(vessels: list[Vessel] | VesselTree, step: float = 0.5) -> tuple[Floats, Floats]:
-    """The points and radii of vessels in even steps (mm)."""
+def samples(vessels: list[Vessel] | VesselTree, step: float = 0.5) -> tuple[Floats, Floats]:
+    """Points and radii of vessels at equal steps (mm)."""
     parts = [resampled(vessel, step) for vessel in vessels]
     if not parts:
         return np.empty((0, 3)), np.empty(0)
@@ -48,7 +46,7 @@ def places(vessels: list[Vessel] | VesselTree, step: float = 0.5) -> tuple[Float
 
 
 def nearest(points: Floats, others: Floats, units: Floats | float = 1.0) -> Floats:
-    """How far each point is from the nearest of others, in units of each of these."""
+    """Distance of each point to the nearest of `others`, divided by that one's unit."""
     found = np.full(len(points), np.inf)
     for first in range(0, len(points) if len(others) else 0, 200):
         apart = np.linalg.norm(points[first : first + 200, None] - others[None], axis=2) / units
@@ -57,34 +55,34 @@ def nearest(points: Floats, others: Floats, units: Floats | float = 1.0) -> Floa
 
 
 def recall(vessels: list[Vessel], truth: tuple[Floats, Floats], voxel: float) -> float:
-    """The share of the truth with a found point within its radius, or a voxel where that is more."""
+    """The share of the truth with a found point within its radius or one voxel, whichever is larger."""
     points, radius = truth
-    return float((nearest(points, places(vessels)[0]) <= np.maximum(radius, voxel)).mean())
+    return float((nearest(points, samples(vessels)[0]) <= np.maximum(radius, voxel)).mean())
 
 
 def false_share(vessels: list[Vessel], known: tuple[Floats, Floats], voxel: float) -> tuple[float, float]:
-    """The length of found vessels that lies beyond 1.5 radii of all known ones (mm), and that of all."""
-    points, _ = places(vessels)
+    """Length of found vessels beyond 1.5 radii of all known ones, and their total length (mm)."""
+    points, _ = samples(vessels)
     length = sum(vessel.length for vessel in vessels)
     if not len(points):
         return 0.0, 0.0
-    units = np.maximum(known[1], voxel / REACH)
-    return float((nearest(points, known[0], units) > REACH).mean() * length), length
+    units = np.maximum(known[1], voxel / FALSE_BEYOND_RADII)
+    return float((nearest(points, known[0], units) > FALSE_BEYOND_RADII).mean() * length), length
 
 
 def seeds(truth: tuple[Floats, Floats]) -> Floats:
-    """Points along the truth in even numbers of its points, off its middle, in directions by chance."""
+    """Points evenly spaced along the truth, shifted off its middle in random directions."""
     points, radius = truth
     chosen = np.linspace(0, len(points) - 1, SEEDS + 2).astype(int)[1:-1]
     random = np.random.default_rng(3)
     ahead = points[np.minimum(chosen + 1, len(points) - 1)] - points[np.maximum(chosen - 1, 0)]
     across = np.cross(ahead, random.normal(size=ahead.shape))
     across /= np.linalg.norm(across, axis=1)[:, None] + 1e-12
-    return np.asarray(points[chosen] + across * (OFF_MIDDLE * radius[chosen])[:, None])
+    return np.asarray(points[chosen] + across * (SEED_OFFSET_RADII * radius[chosen])[:, None])
 
 
 def chosen_by(seed: Floats, made: Scene) -> list[Vessel]:
-    """The sure vessels of the part that a seed lies in; none where it lies in none."""
+    """The sure vessels of the part around a seed; empty if there is none."""
     try:
         return list(trace_from(made.volume, seed))
     except TracingError:
@@ -92,7 +90,7 @@ def chosen_by(seed: Floats, made: Scene) -> list[Vessel]:
 
 
 def percent(share: float) -> str:
-    """A share in words."""
+    """A share as text."""
     return f"{100 * share:.1f} %"
 
 
@@ -100,15 +98,15 @@ def compared_with_truth(made: Scene, tree: VesselTree) -> list[str]:
     """The columns from recall to false length."""
     assert made.truth is not None
     voxel = voxel_of(made.volume)
-    points, radius = places(made.truth)
-    wide = radius >= WIDE * voxel
+    points, radius = samples(made.truth)
+    wide = radius >= MIN_RADIUS_VOXELS * voxel
     truth = (points[wide], radius[wide])
     first = recall([tree[n] for n in tree.parts[0]], truth, voxel)
     each = sorted(recall(chosen_by(seed, made), truth, voxel) for seed in seeds(truth))
     words = [percent(first), ", ".join(percent(each[n]) for n in (0, len(each) // 2, -1))]
     if not made.is_complete:
         return [*words, "–", "–"]
-    known = places([*made.truth, *made.besides])
+    known = samples([*made.truth, *made.besides])
     sure = false_share(list(tree), known, voxel)
     doubtful = false_share(list(tree.doubtful), known, voxel)
     both = [sure[n] + doubtful[n] for n in (0, 1)]
@@ -116,7 +114,7 @@ def compared_with_truth(made: Scene, tree: VesselTree) -> list[str]:
 
 
 def row(name: str, folder: Path | None) -> str:
-    """Find the vessels of a scene, and compare them with its truth."""
+    """The row of one scene."""
     made = scene(name)
     start = time.perf_counter()
     try:
@@ -136,10 +134,10 @@ def row(name: str, folder: Path | None) -> str:
 
 
 def main() -> None:
-    """Print a Markdown table."""
+    """Print the table."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("rows", nargs="*", help="names of rows; all where none is given")
-    parser.add_argument("--picture", type=Path, help="a folder for pictures of what is found")
+    parser.add_argument("rows", nargs="*", help="names of rows; default: all")
+    parser.add_argument("--picture", type=Path, help="folder for pictures of the found vessels")
     given = parser.parse_args()
     rows = given.rows or [name for name in ROWS if SHARED.is_dir() or name not in PATIENTS]
     if given.picture is not None:

@@ -1,7 +1,6 @@
-"""How long the stages of a picture take with and without a focus: the stent CTA from the front, at 1024².
+"""Times of the stages with and without a focus: ``python benches/focus.py [RUNS]``.
 
-All looks take turns in one process on one thread, so that the time of a stage is that of the processor.
-``python benches/focus.py [RUNS]`` needs the installed package.
+The stent CTA from the front, 1024 × 1024 pixels; all looks alternate on one thread, so wall time is CPU time.
 """
 
 from __future__ import annotations
@@ -23,7 +22,7 @@ LOOKS = {
 
 
 def main(runs: int) -> None:
-    """Print a table of the medians (ms)."""
+    """Print the medians (ms)."""
     set_threads(1)
     volume, tree = demo.stent_scene()
     renderer = Renderer(volume, tree, device="cpu")

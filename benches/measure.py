@@ -1,7 +1,6 @@
-"""How truly and how fast lumens are measured, on vessels of known width and blur: a Markdown table.
+"""Accuracy and speed of `measure` on vessels of known width and blur: ``python benches/measure.py``.
 
-``python benches/measure.py`` needs the installed package. Beside each narrow vessel stands what half of
-the maximum gives.
+Rows of round vessels also give the result of the half-maximum rule.
 """
 
 from __future__ import annotations
@@ -24,23 +23,23 @@ from measure_scenes import FWHM, LUMEN, Grid, Tube, narrowed, round_tube
 Row = tuple[str, str, str]
 Floats = npt.NDArray[np.float64]
 
-EVEN = (0.4, 0.4, 0.4)
+CUBIC_VOXELS = (0.4, 0.4, 0.4)
 
 
 def signed(values: Floats, true: float) -> str:
-    """Bias and spread in percent."""
+    """Bias and spread (%) as text."""
     values = values[np.isfinite(values)]
     return f"{100 * (values.mean() / true - 1):+.1f} % ± {100 * values.std() / true:.1f} %"
 
 
 def half_maximum(volume: Volume, vessel: Vessel, profile: Profile) -> Floats:
-    """Diameters by half of the way from the background to the peak of each section, along 64 rays."""
+    """Diameters where 64 rays cross midway between the background and the peak of each section."""
     found = []
     for at in profile.arc_length:
         section = cross_section(volume, vessel, at, size=12.0, pixel_spacing=0.1)
         rows, columns = np.indices(section.value.shape)
-        away = np.hypot(rows - 59.5, columns - 59.5) * 0.1
-        peak = section.value[away < 0.3].mean()
+        distance = np.hypot(rows - 59.5, columns - 59.5) * 0.1
+        peak = section.value[distance < 0.3].mean()
         half = (peak + profile.levels[0, 1]) / 2
         angles = np.arange(64) * 2 * np.pi / 64
         steps = np.arange(0, 58) * 0.1
@@ -52,10 +51,10 @@ def half_maximum(volume: Volume, vessel: Vessel, profile: Profile) -> Floats:
 
 
 def widths() -> Iterator[Row]:
-    """Round vessels from wide to narrow."""
+    """Round vessels of 6 to 0.9 mm."""
     for diameter in (6.0, 4.0, 2.4, 1.6, 1.2, 0.9):
         tube = round_tube(diameter)
-        volume = tube.volume(Grid.even(EVEN, (diameter + 9, diameter + 9, 64)))
+        volume = tube.volume(Grid.even(CUBIC_VOXELS, (diameter + 9, diameter + 9, 64)))
         vessel = tube.vessel(60)
         profile = measure(volume, vessel, fwhm=FWHM)
         aim = "bias 2 %, spread 3 %" if diameter >= 2 * FWHM else "bias 5 %"
@@ -67,8 +66,8 @@ def widths() -> Iterator[Row]:
 def shapes() -> Iterator[Row]:
     """Ellipses of 6 × 3 mm."""
     cases = (
-        ("even voxels", EVEN, (0.0, 0.0, 1.0), 0.0),
-        ("oblique", EVEN, (1.0, -0.7, 0.9), 0.0),
+        ("cubic voxels", CUBIC_VOXELS, (0.0, 0.0, 1.0), 0.0),
+        ("oblique", CUBIC_VOXELS, (1.0, -0.7, 0.9), 0.0),
         ("sheared", (0.4, 0.4, 0.8), (0.2, 0.1, 1.0), 0.35),
         ("0.4 × 0.4 × 1 mm along k", (0.4, 0.4, 1.0), (0.0, 0.0, 1.0), 0.0),
         ("0.4 × 0.4 × 1 mm across k", (0.4, 0.4, 1.0), (1.0, 0.1, 0.3), 0.0),
@@ -92,8 +91,8 @@ def stenoses() -> Iterator[Row]:
         yield f"stenosis of {percent} %", "3 points", f"{measured}, {nascet.diameter:.2f} mm"
 
 
-def surroundings() -> Iterator[Row]:
-    """A vessel of 4 mm with something at its wall."""
+def neighbors() -> Iterator[Row]:
+    """A vessel of 4 mm next to calcium, a stent or another vessel."""
 
     def calcium(values: Floats, x: Floats, y: Floats) -> Floats:
         return np.where((np.hypot(x - 2.7, y) < 0.8) & (np.hypot(x, y) > 2.0), 1100.0, values)
@@ -111,24 +110,24 @@ def surroundings() -> Iterator[Row]:
     )
     for name, paint, flag in cases:
         tube = round_tube(4.0, paint=paint)
-        profile = measure(tube.volume(Grid.even(EVEN, (14, 14, 34))), tube.vessel(30), fwhm=FWHM)
+        profile = measure(tube.volume(Grid.even(CUBIC_VOXELS, (14, 14, 34))), tube.vessel(30), fwhm=FWHM)
         marked = 100 * np.mean(profile.flags & flag > 0)
         yield name, "flagged", f"flagged in {marked:.0f} %; {signed(profile.diameter_equivalent, 4.0)}"
 
 
 def point_spreads() -> Iterator[Row]:
-    """The point spread, estimated on a vessel of 6 mm."""
+    """The blur, estimated on a vessel of 6 mm."""
     for fwhm in (0.6, 0.8, 1.1):
         tube = round_tube(6.0, fwhm=fwhm)
-        profile = measure(tube.volume(Grid.even(EVEN, (15, 15, 34))), tube.vessel(30))
+        profile = measure(tube.volume(Grid.even(CUBIC_VOXELS, (15, 15, 34))), tube.vessel(30))
         yield f"FWHM of {fwhm} mm, estimated", "", f"{profile.fwhm:.2f} mm"
 
 
 def speed() -> Iterator[Row]:
-    """500 sections."""
+    """Time of 500 sections."""
     for diameter in (2.4, 6.0):
         tube = round_tube(diameter)
-        volume = tube.volume(Grid.even(EVEN, (diameter + 9, diameter + 9, 64)))
+        volume = tube.volume(Grid.even(CUBIC_VOXELS, (diameter + 9, diameter + 9, 64)))
         vessel = tube.vessel(60)
         times = []
         for _ in range(5):
@@ -140,8 +139,8 @@ def speed() -> Iterator[Row]:
 
 def main() -> None:
     """Print the table."""
-    print("| what | aim | measured |\n|---|---|---|")
-    for rows in (widths, shapes, stenoses, surroundings, point_spreads, speed):
+    print("| vessel | goal | measured |\n|---|---|---|")
+    for rows in (widths, shapes, stenoses, neighbors, point_spreads, speed):
         for row in rows():
             print("| " + " | ".join(row) + " |", flush=True)
 

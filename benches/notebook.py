@@ -1,9 +1,7 @@
-"""How fast a view turns in a notebook: drags of 5 s in JupyterLab and in marimo, with Chromium.
+"""Speed of a view while the user drags for 5 s in JupyterLab and marimo: ``python benches/notebook.py``.
 
-``python benches/notebook.py`` needs the installed package with its tools, and Chromium. A round trip is from
-the request of the page to the picture that is decoded there; the share is that of the pixels along a side.
-Before it comes what a moving picture of all pixels costs in the kernel: the time of the processor on all
-threads, which other programs hardly change.
+Needs Chromium. A round trip lasts from the page's request to the decoded picture; the share is that of the
+pixels along a side. The first table shows the CPU time of a moving picture with all pixels in the kernel.
 """
 
 from __future__ import annotations
@@ -44,7 +42,6 @@ def _():
 if __name__ == "__main__":
     app.run()
 """
-#: Keeps every round trip that the view tells.
 _LISTEN = """view => {
   window.trips = []; window.sizes = [];
   new MutationObserver(() => {
@@ -56,7 +53,7 @@ _LISTEN = """view => {
 
 @contextmanager
 def in_jupyterlab(started: Browser, code: str) -> Iterator[tuple[Locator, float]]:
-    """The view in JupyterLab, and the seconds from running the cell to the first picture."""
+    """The view in JupyterLab, and seconds from running the cell to the first picture."""
     with tempfile.TemporaryDirectory() as name:
         Path(name, "view.ipynb").write_text(notebook(f"{code}\nview"))
         with jupyterlab(Path(name)) as address:
@@ -71,7 +68,7 @@ def in_jupyterlab(started: Browser, code: str) -> Iterator[tuple[Locator, float]
 
 @contextmanager
 def in_marimo(started: Browser, code: str) -> Iterator[tuple[Locator, float]]:
-    """The view in marimo, and the seconds from opening the page to the first picture."""
+    """The view in marimo, and seconds from opening the page to the first picture."""
     with tempfile.TemporaryDirectory() as name:
         indented = "\n".join(f"    {line}" for line in code.splitlines())
         Path(name, "view.py").write_text(MARIMO.format(code=indented))
@@ -84,7 +81,7 @@ def in_marimo(started: Browser, code: str) -> Iterator[tuple[Locator, float]]:
 
 
 def dragged(view: Locator) -> tuple[list[float], list[int]]:
-    """Drag to and fro; the round trips (ms) and the widths of the pictures while it moved."""
+    """Drag to and fro; return the round trips (ms) and the widths of the moving pictures."""
     view.evaluate(_LISTEN)
     mouse, end = view.page.mouse, time.perf_counter() + SECONDS
     mouse.move(*place(view, 256, 256))
@@ -100,13 +97,13 @@ def dragged(view: Locator) -> tuple[list[float], list[int]]:
 
 
 def cost(code: str, look: str) -> float:
-    """The median time of the processor (ms) of a picture of all pixels while it moves, in the kernel."""
+    """Median CPU time in the kernel of a moving picture with all pixels (ms)."""
     found: dict[str, Any] = {}
     exec(SHOW.format(scene=code, look=look), found)
     page = Page(found["view"])
     taken = []
     for _ in range(21):
-        # As many pixels as at rest, however long it takes.
+        # The view would reduce the pixels of slow pictures.
         page.widget._pace.share = 1.0
         start = time.process_time()
         page.ask(["rotate", 5, 1])
@@ -116,10 +113,10 @@ def cost(code: str, look: str) -> float:
 
 
 def main() -> None:
-    """Print a row for each scene and look, and one for each host with them."""
+    """Print both tables."""
     from lumencut import demo
 
-    print("| scene | look | processor (ms) |")
+    print("| scene | look | CPU time (ms) |")
     print("|---|---|---|")
     for scene, code in SCENES.items():
         for look, settings in LOOKS.items():

@@ -1,9 +1,8 @@
-"""How long a long DICOM series takes to read, beside its decoder alone.
+"""Time to read a long DICOM series, against the decoder alone.
 
-Writes series of 512 × 512 slices into a temporary folder, a noisy phantom in every codec, and reads each
-with `lumencut.read_volume` and, file after file into one array, with pydicom and the same plugin. Each run
-has a process of its own, as memory that a process touches for the first time costs most; what it imports is
-not counted. "Ratio" is the speed of Lumencut by that of the decoder alone.
+Writes a noisy phantom in every codec and reads it with `lumencut.read_volume` and, file by file, with pydicom
+and the same plugin. Each run has its own process, because first use of memory dominates; imports are not
+counted. "Ratio" is the speed of Lumencut divided by that of the decoder.
 """
 
 from __future__ import annotations
@@ -26,7 +25,7 @@ from lumencut import read_volume
 
 SIZE = 512
 DISTINCT = 8
-"""Slices that are compressed; the series repeats them."""
+"""Number of different slices; the series repeats them."""
 CODECS = {
     "uncompressed": (ExplicitVRLittleEndian, ""),
     "RLE": ("1.2.840.10008.1.2.5", "pydicom"),
@@ -101,7 +100,7 @@ def write_series(folder: Path, syntax: str, count: int) -> None:
 
 
 def decoder_alone(folder: Path, plugin: str, count: int) -> None:
-    """Decode all files one after the other into one array, without a look at where they lie."""
+    """Decode all files into one array, ignoring their positions."""
     volume = np.empty((count, SIZE, SIZE), np.uint16)
     for k, path in enumerate(sorted(folder.iterdir())):
         data = pydicom.dcmread(path)
@@ -110,7 +109,7 @@ def decoder_alone(folder: Path, plugin: str, count: int) -> None:
 
 
 def seconds(work: Callable[[], object]) -> float:
-    """How long something takes once its modules are there."""
+    """Seconds that `work` takes, without imports."""
     import lumencut.volume_files.dicom.pixels  # noqa: F401
 
     pydicom.pixels.get_decoder(ExplicitVRLittleEndian)
@@ -120,7 +119,7 @@ def seconds(work: Callable[[], object]) -> float:
 
 
 def compared(folder: Path, plugin: str, count: int, runs: int) -> tuple[float, float]:
-    """The median times of the decoder alone and of Lumencut, run in turn."""
+    """Median times of the decoder alone and of Lumencut, alternating."""
     works = partial(decoder_alone, folder, plugin, count), partial(read_volume, folder)
     taken: tuple[list[float], list[float]] = [], []
     with ProcessPoolExecutor(1, get_context("spawn"), max_tasks_per_child=1) as processes:
@@ -131,7 +130,7 @@ def compared(folder: Path, plugin: str, count: int, runs: int) -> tuple[float, f
 
 
 def main() -> None:
-    """Measure every codec and print a table."""
+    """Print the table."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--slices", type=int, default=1305)
     parser.add_argument("--runs", type=int, default=3)

@@ -1,8 +1,7 @@
-"""How long the pictures of one vessel take, at about 512 × 1024 pixels: a Markdown table.
+"""Time of the pictures of one vessel at about 512 × 1024 pixels: ``python benches/reformations.py``.
 
-``python benches/reformations.py`` needs the installed package. The vessel is a helix of 128 mm in a lumen of
-300 among tissue of 0. The first picture, for which the wall is looked for where that is needed, stands beside
-the fastest of nine that follow. What was measured of the vessel is given.
+The vessel is a helix of 128 mm, lumen 300, tissue 0; its measured profile is given. The table shows the first
+picture, which includes finding the wall, and the fastest of nine more.
 """
 
 from __future__ import annotations
@@ -15,12 +14,11 @@ import numpy as np
 
 from lumencut import Vessel, Volume, cpr, lumen_map, measure, spiral
 
-#: Side of a pixel (mm) for about 1024 rows.
-SPACING = 0.125
+SPACING_MM = 0.125
 
 
 def scene() -> tuple[Volume, Vessel]:
-    """A helix of 10 mm around an axis, 10.2 mm in radius, and its volume at 0.5 mm."""
+    """A helix with a lumen of 10.2 mm radius, 10 mm around its axis, in voxels of 0.5 mm."""
     turn = np.linspace(0, 2.2 * np.pi, 400)
     points = np.stack([10 * np.cos(turn), 10 * np.sin(turn), 54 - 108 * turn / turn[-1]], axis=1)
     z, y, x = np.meshgrid(*(np.arange(-r, r + 0.1, 0.5) for r in (60, 32, 32)), indexing="ij")
@@ -31,18 +29,18 @@ def scene() -> tuple[Volume, Vessel]:
 
 
 def times(first: Callable[[], Any], again: Callable[[Any], Any]) -> tuple[float, float, Any]:
-    """Milliseconds of the first picture, and of the fastest one that follows."""
+    """Milliseconds of the first picture and of the fastest later one."""
     start = time.perf_counter()
     made = first()
     _ = made.image
-    begun = time.perf_counter() - start
+    initial = time.perf_counter() - start
     later = []
     for _ in range(9):
         start = time.perf_counter()
         made = again(made)
         _ = made.image
         later.append(time.perf_counter() - start)
-    return 1e3 * begun, 1e3 * min(later), made
+    return 1e3 * initial, 1e3 * min(later), made
 
 
 def main() -> None:
@@ -51,28 +49,28 @@ def main() -> None:
     profile = measure(volume, vessel)
 
     def straight(_: Any = None) -> Any:
-        return cpr(volume, vessel, "straightened", 64.0, SPACING)
+        return cpr(volume, vessel, "straightened", 64.0, SPACING_MM)
 
     def rolled(_: Any = None) -> Any:
-        return cpr(volume, vessel, "straightened", 64.0, SPACING, roll="narrowest", profile=profile)
+        return cpr(volume, vessel, "straightened", 64.0, SPACING_MM, roll="narrowest", profile=profile)
 
     def mapped(mode: Any) -> tuple[Callable[[], Any], Callable[[Any], Any]]:
         return (
-            lambda: lumen_map(volume, vessel, mode, SPACING, angle=0.0, profile=profile),
+            lambda: lumen_map(volume, vessel, mode, SPACING_MM, angle=0.0, profile=profile),
             lambda made: made.changed(mode),
         )
 
     def wound(_: Any = None) -> Any:
-        return spiral(volume, vessel, 8.0, 12.8, pixel_spacing=SPACING)
+        return spiral(volume, vessel, 8.0, 12.8, pixel_spacing=SPACING_MM)
 
     rows = {"straightened CPR": (straight, straight), "narrowest roll": (rolled, rolled)}
     rows |= {f"lumen map, {mode}": mapped(mode) for mode in ("wall", "radius", "thickness", "shaded")}
     rows |= {"spiral CPR": (wound, wound)}
     print("| picture | pixels | first (ms) | following (ms) |\n|---|---|---|---|")
     for name, (first, again) in rows.items():
-        begun, later, made = times(first, again)
+        initial, later, made = times(first, again)
         width, height = made.size
-        print(f"| {name} | {width} × {height} | {begun:.0f} | {later:.0f} |")
+        print(f"| {name} | {width} × {height} | {initial:.0f} | {later:.0f} |")
 
 
 if __name__ == "__main__":

@@ -1,7 +1,4 @@
-"""How exactly and how fast centerlines are traced, on phantoms with known truth: a Markdown table.
-
-``python benches/trace.py`` needs the installed package; ``--scenes`` says how many seeded scenes are traced.
-"""
+"""Accuracy and speed of `trace` on phantoms with known truth: ``python benches/trace.py [--scenes 200]``."""
 
 from __future__ import annotations
 
@@ -24,7 +21,7 @@ Row = tuple[str, str]
 
 
 def tube() -> Iterator[Row]:
-    """The tube of 151 mm with a stenosis of 45 %."""
+    """A tube of 151 mm with a stenosis of 45 %."""
     line = arc(151)
     scene = Scene(room(line, 0.5), (0.5,) * 3)
     scene.paint(line, narrowed(line, 3.0, 45), LUMEN)
@@ -36,7 +33,7 @@ def tube() -> Iterator[Row]:
 
 
 def timed(volume: Volume, clicks: npt.ArrayLike) -> tuple[float, VesselTree]:
-    """The least time of three tracings, and the tree."""
+    """The shortest of three times, and the tree."""
     times = []
     for _ in range(3):
         start = time.perf_counter()
@@ -46,23 +43,26 @@ def timed(volume: Volume, clicks: npt.ArrayLike) -> tuple[float, VesselTree]:
 
 
 def scenes(count: int) -> Iterator[Row]:
-    """Seeded scenes: how many leak, and of how many it is said that points are missing."""
+    """Random scenes: how many leak, and how many are rejected for lack of points."""
     for clicks in (2, 3):
-        good = silent = 0
+        correct = leaking = 0
         for seed in range(count):
             case = random_case(seed)
             try:
                 (vessel,) = trace(case.volume, case.clicks[[0, -1]] if clicks == 2 else case.clicks)
             except TracingError:
                 continue
-            good += not leaks(vessel.points, case)
-            silent += leaks(vessel.points, case)
-        refused = count - good - silent
-        yield f"{count} scenes, {clicks} clicks", f"{good} without leak, {silent} with one, {refused} refused"
+            correct += not leaks(vessel.points, case)
+            leaking += leaks(vessel.points, case)
+        rejected = count - correct - leaking
+        yield (
+            f"{count} scenes, {clicks} clicks",
+            f"{correct} without leak, {leaking} with one, {rejected} rejected",
+        )
 
 
 def changes() -> Iterator[Row]:
-    """What a change costs a tracer of a large volume."""
+    """Time of changes of points in a large volume."""
     made = phantom.cervical()
     carotid = made.tree["right internal carotid artery"].points
     tracer = Tracer(made.volume)
@@ -81,7 +81,7 @@ def changes() -> Iterator[Row]:
 
 
 def routed(tracer: Tracer) -> float:
-    """The time that the tracer takes (ms)."""
+    """Milliseconds of `Tracer.route`."""
     start = time.perf_counter()
     tracer.route()
     return (time.perf_counter() - start) * 1e3
@@ -92,7 +92,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--scenes", type=int, default=200)
     count = parser.parse_args().scenes
-    print("| what | measured |\n|---|---|")
+    print("| task | measured |\n|---|---|")
     for rows in (tube(), changes(), scenes(count)):
         for what, measured in rows:
             print(f"| {what} | {measured} |", flush=True)

@@ -1,7 +1,6 @@
-"""Centerlines of masks: how long they take, how much memory, and how near they are to the truth.
+"""Time, memory and accuracy of `trace_mask`: ``python benches/trace_mask.py``.
 
-``make bench`` runs it; ``python benches/trace_mask.py`` alone needs the installed package. With the folder
-``../shared/data`` beside the repository its masks are traced too and compared with the lines of VMTK there.
+Masks of patients in ``../shared/data``, if present, are compared with VMTK's centerlines there.
 """
 
 from __future__ import annotations
@@ -36,29 +35,28 @@ MASKS = (
     ("dissection-cta/aorta_true_lumen.nii.gz", "dissection-cta/true_lumen_centerline_LPS.vtp"),
     ("dissection-cta/aorta_false_lumen.nii.gz", "dissection-cta/false_lumen_centerline_LPS.vtp"),
 )
-"""Masks of patients, and lines that VMTK made of them."""
+"""Masks of patients and the centerlines that VMTK computed from them."""
 COLUMNS = (
     *("mask", "voxels", "grid", "time", "memory", "b₀, b₁ of mask, of tree"),
     *("OV", "OF", "OT", "AI of voxel (mm)", "false length"),
 )
 RUNS = 3
-"""The number of runs whose median is told."""
 
 
 def memory(name: str) -> float:
-    """What Linux tells of the memory of the process (MB): `VmRSS` now, `VmHWM` at most."""
+    """Memory of the process (MB) on Linux: `VmRSS` now, `VmHWM` at its peak."""
     status = Path("/proc/self/status").read_text("ascii")
     return int(status.partition(f"{name}:")[2].split()[0]) / 1024
 
 
-def forget_peak() -> None:
-    """From now on `VmHWM` counts anew."""
+def reset_peak() -> None:
+    """Reset `VmHWM`."""
     Path("/proc/self/clear_refs").write_text("5", "ascii")
 
 
 def row(name: str, mask: Volume, truth: VesselTree) -> str:
-    """Trace a mask a few times, and compare the lines with the truth."""
-    forget_peak()
+    """The row of one mask."""
+    reset_peak()
     before, times = memory("VmRSS"), []
     for _ in range(RUNS):
         start = time.perf_counter()
@@ -83,7 +81,7 @@ def row(name: str, mask: Volume, truth: VesselTree) -> str:
 
 
 def large() -> tuple[Volume, VesselTree]:
-    """The phantom `cervical` in 512 × 512 × 600 voxels, with radii that make some 10⁶ of them lumen."""
+    """The phantom `cervical` in 512 × 512 × 600 voxels, widened to about 10⁶ voxels of lumen."""
     made = phantom.cervical()
     tree = VesselTree(
         [Vessel(vessel.points, 1.25 * vessel.radius + 0.6, vessel.name) for vessel in made.tree]
@@ -95,7 +93,7 @@ def large() -> tuple[Volume, VesselTree]:
 
 
 def main() -> None:
-    """Print a Markdown table."""
+    """Print the table."""
     print("| " + " | ".join(COLUMNS) + " |")
     print("|" + "---|" * len(COLUMNS))
     print(row("10⁶ voxels", *large()), flush=True)

@@ -1,7 +1,7 @@
-"""How long pictures of uncurl, tangential CPR and CFA take: the stent CTA from the front, at 512 × 1024.
+"""Time of uncurl, tangential CPR and CFA: ``python benches/uncurl.py [RUNS]``.
 
-Uncurl takes another amount in each run, so that all of it is found anew. The time of the processor is that of
-all threads together, whatever else runs. ``python benches/uncurl.py [RUNS]`` needs the installed package.
+The stent CTA from the front, 512 × 1024 pixels. Each run uncurls by another amount, so nothing is reused. CPU
+time is that of all threads.
 """
 
 from __future__ import annotations
@@ -21,14 +21,14 @@ THREADS = 2
 
 
 def main(runs: int) -> None:
-    """Print a table of medians (ms)."""
+    """Print the medians (ms)."""
     set_threads(THREADS)
     volume, tree = demo.stent_scene()
     vessel = tree.path([0, 1, 2])
     renderer = Renderer(volume, VesselTree([vessel]), "cpu")
     camera = fitted_uncurling(Camera.anterior(vessel, size=SIZE), vessel)
     uncurled = uncurl_of(renderer, vessel, camera)
-    print("| picture | size | a picture (ms) | processor (ms) |\n|---|---|---|---|")
+    print("| picture | size | time (ms) | CPU time (ms) |\n|---|---|---|---|")
     row("tangential CPR", runs, lambda _: tangential_of(renderer, vessel, camera))
     row("uncurl", runs, lambda run: uncurled.changed((run + 0.5) / (runs + 1)))
     start, used = time.perf_counter(), time.process_time()
@@ -38,7 +38,7 @@ def main(runs: int) -> None:
 
 
 def row(name: str, runs: int, make: Callable[[int], Any]) -> None:
-    """Print the median of some runs after a first one, each with its places, values and colours."""
+    """Print the medians of all runs but the first, each with positions, values and colours."""
     times, processor, made = [], [], make(0)
     _ = made.image
     for run in range(1, runs + 1):

@@ -1,4 +1,4 @@
-"""Lines of found vessels over projections of the volume from four sides, coloured by confidence."""
+"""Found vessels drawn over four projections of the volume, coloured by confidence."""
 
 from __future__ import annotations
 
@@ -9,18 +9,18 @@ from PIL import Image, ImageDraw
 
 from lumencut import Camera, Renderer, Settings, Vessel, VesselTree, Volume
 
-SIDE = 900
+PIXELS_PER_SIDE = 900
 TURNS = (0, 45, 90, 135)
-"""The views, in degrees from the front: the four behind them are their mirror images."""
+"""Views in degrees from the front; those from behind are mirror images."""
 COLORS = ((220, 40, 40), (245, 220, 60), (60, 220, 90))
-"""Confidence 0, 0.7 and 1."""
+"""For confidence 0, 0.7 and 1."""
 
 
 def save_pictures(path: Path, volume: Volume, tree: VesselTree) -> None:
-    """Write one picture of four projections with the lines: the sure ones thick, the doubtful ones thin."""
+    """Write one picture of four projections; sure vessels are thick, doubtful ones thin."""
     renderer = Renderer(volume, None)
-    front = Camera.anterior(volume, size=(SIDE, SIDE))
-    sheet = Image.new("RGB", (2 * SIDE, 2 * SIDE))
+    front = Camera.anterior(volume, size=(PIXELS_PER_SIDE, PIXELS_PER_SIDE))
+    sheet = Image.new("RGB", (2 * PIXELS_PER_SIDE, 2 * PIXELS_PER_SIDE))
     for number, turn in enumerate(TURNS):
         camera = front.rotated(degrees=turn)
         frame = renderer.render(camera, Settings(context="mip"))
@@ -30,7 +30,7 @@ def save_pictures(path: Path, volume: Volume, tree: VesselTree) -> None:
             for vessel in vessels:
                 _draw(draw, camera, vessel, width)
         draw.text((10, 10), f"{turn} degrees from the front", fill=(255, 255, 255))
-        sheet.paste(picture, (SIDE * (number % 2), SIDE * (number // 2)))
+        sheet.paste(picture, (PIXELS_PER_SIDE * (number % 2), PIXELS_PER_SIDE * (number // 2)))
     sheet.save(path)
 
 

@@ -1,4 +1,4 @@
-"""Angiographies with known vessels, phantoms made harder, and volumes without, for `find_vessels.py`."""
+"""Scenes for `find_vessels.py`: scans with known vessels, harder phantoms, volumes without vessels."""
 
 from __future__ import annotations
 
@@ -18,13 +18,13 @@ PATIENTS = {
     "dissection-cta": ("ct_cropped.nii.gz", "aorta_arch_centerlines_LPS.vtp"),
     "aorta-mra": ("aorta.mha", "aorta_full_centerlines_LPS.vtp"),
 }
-"""Volumes of patients, and lines of some of their vessels."""
+"""Volumes of patients and centerlines of some of their vessels."""
 PHANTOMS = ("aorta", "cervical", "runoff")
 NEGATIVE = ("noise", "tissue", "constant", "empty", "bones-aorta", "bones-cervical")
 WALL, LUMEN, BONE, STENT = 60.0, 350.0, 900.0, 1600.0
-"""Values of lumen, its wall, and what is put beside them (HU)."""
+"""Values of wall, lumen, bone and stent (HU)."""
 VEINS = (75.0, 160.0)
-"""Between these lie the veins of the phantoms, which have no truth, and organs as bright as they are (HU)."""
+"""Range of the phantoms' veins, which have no truth, and of organs as bright (HU)."""
 
 Floats = npt.NDArray[np.float64]
 Values = npt.NDArray[np.float32]
@@ -32,14 +32,14 @@ Values = npt.NDArray[np.float32]
 
 @dataclass(frozen=True)
 class Scene:
-    """A volume, and its vessels that must be found; None where it has none."""
+    """A volume and the vessels to find; None if it has none."""
 
     volume: Volume
     truth: VesselTree | None
     is_complete: bool
-    """Whether the truth has every vessel, so that what is found elsewhere is false."""
+    """Whether the truth has every vessel, so any other found vessel is false."""
     besides: tuple[Vessel, ...] = ()
-    """Further vessels, which may be found in another part."""
+    """More vessels that may be found in another part."""
 
 
 def scene(name: str) -> Scene:
@@ -69,7 +69,7 @@ def voxel_of(volume: Volume) -> float:
 
 
 def resampled(vessel: Vessel, step: float) -> tuple[Floats, Floats]:
-    """Return points and radii of a vessel in even steps of about `step` (mm)."""
+    """Return points and radii of a vessel at equal steps of about `step` (mm)."""
     along = np.r_[0, np.cumsum(np.linalg.norm(np.diff(vessel.points, axis=0), axis=1))]
     places = np.linspace(0, along[-1], max(2, int(np.ceil(along[-1] / step)) + 1))
     points = np.stack([np.interp(places, along, axis) for axis in vessel.points.T], axis=1)
@@ -77,7 +77,7 @@ def resampled(vessel: Vessel, step: float) -> tuple[Floats, Floats]:
     return points, np.interp(places, along, radius)
 
 
-# Phantoms made harder
+# Harder phantoms
 
 
 def _changed(scene: Scene, change: str) -> Scene:
@@ -93,7 +93,7 @@ def _changed(scene: Scene, change: str) -> Scene:
 
 
 def _values(volume: Volume) -> tuple[Values, Callable[[Values], Volume]]:
-    """The values [k, j, i] as a copy, and what makes a volume of others."""
+    """A copy of the values [k, j, i], and a function that makes a volume from new values."""
     array = np.asarray(volume.array)
 
     def made(values: Values) -> Volume:
@@ -112,7 +112,7 @@ def _with_noise(scene: Scene, sigma: float) -> Scene:
 
 
 def _fading(scene: Scene) -> Scene:
-    """Contrast falls to a third, in proportion to the way from the root."""
+    """Reduce the contrast to a third, in proportion to the distance from the root."""
     assert scene.truth is not None
     values, made = _values(scene.volume)
     original, depths = values.copy(), _depths(scene.truth)
@@ -134,17 +134,17 @@ def _fading(scene: Scene) -> Scene:
     return replace(scene, volume=made(values))
 
 
-def _greatest(tree: VesselTree, count: int) -> list[Vessel]:
-    """The vessels with the largest walls."""
+def _largest(tree: VesselTree, count: int) -> list[Vessel]:
+    """The vessels with the largest wall area."""
     return sorted(tree, key=lambda one: -one.length * float(np.mean(np.asarray(one.radius, float))))[:count]
 
 
 def _stented(scene: Scene) -> Scene:
-    """Rings of metal along 60 mm of the greatest vessel."""
+    """Add rings of metal along 60 mm of the largest vessel."""
     assert scene.truth is not None
     values, made = _values(scene.volume)
     side = voxel_of(scene.volume)
-    points, radius = resampled(_greatest(scene.truth, 1)[0], side)
+    points, radius = resampled(_largest(scene.truth, 1)[0], side)
     kept = slice(-int(60 / side), None)
     for box, beyond, nearest in _around(scene.volume, points[kept], radius[kept], side):
         ring = (np.abs(beyond) < side / 2) & (nearest * side % 4 < 2)
@@ -153,11 +153,11 @@ def _stented(scene: Scene) -> Scene:
 
 
 def _with_bone(scene: Scene) -> Scene:
-    """Balls of bone with marrow as bright as lumen, which touch the middles of the three greatest vessels."""
+    """Add balls of bone, marrow as bright as lumen, that touch the middles of the three largest vessels."""
     assert scene.truth is not None
     values, made = _values(scene.volume)
     side = voxel_of(scene.volume)
-    for vessel in _greatest(scene.truth, 3):
+    for vessel in _largest(scene.truth, 3):
         points, radius = resampled(vessel, side)
         half = len(points) // 2
         center = points[half] + _across(points)[half] * (radius[half] + 9)
@@ -168,12 +168,12 @@ def _with_bone(scene: Scene) -> Scene:
 
 
 def _with_veins(scene: Scene) -> Scene:
-    """Veins as wide and as bright beside the two greatest vessels, 2 mm from their walls."""
+    """Add equally wide and bright veins 2 mm from the walls of the two largest vessels."""
     assert scene.truth is not None
     values, made = _values(scene.volume)
     side = voxel_of(scene.volume)
     veins = []
-    for vessel in _greatest(scene.truth, 2):
+    for vessel in _largest(scene.truth, 2):
         points, radius = resampled(vessel, side)
         veins.append(Vessel(points + _across(points) * (2 * radius + 2)[:, None], radius))
         for box, beyond, _ in _around(scene.volume, veins[-1].points, radius, side):
@@ -184,13 +184,13 @@ def _with_veins(scene: Scene) -> Scene:
 
 
 def _across(points: Floats) -> Floats:
-    """A direction across a line at each of its points, as far from that to the front as can be."""
+    """A direction perpendicular to the line and to the front at each point."""
     across = np.cross(np.gradient(points, axis=0), (0.0, 1.0, 0.0))
     return np.asarray(across / (np.linalg.norm(across, axis=1)[:, None] + 1e-9))
 
 
 def without_vessels(scene: Scene) -> Volume:
-    """Return the volume with tissue in place of its lumen, and of what is as bright as its veins."""
+    """Return the volume with its lumen, and everything as bright as its veins, replaced by tissue."""
     assert scene.truth is not None
     values, made = _values(scene.volume)
     side = voxel_of(scene.volume)
@@ -205,7 +205,7 @@ def without_vessels(scene: Scene) -> Volume:
 def _around(
     volume: Volume, points: Floats, radius: Floats, margin: float
 ) -> Iterator[tuple[tuple[slice, ...], Values, npt.NDArray[np.intp]]]:
-    """Boxes of voxels [k, j, i] along a line: how far beyond its wall each is (mm), and its nearest point."""
+    """Boxes of voxels [k, j, i] along a line: distance beyond its wall (mm), index of the nearest point."""
     affine = volume.world_from_index
     inverse = np.linalg.inv(affine)
     shape = np.asarray(volume.array).shape
@@ -227,7 +227,7 @@ def _around(
 
 
 def _depths(tree: VesselTree) -> list[Floats]:
-    """How far the points of each vessel are from the root, which is the widest end, along the tree (mm)."""
+    """Distance of the points of each vessel from the root, the widest end, along the tree (mm)."""
     along = [np.r_[0, np.cumsum(np.linalg.norm(np.diff(one.points, axis=0), axis=1))] for one in tree]
     ends: dict[tuple[float, ...], list[int]] = {}
     for number, vessel in enumerate(tree):
@@ -271,7 +271,7 @@ def _without_vessels(name: str) -> Volume:
         return Volume(np.full(shape, 40, np.int16), spacing=spacing)
     values = 20 * random.standard_normal(shape)
     if name == "tissue":
-        # Fat, muscle and organs: a random field whose bodies are some 15 mm wide.
+        # Fat, muscle and organs: a random field with bodies about 15 mm wide.
         field = random.uniform(-1, 1, (10, 10, 10))
         for axis, count in enumerate(shape):
             low, share = np.divmod(np.linspace(0, 8.999, count), 1)

@@ -45,7 +45,7 @@ SCRIPTS = tuple(
             "fuzz",
         ),
         *("licences", "notices", "page", "render_phantom"),
-        *("settings", "toolchain", "types_for_users", "wheel", "window_table", "words"),
+        *("results", "settings", "toolchain", "types_for_users", "wheel", "window_table", "words"),
     )
 )
 TOOLS = ("python", "rust", "targets", "vulkan", "page", "browser", "dicom")
@@ -128,6 +128,7 @@ def lint_checks() -> list[Check]:
     return [
         Check("toolchain", (sys.executable, "scripts/toolchain.py", *TOOLS)),
         Check("words", (sys.executable, "scripts/words.py", "--check")),
+        Check("results", (sys.executable, "scripts/results.py", "--check")),
         *python_lints(),
         *page_lints(),
         *rust_lints(),

@@ -1,7 +1,7 @@
-"""Print the table of windows of ``docs/results/accuracy.md``, and save its pictures.
+"""Print the table of windows for ``benches/results/windows-from-the-data.json``, and save its pictures.
 
-``python scripts/window_table.py FOLDER`` shows every kind of angiography of ``tests/window_scenes.py``, the
-phantoms and, if available, real ones: along their centerlines and alone, by MIP and MIDA.
+``python scripts/window_table.py FOLDER`` covers each angiography of ``tests/window_scenes.py``, the phantoms
+and, if ``../shared/data`` exists, real scans: along their centerlines and alone, with MIP and MIDA.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ def ends(window: Window) -> str:
 
 
 def rows() -> list[str]:
-    """A row for each kind of angiography: its tissues in the window, and how the lumen stands out."""
+    """The table: each angiography's tissues in its window, and the contrast of the lumen."""
     found = [
         "| angiography | with a tree | lumen | wall | tissue | bone | background "
         "| alone | for a MIP | MIP | MIDA |",
@@ -58,8 +58,8 @@ def rows() -> list[str]:
         places = " | ".join("–" if np.isnan(parts[one]) else f"{100 * parts[one]:.0f}" for one in TISSUES)
         ahead = []
         for context in ("mip", "mida"):
-            lumen, around = contrast(scene, context)
-            ahead.append(f"{100 * lumen:.0f} over {100 * around:.0f}")
+            lumen, beside = contrast(scene, context)
+            ahead.append(f"{100 * lumen:.0f} over {100 * beside:.0f}")
         found.append(
             f"| {name} | {ends(along)} | {places} | {ends(alone)} | {ends(mip)} | {' | '.join(ahead)} |"
         )

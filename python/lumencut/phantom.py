@@ -1,14 +1,14 @@
-"""Scenes made from formulas, with the truth beside them: volume, vessel tree, radii, stenoses and plaques.
+"""Synthetic scenes with known truth: volume, vessel tree, radii, stenoses and plaques.
 
 Small phantoms (`straight_tube`, `helix`, `y_junction`, `crossing`, `trefoil`, `collinear_run`, `stenosis`,
-`calcified_wall`) have answers in closed form: tubes in fat, no noise, voxels of 0.5 mm. Three workloads
+`calcified_wall`) have closed-form answers: tubes in fat, no noise, voxels of 0.5 mm. Three workloads
 (`aorta`, `runoff`, `cervical`) have the sizes of Table 2 of Auzinger et al., IEEE TVCG 19(12), 2013,
-doi:10.1109/TVCG.2013.215, and look like CT angiographies.
+doi:10.1109/TVCG.2013.215, and resemble CT angiographies.
 
 In every phantom the lumen has 350 HU, the vessel wall 60 HU, soft plaque 40 HU and calcifications 1000 HU;
-fat around the small phantoms has -100 HU. Edges are ramps one voxel wide whose middle lies on the true
-surface. The wall is 0.5 mm + 8 % of the reference radius thick. A lumen is the union of the segments of its
-vessel: each a rod with round ends whose radius runs linearly from one point's to the next one's.
+fat around the small phantoms has -100 HU. Edges are ramps one voxel wide, centred on the true
+surface. The wall is 0.5 mm + 8 % of the reference radius thick. A lumen is the union of its segments: rods
+with round ends whose radius is linear between points.
 """
 
 from __future__ import annotations
@@ -48,15 +48,15 @@ __all__ = [
 class Stenosis:
     """A narrowing of the lumen, concentric with the centerline.
 
-    The lumen has its least radius over the middle two fifths of the length and widens to the reference radius
-    along half a cosine on either side.
+    The radius is smallest over the middle two fifths of the length and widens to the reference radius along
+    half a cosine on both sides.
 
     Attributes
     ----------
     vessel : int
         Index of the vessel in the tree.
     arc_length : float
-        Where its middle lies along the vessel (mm from the first point).
+        Position of its middle along the vessel (mm from the first point).
     length : float
         Its length along the vessel (mm).
     percent : float
@@ -79,20 +79,20 @@ class Plaque:
     vessel : int
         Index of the vessel in the tree.
     arc_length : float
-        Where its middle lies along the vessel (mm from the first point).
+        Position of its middle along the vessel (mm from the first point).
     kind : {"soft", "calcified"}
         Soft plaque fills the space between the lumen and the reference radius; a calcification lies against
         the outside of the lumen.
     angle : float
-        Where around the vessel its middle lies (radians): 0 is the direction across the vessel nearest to
-        anterior (to superior where the vessel itself runs anteriorly or posteriorly), growing right-handed
-        about the direction in which the vessel runs.
+        Direction of its middle around the vessel (radians): 0 is the perpendicular direction nearest to
+        anterior (to superior if the vessel runs anteriorly or posteriorly); right-handed about the vessel's
+        direction.
     length : float
         Its length along the vessel (mm).
     angular_extent : float
         Its extent around the vessel (radians), 2π for a whole ring.
     thickness : float
-        How thick it is across the wall at its middle (mm).
+        Its thickness across the wall at its middle (mm).
     position : tuple of 3 float
         Its middle (mm, LPS); on the centerline for a whole ring.
 
@@ -110,23 +110,23 @@ class Plaque:
 
 @dataclass(frozen=True, eq=False)
 class Phantom:
-    """A volume and its vessel tree, with everything known about them.
+    """A volume and its vessel tree, with the truth about them.
 
     Attributes
     ----------
     name : str
-        What it is called, the same as the function that makes it.
+        Its name, that of the function that makes it.
     volume : Volume
         Voxels of type int16 (HU) on an axis-aligned grid.
     tree : VesselTree
-        The vessels (mm, LPS) with the true radius of their lumen (mm) and their names. Vessels that meet
-        share their end points to the bit.
+        The vessels (mm, LPS) with the true lumen radius (mm) and names. Connected vessels share identical end
+        points.
     reference_radius : tuple of ndarray, each of shape (n,), float64
-        The radius of each vessel's healthy lumen (mm), point by point.
+        The healthy lumen radius at each point of each vessel (mm).
     stenoses : tuple of Stenosis
-        Every narrowing of a lumen.
+        All stenoses.
     plaques : tuple of Plaque
-        Every plaque.
+        All plaques.
 
     """
 
@@ -175,8 +175,8 @@ def trefoil() -> Phantom:
 def collinear_run() -> Phantom:
     """Two tubes of radius 3 mm with segments along the axis of the anterior view.
 
-    "bend" runs up along z, then 40 mm backwards along y, then up again; "end-on" runs wholly along y and is a
-    point in that view.
+    "bend" runs up along z, 40 mm backwards along y, then up again; "end-on" runs along y only and is a point
+    in that view.
     """
     return _phantom("collinear_run")
 
@@ -214,15 +214,14 @@ def aorta(seed: int = 0, *, scale: float = 1.0) -> Phantom:
     Parameters
     ----------
     seed : int, default 0
-        Varies the bends of the vessels, the calcifications and the noise. The same seed gives the same bytes.
+        Varies the bends, calcifications and noise. The same seed gives the same bytes.
     scale : float, default 1
-        Multiplies the number of voxels along each axis, 0.02 to 2; the field of view and the vessel tree stay
-        the same.
+        Multiplies the number of voxels along each axis, 0.02 to 2; field of view and tree do not change.
 
     Raises
     ------
     SettingsError
-        For a seed that is not an integer of 64 bits, or a scale outside its range.
+        If the seed is not an unsigned 64-bit integer, or the scale is out of range.
 
     """
     return _phantom("aorta", seed=seed, scale=scale)
@@ -232,7 +231,7 @@ def runoff(seed: int = 0, *, scale: float = 1.0) -> Phantom:
     """Arteries of the lower extremities with a femoro-femoral cross-over bypass (paper Fig. 7).
 
     512 x 512 x 1305 voxels of 0.75 x 0.75 x 1 mm (684 MB), about 2,200 segments, from the aorta to the
-    feet. The bypass goes around an occlusive stenosis of the left iliac artery and closes a cycle.
+    feet. The bypass avoids an occlusive stenosis of the left iliac artery and closes a cycle.
 
     Parameters
     ----------

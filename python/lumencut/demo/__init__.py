@@ -1,8 +1,8 @@
 """The CT angiography of the demo: an abdominal aorta with a stent graft, its mesenteric and iliac arteries.
 
-The volume is ``stent.npz`` of the package imageio 2.9.0 (BSD-2-Clause), taken from the package index once and
-kept in a cache; nothing is used before its checksum agrees. Its source states no spacing: 1 mm is nominal.
-The centerlines, derived from it for Lumencut, come with this package (LPS, mm).
+The volume is ``stent.npz`` of imageio 2.9.0 (BSD-2-Clause), downloaded once from the package index, verified
+by checksum and cached. Its source states no spacing; 1 mm is nominal. The centerlines (LPS, mm), derived from
+it for Lumencut, are part of this package.
 """
 
 from __future__ import annotations
@@ -32,20 +32,19 @@ WHEEL_SHA256 = "3604d751f03002e8e0e7650aa71d8d9148144a87daf17cb1f3228e80747f2e6b
 MEMBER = "imageio/resources/images/stent.npz"
 MEMBER_SHA256 = "60a83d2296b51ee6a53153e9ba96ba9020391b0c8952895d9d60a0a629ac6bb6"
 
-#: Two points (mm, LPS) along each of three vessels of the CT, as a user might click them: from the aorta to
-#: the artery of the left leg, from there to that of the right leg, and the superior mesenteric artery.
+#: Two points (mm, LPS) on each of three vessels, as a user might click them: aorta to left leg artery, aorta
+#: to right leg artery, and the superior mesenteric artery.
 STENT_POINTS = (
     ((58, 98, 250), (112, 64, 3)),
     ((58, 98, 250), (1, 69, 12)),
     ((56, 92, 235), (75, 7, 183)),
 )
 
-#: How long the package index may take to answer (s).
-_PATIENCE = 10
+_TIMEOUT_S = 10
 
 
 class UnreachableError(LumencutError, OSError):
-    """The volume of the demo is not in the cache and cannot be had from the package index."""
+    """The volume of the demo is neither cached nor available from the package index."""
 
 
 def default_cache() -> Path:
@@ -60,29 +59,29 @@ def stent_scene(cache: Path | None = None) -> tuple[Volume, VesselTree]:
     Parameters
     ----------
     cache : Path, optional
-        Folder where the volume is kept, made where it is missing; :func:`default_cache` where not given.
+        Folder for the volume, created if missing; default: :func:`default_cache`.
 
     Raises
     ------
     UnreachableError
-        Where the volume is not in the cache and cannot be had.
+        If the volume is neither cached nor available.
     FormatError
-        Where a file is not the one it should be.
+        If the checksum of a file differs.
     """
     from lumencut.centerlines import read_centerlines
     from lumencut.volume import Volume
 
-    content = _checked(*_kept(cache or default_cache()), MEMBER_SHA256)
+    content = _checked(*_cached(cache or default_cache()), MEMBER_SHA256)
     voxels = np.load(BytesIO(content), allow_pickle=False)["arr_0"]
     with as_file(files("lumencut.demo") / "stent-centerlines.vtp") as path:
         tree = read_centerlines(path, "lps", unit="mm")
-    # [k, j, i] runs to the head, to the back and to the left: the identity in LPS. The source does not say
-    # so; the anatomy does: the aorta divides below, the spine lies behind it, and its middle to the right.
+    # The axes [k, j, i] point to head, back and left: the identity in LPS. The anatomy shows it: the aorta
+    # divides below, the spine lies behind it, its middle to the right.
     return Volume(voxels, states_spacing=False, states_orientation=True), tree
 
 
-def _kept(cache: Path) -> tuple[str, bytes]:
-    """Name and content of the volume in the cache, taken from the package index first where it is missing."""
+def _cached(cache: Path) -> tuple[str, bytes]:
+    """Path and content of the cached volume, downloaded first if missing."""
     kept = cache / "stent.npz"
     if not kept.exists():
         content = _checked(f"{MEMBER} of {REQUIREMENT}", _downloaded(), MEMBER_SHA256)
@@ -92,7 +91,7 @@ def _kept(cache: Path) -> tuple[str, bytes]:
 
 
 def _downloaded() -> bytes:
-    """The volume out of the wheel."""
+    """The volume, extracted from the wheel."""
     with tempfile.TemporaryDirectory(prefix="lumencut-") as folder:
         _download(Path(folder))
         wheels = list(Path(folder).glob("*.whl"))
@@ -105,7 +104,13 @@ def _downloaded() -> bytes:
 
 def _download(folder: Path) -> None:
     command = [sys.executable, "-m", "pip", "download", "--no-deps", "--only-binary=:all:", "--quiet"]
-    command += ["--disable-pip-version-check", "--retries=1", f"--timeout={_PATIENCE}", "--dest", str(folder)]
+    command += [
+        "--disable-pip-version-check",
+        "--retries=1",
+        f"--timeout={_TIMEOUT_S}",
+        "--dest",
+        str(folder),
+    ]
     done = subprocess.run([*command, REQUIREMENT], capture_output=True, text=True, check=False)
     if done.returncode != 0:
         reasons = [

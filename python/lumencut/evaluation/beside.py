@@ -1,4 +1,4 @@
-"""How far the cut goes on beside the walls of vessels: the surroundings that are shown together with them."""
+"""How far the cut shows connected surroundings next to vessel walls."""
 
 from __future__ import annotations
 
@@ -11,17 +11,15 @@ from lumencut.evaluation.silhouettes import leap_bounds, leaps_along
 from lumencut.evaluation.truth import Truth
 from lumencut.evaluation.width import clear_stations, lying
 
-#: How far beside the wall surroundings are looked at (mm).
-REACH = 20.0
+MAX_DISTANCE_MM = 20.0
 
 
 def beside_amounts(truth: Truth, shown: Shown) -> Amounts:
-    """Count the pixels beside vessels, up to 20 mm from the wall, and those that the cut reaches unbroken.
+    """Count the pixels next to vessels, up to 20 mm from the wall, and those that the cut reaches unbroken.
 
-    From each station that the width is judged at, a walk goes straight across the vessel to either side. It
-    could go on up to the border of the picture and to the next lumen that is not the vessel's own. What is
-    shown of it ends at the first leap, at the first pixel that shows nothing, and at once where the pixel at
-    the station does not show the vessel.
+    From each width station pixels are walked straight across the vessel to both sides, up to the border of
+    the picture or the next foreign lumen. The unbroken part ends at the first leap or the first pixel that
+    shows nothing; it is empty if the pixel at the station does not show the vessel.
     """
     amounts = {"possible": 0, "unbroken": 0}
     for side in (1, -1):
@@ -36,17 +34,17 @@ def beside_columns(amounts: Amounts) -> Columns:
 
 
 def _along(truth: Truth, shown: Shown, direction: int) -> dict[str, int]:
-    """What is counted to one side of all stations."""
+    """Counts on one side of all stations."""
     stations, place, across = lying(truth)
     grid, nearest = truth.seen.grid, truth.nearest
     widest = stations.radius.max() if len(stations) else 0.0
-    distance = np.asarray(np.arange(int((widest + REACH) / grid.side) + 2) * grid.side, np.float64)
+    distance = np.asarray(np.arange(int((widest + MAX_DISTANCE_MM) / grid.side) + 2) * grid.side, np.float64)
     walk = place[:, None] + direction * distance[:, None] * across[:, None]
     pixel, within = grid.pixels(walk)
     clear = clear_stations(truth, stations, distance, pixel, within)
     stations, pixel, within = stations.chosen(clear), pixel[clear], within[clear]
     middle = truth.seen.view(stations.points)[:, 2:]
-    looked = (distance > stations.radius[:, None]) & (distance <= stations.radius[:, None] + REACH)
+    judged = (distance > stations.radius[:, None]) & (distance <= stations.radius[:, None] + MAX_DISTANCE_MM)
     foreign = (nearest.vessel.ravel()[pixel] >= 0) & elsewhere(
         nearest.vessel.ravel()[pixel],
         nearest.arc.ravel()[pixel],
@@ -60,4 +58,4 @@ def _along(truth: Truth, shown: Shown, direction: int) -> dict[str, int]:
     broken = np.isnan(depth)
     broken[:, 1:] |= leaps_along(depth, leap_bounds(truth, shown).ravel()[pixel])
     unbroken = possible & starts & np.logical_and.accumulate(~broken, axis=1)
-    return {"possible": counted(possible & looked), "unbroken": counted(unbroken & looked)}
+    return {"possible": counted(possible & judged), "unbroken": counted(unbroken & judged)}

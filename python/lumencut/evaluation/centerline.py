@@ -1,4 +1,4 @@
-"""The centerline that is the measure of everything: one array over all vessels, and stations along it."""
+"""The reference centerline as one array over all vessels, and stations along it."""
 
 from __future__ import annotations
 
@@ -14,24 +14,23 @@ if TYPE_CHECKING:
     from lumencut.vessel import Vessel
     from lumencut.vessel_tree import VesselTree
 
-#: Points nearer than this to the one before them repeat it; shorter projections have no direction (mm).
-COLLINEAR = 1e-3
-#: Stretches of one vessel that lie farther apart than this along it count as two places (mm of arc length).
-APART = 20.0
-#: Arc length between the stations at which widths are taken (mm).
-STATION_STEP = 5.0
+#: Closer points are duplicates, and shorter projected segments have no direction (mm).
+COLLINEAR_MM = 1e-3
+#: Points of one vessel farther apart than this along it count as separate (mm of arc length).
+SEPARATE_ARC_MM = 20.0
+STATION_STEP_MM = 5.0
 
 
 @dataclass(frozen=True, eq=False)
 class Centerline:
-    """All points of a tree, vessel after vessel, without those that repeat the one before.
+    """All points of a tree, vessel by vessel, without duplicates.
 
     Parameters
     ----------
     points : numpy.ndarray, shape (n, 3)
         World points (mm, LPS).
     radius : numpy.ndarray, shape (n,)
-        Radius of the lumen (mm); the unknown radius where the tree has none.
+        Radius of the lumen (mm), or the unknown radius.
     vessel : numpy.ndarray, shape (n,)
         Id of the vessel.
     arc : numpy.ndarray, shape (n,)
@@ -45,7 +44,7 @@ class Centerline:
 
     @property
     def segments(self) -> npt.NDArray[np.intp]:
-        """Indices of the points at which a segment starts, shape (m,)."""
+        """Indices of the points that start a segment, shape (m,)."""
         return np.flatnonzero(self.vessel[:-1] == self.vessel[1:])
 
     @property
@@ -62,7 +61,7 @@ class Centerline:
         return found
 
     def at(self, vessel: npt.NDArray[np.intp], arc: npt.NDArray[np.float64]) -> Stations:
-        """Return what the vessels are like at these arc lengths (mm)."""
+        """Return stations at these arc lengths (mm)."""
         inner = np.minimum(self.indices(vessel, arc), self.indices(vessel, self.lengths[vessel]) - 1)
         edge, length = self.points[inner + 1] - self.points[inner], self.arc[inner + 1] - self.arc[inner]
         t = (arc - self.arc[inner]) / length
@@ -79,7 +78,7 @@ class Centerline:
 
 @dataclass(frozen=True, eq=False)
 class Stations:
-    """Places along the vessels: points (n, 3) and unit tangents (n, 3) in world, radius, vessel, arc (n,)."""
+    """Points (n, 3) and unit tangents (n, 3) in world; radius, vessel and arc (n,)."""
 
     points: npt.NDArray[np.float64]
     tangent: npt.NDArray[np.float64]
@@ -98,7 +97,7 @@ class Stations:
 
 
 def centerline_of(tree: VesselTree, unknown_radius: float) -> Centerline:
-    """Return the centerline of a tree; the unknown radius (mm) stands where it has none, or 0."""
+    """Return the centerline of a tree; `unknown_radius` (mm) replaces a missing radius or 0."""
     kept = [(vessel, _kept(vessel.points)) for vessel in tree]
     points = [vessel.points[which] for vessel, which in kept]
     arcs = [np.append(0.0, np.cumsum(np.linalg.norm(np.diff(part, axis=0), axis=1))) for part in points]
@@ -111,13 +110,12 @@ def centerline_of(tree: VesselTree, unknown_radius: float) -> Centerline:
 
 
 def width_stations(centerline: Centerline) -> tuple[Stations, int]:
-    """Return the stations at which a vessel is a tube by itself, and how many are none.
+    """Return the stations where a vessel is a separate tube, and the number of other stations.
 
-    Left out are stations within two radii of an end, where the tube ends in a cap or opens into another
-    vessel, and those whose lumen touches that of another vessel, or of a stretch of the same vessel more than
-    20 mm of arc length away, where a junction has no width of its own.
+    Excluded are stations within two radii of an end, and those whose lumen touches another vessel or a part
+    of the same vessel more than 20 mm of arc length away: a junction has no width.
     """
-    stations = centerline.every(STATION_STEP)
+    stations = centerline.every(STATION_STEP_MM)
     to_end = np.minimum(stations.arc, centerline.lengths[stations.vessel] - stations.arc)
     alone = to_end >= 2 * stations.radius
     others = centerline.every(1.0)
@@ -127,9 +125,13 @@ def width_stations(centerline: Centerline) -> tuple[Stations, int]:
 
 
 def _touches(stations: Stations, others: Stations) -> npt.NDArray[np.bool_]:
-    """Tell which stations have a lumen that meets one of elsewhere."""
+    """Return which stations have a lumen that touches a separate one."""
     far = elsewhere(
-        stations.vessel[:, None], stations.arc[:, None], others.vessel[None], others.arc[None], APART
+        stations.vessel[:, None],
+        stations.arc[:, None],
+        others.vessel[None],
+        others.arc[None],
+        SEPARATE_ARC_MM,
     )
     gap = np.linalg.norm(stations.points[:, None] - others.points[None], axis=2)
     touching: npt.NDArray[np.bool_] = (far & (gap <= stations.radius[:, None] + others.radius[None])).any(
@@ -145,7 +147,7 @@ def elsewhere(
     other_arc: npt.NDArray[np.float64],
     apart: npt.NDArray[np.float64] | float,
 ) -> npt.NDArray[np.bool_]:
-    """Tell what belongs to another vessel, or to a stretch more than ``apart`` mm away along the same one."""
+    """Return what belongs to another vessel, or lies more than ``apart`` mm away along the same one."""
     distant: npt.NDArray[np.bool_] = (vessel != other_vessel) | (np.abs(arc - other_arc) > apart)
     return distant
 
@@ -155,11 +157,11 @@ def _radius(vessel: Vessel) -> npt.NDArray[np.float64]:
 
 
 def _kept(points: npt.NDArray[np.float64]) -> npt.NDArray[np.intp]:
-    """Indices of the points that do not repeat the last one that is kept."""
-    if (np.linalg.norm(np.diff(points, axis=0), axis=1) >= COLLINEAR).all():
+    """Indices of the points without duplicates."""
+    if (np.linalg.norm(np.diff(points, axis=0), axis=1) >= COLLINEAR_MM).all():
         return np.arange(len(points))
     kept = [0]
     for index in range(1, len(points)):
-        if np.linalg.norm(points[index] - points[kept[-1]]) >= COLLINEAR:
+        if np.linalg.norm(points[index] - points[kept[-1]]) >= COLLINEAR_MM:
             kept.append(index)
     return np.array(kept)

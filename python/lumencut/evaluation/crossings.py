@@ -1,4 +1,4 @@
-"""Where vessels cross in projection, one before the other."""
+"""Crossings of vessels in projection."""
 
 from __future__ import annotations
 
@@ -8,14 +8,14 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from lumencut.evaluation.centerline import APART, elsewhere
+from lumencut.evaluation.centerline import SEPARATE_ARC_MM, elsewhere
 from lumencut.evaluation.projection import Projection
 from lumencut.evaluation.ragged import parts, ragged
 
 
 @dataclass(frozen=True, eq=False)
 class Crossings:
-    """Crossings: places (n, 2), and depth and radius (n,) of the nearer of both vessels there (mm)."""
+    """Positions (n, 2) of crossings, and depth and radius (n,) of the nearer vessel there (mm)."""
 
     place: npt.NDArray[np.float64]
     depth: npt.NDArray[np.float64]
@@ -27,9 +27,9 @@ class Crossings:
 
 
 def crossings_of(seen: Projection) -> Crossings:
-    """Return the crossings of segments of two vessels, or of stretches of one more than 20 mm apart along it.
+    """Return the crossings of two vessels, or of parts of one more than 20 mm apart along it.
 
-    They count where the depths differ by more than both radii together: where the lumens do not touch.
+    They count if the depths differ by more than the sum of both radii, so that the lumens do not touch.
     """
     segment = seen.centerline.segments
     low, high = np.sort([seen.place[segment], seen.place[segment + 1]], axis=0)
@@ -44,7 +44,7 @@ def crossings_of(seen: Projection) -> Crossings:
 def _overlapping(
     low: npt.NDArray[np.float64], high: npt.NDArray[np.float64]
 ) -> Iterator[tuple[npt.NDArray[np.intp], npt.NDArray[np.intp]]]:
-    """Yield pairs of boxes that overlap along the axis along which fewer do, each pair once."""
+    """Yield each pair of boxes that overlap along one axis, the axis with fewer overlaps."""
     sweeps = []
     for axis in (0, 1):
         order = np.argsort(low[:, axis], kind="stable")
@@ -60,9 +60,11 @@ def _overlapping(
 def _met(
     seen: Projection, first: npt.NDArray[np.intp], second: npt.NDArray[np.intp]
 ) -> npt.NDArray[np.float64]:
-    """Place, depth and radius of the nearer vessel, (n, 4), where these segments cross apart."""
+    """Position, depth and radius of the nearer vessel, (n, 4), where segments cross without touching."""
     line = seen.centerline
-    far = elsewhere(line.vessel[first], line.arc[first], line.vessel[second], line.arc[second], APART)
+    far = elsewhere(
+        line.vessel[first], line.arc[first], line.vessel[second], line.arc[second], SEPARATE_ARC_MM
+    )
     first, second = first[far], second[far]
     start, edge = seen.place[first], seen.place[first + 1] - seen.place[first]
     other = seen.place[second + 1] - seen.place[second]
@@ -70,7 +72,6 @@ def _met(
     area = _cross(edge, other)
     with np.errstate(divide="ignore", invalid="ignore"):
         t, u = _cross(offset, other) / area, _cross(offset, edge) / area
-    # The end of a segment is the start of the next one.
     meets = (area != 0) & (t >= 0) & (t < 1) & (u >= 0) & (u < 1)
     t, u, first, second = t[meets], u[meets], first[meets], second[meets]
     depth = np.stack([_between(seen.depth, first, t), _between(seen.depth, second, u)])

@@ -12,9 +12,9 @@ from lumencut.evaluation.truth import Truth
 
 
 class Measure(NamedTuple):
-    """How something is counted in one view, and the numbers that the counts of views become.
+    """Functions that count in one view and that turn the counts of all views into numbers.
 
-    ``criterion`` is that of the questionnaire in section 5 of the paper that the numbers speak of.
+    ``criterion`` is the one of the questionnaire in section 5 of the paper.
     """
 
     criterion: str
@@ -22,7 +22,6 @@ class Measure(NamedTuple):
     columns: Callable[[Amounts], Columns]
 
 
-#: The measures by their names, criterion by criterion.
 MEASURES = {
     "lumen": Measure("lumen", visibility.lumen_amounts, visibility.lumen_columns),
     "width": Measure("lumen", width.width_amounts, width.width_columns),
@@ -38,7 +37,7 @@ MEASURES = {
 
 
 def columns_of(amounts: dict[str, Amounts], counted: Collection[str] | None = None) -> Columns:
-    """Return the numbers that the amounts of all measures become; None for those that were not counted."""
+    """Return the numbers of all measures; None for those not counted."""
     numbers: Columns = {}
     for name, measure in MEASURES.items():
         columns = measure.columns(amounts[name])
@@ -47,7 +46,7 @@ def columns_of(amounts: dict[str, Amounts], counted: Collection[str] | None = No
 
 
 def criteria_of(amounts: dict[str, Amounts]) -> dict[str, Columns]:
-    """Return the same numbers by the criterion that they speak of."""
+    """Return the same numbers by criterion."""
     criteria: dict[str, Columns] = {}
     for name, measure in MEASURES.items():
         criteria.setdefault(measure.criterion, {}).update(measure.columns(amounts[name]))

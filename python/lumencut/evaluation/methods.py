@@ -1,4 +1,4 @@
-"""The methods that can be evaluated: with which settings, and how each makes a frame."""
+"""The methods that can be evaluated: their settings and how each makes a frame."""
 
 from __future__ import annotations
 
@@ -29,20 +29,20 @@ class Method:
     Parameters
     ----------
     settings : function of Settings
-        The settings that the method uses where the caller gives these.
+        The settings of the method, from those of the caller.
     surface : function of Renderer, Camera and Settings
-        A frame with depth and vessel, and with values where there is a volume.
+        A frame with depth and vessel, and with values if there is a volume.
     picture : function of Renderer, Camera and Settings
         A frame with a picture; needs a volume.
     details : function of Renderer, Camera and Settings
-        Of ``"sheet_gap"``, the arc length between the places that a pixel blends (mm), and ``"strength"``,
-        that of the silhouettes (0 to 1), those that the method has.
+        ``"sheet_gap"``, the arc length between the points that a pixel blends (mm), and ``"strength"`` of the
+        silhouettes (0 to 1), if the method has them.
     is_filtered : bool, default True
         Whether the depth filter of the settings changes the frame.
     has_image_per_vessel : bool, default False
-        Whether it makes a frame of its own for each vessel, as if there were no other.
+        Whether it makes a separate frame for each vessel.
     own_picture : function of Renderer, Camera and Settings, optional
-        A picture with pixels of its own, of which less can be counted than of a frame.
+        A picture whose pixels are not those of the view, so less can be counted.
     """
 
     settings: Callable[[Settings], Settings]
@@ -59,7 +59,7 @@ def _own(settings: Settings) -> Settings:
 
 
 def _paper(settings: Settings) -> Settings:
-    """The settings with the paper's rules in the place of those that were chosen."""
+    """The settings with the paper's rules."""
     return replace(settings, **_lumencut.PAPER)
 
 
@@ -80,7 +80,7 @@ def _details(renderer: Renderer, camera: Camera, settings: Settings) -> dict[str
 
 
 def _reformation(method: tuple[Any, ...], **more: Any) -> Method:
-    """A method that is no cut surface: as the renderer takes it."""
+    """A method other than the cut surface."""
 
     def surface(renderer: Renderer, camera: Camera, settings: Settings) -> Frame:
         if renderer.volume is None:
@@ -92,7 +92,6 @@ def _reformation(method: tuple[Any, ...], **more: Any) -> Method:
         return renderer._by(method, camera, settings)
 
     def details(renderer: Renderer, camera: Camera, settings: Settings) -> dict[str, npt.NDArray[np.float32]]:
-        # Every pixel shows one place: nothing is blended.
         width, height = camera.size
         found = {"sheet_gap": np.zeros((height, width), np.float32)}
         if settings.silhouettes:
@@ -103,12 +102,11 @@ def _reformation(method: tuple[Any, ...], **more: Any) -> Method:
 
 
 def _picture_of_the_longest(renderer: Renderer, camera: Camera, settings: Settings) -> Frame:
-    """The projected CPR of one vessel: a file holds one picture."""
+    """The projected CPR of the longest vessel, because a file holds one picture."""
     longest = max(renderer.tree or (), key=lambda vessel: vessel.length)
     return renderer._with_part([longest])._by(MPCPR, camera, settings)
 
 
-#: The methods by their names.
 METHODS = {
     "csr": Method(_own, _surface, _picture, _details),
     "csr-paper": Method(_paper, _surface, _picture, _details),
@@ -119,12 +117,12 @@ METHODS = {
     "untangled": Method(_own, _surface, untangled_picture, _details, own_picture=untangled_picture),
 }
 
-#: Those that are evaluated where the caller names none: all whose frames have the pixels of the view.
+#: Default methods: all whose frames have the pixels of the view.
 USUAL = tuple(name for name, method in METHODS.items() if method.own_picture is None)
 
 
 def checked_methods(names: Any) -> tuple[str, ...]:
-    """Return names of methods, or refuse unknown ones, none at all, and one that is named twice."""
+    """Return names of methods; reject unknown, missing and repeated ones."""
     if isinstance(names, str):
         names = (names,)
     if not isinstance(names, Iterable):
@@ -133,6 +131,6 @@ def checked_methods(names: Any) -> tuple[str, ...]:
     for name in found:
         choice(SettingsError, "method", name, tuple(METHODS))
     if not found or len(set(found)) < len(found):
-        told = "no method" if not found else f"{', '.join(found)}"
-        raise SettingsError("methods", told, f"some of {', '.join(METHODS)}, each once")
+        shown = "no method" if not found else f"{', '.join(found)}"
+        raise SettingsError("methods", shown, f"one or more different names of {', '.join(METHODS)}")
     return found

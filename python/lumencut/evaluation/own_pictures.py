@@ -1,4 +1,4 @@
-"""Methods whose pictures have pixels of their own, not those of the view: what can be counted of them."""
+"""Counts of pictures whose pixels are not those of the view."""
 
 from __future__ import annotations
 
@@ -17,20 +17,19 @@ if TYPE_CHECKING:
     from lumencut.renderer import Renderer
     from lumencut.settings import Settings
 
-#: What is counted of such a picture; all other numbers are those of pixels of the view.
 COUNTED = ("tissue", "centerline")
 
 
 def untangled_picture(renderer: Renderer, camera: Camera, settings: Settings) -> Reformation:
-    """Return the untangled CPR of a view, in pixels of its size."""
+    """Return the untangled CPR of a view with the same pixel spacing."""
     return untangled_of(renderer, camera, pixel_spacing=camera.pixel_spacing, settings=settings)
 
 
 def own_amounts(picture: Reformation, truth: Truth) -> dict[str, Amounts]:
-    """Count what a picture shows of the volume, and of the points of the centerline.
+    """Count the pixels with tissue and the centerline points shown.
 
-    A point is shown where the place that the picture gives it shows it within 0.05 mm. No lumen lies before
-    another one, and none beside the picture.
+    A point is shown if the pixel that the picture assigns to it shows it within 0.05 mm. No point is hidden
+    or outside the picture.
     """
     points = truth.seen.centerline.points
     pixels = picture.pixel_from_world(points)
@@ -49,7 +48,7 @@ def own_amounts(picture: Reformation, truth: Truth) -> dict[str, Amounts]:
 
 
 def nothing_shown(truth: Truth) -> Shown:
-    """Return a view in which nothing is shown: what the pixels of the view show of such a picture."""
+    """Return a view in which nothing is shown."""
     depth = np.full(truth.nearest.depth.shape, np.nan, np.float32)
     vessel = np.full(depth.shape, -1, np.int32)
     position = np.full((*depth.shape, 3), np.nan)

@@ -1,24 +1,23 @@
-"""What is shown of the picture as a whole: blends of sheets, surroundings, and how steady it is."""
+"""Measures of the whole picture: blends, surroundings and steadiness."""
 
 from __future__ import annotations
 
 import numpy as np
 
 from lumencut.evaluation.amounts import Amounts, Columns, counted, percent, ratio
-from lumencut.evaluation.centerline import APART
+from lumencut.evaluation.centerline import SEPARATE_ARC_MM
 from lumencut.evaluation.shown import Shown
 from lumencut.evaluation.truth import Truth
 
-#: A change of depth (mm) that is a jump.
-_JUMP = 5.0
+_JUMP_MM = 5.0
 
 
 def blend_amounts(_: Truth, shown: Shown) -> Amounts:
-    """Count the pixels that blend sheets of a vessel far apart along it."""
+    """Count the pixels that blend separate parts of a vessel."""
     gap = shown.sheet_gap
     return {
         "pixels": shown.depth.size,
-        "blending": None if gap is None else counted(np.abs(gap) > APART),
+        "blending": None if gap is None else counted(np.abs(gap) > SEPARATE_ARC_MM),
     }
 
 
@@ -28,7 +27,7 @@ def blend_columns(amounts: Amounts) -> Columns:
 
 
 def surroundings_amounts(_: Truth, shown: Shown) -> Amounts:
-    """Count the pixels that show tissue: a value of the volume where the pixel looks."""
+    """Count the pixels whose position has a value of the volume."""
     value = shown.value
     return {"pixels": shown.depth.size, "tissue": None if value is None else counted(~np.isnan(value))}
 
@@ -39,13 +38,13 @@ def surroundings_columns(amounts: Amounts) -> Columns:
 
 
 def steadiness_amounts(_: Truth, shown: Shown) -> Amounts:
-    """Add up what changes when the camera turns by one degree; of depths, where there are two to compare."""
+    """Add up the changes when the camera turns by one degree; of depth, where both exist."""
     change = np.abs(shown.turned_depth.astype(float) - shown.depth)
     return {
         "pixels": change.size,
         "with depth": counted(~np.isnan(change)),
         "change": float(np.nansum(change)),
-        "jumps": counted(change > _JUMP),
+        "jumps": counted(change > _JUMP_MM),
         "zones": counted(shown.turned_vessel != shown.vessel),
     }
 

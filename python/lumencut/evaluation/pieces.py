@@ -1,7 +1,7 @@
-"""The local surfaces of all vessels, restricted to their lumens: the pieces of docs/method/cut-surface.md.
+"""The pieces of docs/method/cut-surface.md, restricted to lumens.
 
-A piece covers a pixel here when it covers it there and the distance to the centerline is no more than the
-radius. Both neighbours at a border compute the same number, so that no pixel falls between them.
+A piece covers a pixel if it also does there and the distance to the centerline is at most the radius. Both
+neighbours at a border compute the same number, so no pixel falls between them.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from typing import NamedTuple, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from lumencut.evaluation.centerline import COLLINEAR
+from lumencut.evaluation.centerline import COLLINEAR_MM
 from lumencut.evaluation.projection import Projection
 from lumencut.evaluation.raster import Regions
 
@@ -21,7 +21,7 @@ _Indices: TypeAlias = npt.NDArray[np.intp]
 
 
 class Offer(NamedTuple):
-    """What pieces give at places, (n,): whether they cover them, depth, radius, arc length (mm), vessel."""
+    """For pieces at positions, (n,): whether they cover them, depth, radius, arc length (mm), vessel."""
 
     covers: npt.NDArray[np.bool_]
     depth: _Floats
@@ -32,20 +32,20 @@ class Offer(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Stripes:
-    """The lumens of segments; ``first`` has the index of the point at which each segment starts."""
+    """The lumens of segments; ``first`` is the index of each segment's first point."""
 
     seen: Projection
     first: _Indices
 
     def regions(self) -> Regions:
-        """Where the lumens lie: four half-planes each."""
+        """The lumens, as four half-planes each."""
         place, radius = self.seen.place, self.seen.centerline.radius
         start, end = place[self.first], place[self.first + 1]
         r0, r1 = radius[self.first], radius[self.first + 1]
         length = np.linalg.norm(end - start, axis=1)
         along = (end - start) / length[:, None]
         across = np.stack([-along[:, 1], along[:, 0]], axis=1)
-        # Within |distance| ≤ r0 + t · (r1 − r0), of which t is linear in the place.
+        # |distance| ≤ r0 + t · (r1 − r0), t linear in the position.
         growth = ((r1 - r0) / length)[:, None] * along
         normal = np.stack([-along, along, across - growth, -across - growth], axis=1)
         from_start = np.stack([np.zeros_like(length), length, r0, r0], axis=1)
@@ -54,7 +54,7 @@ class Stripes:
         return Regions((start + end) / 2, reach, normal, limit)
 
     def offer(self, piece: _Indices, place: _Floats) -> Offer:
-        """What these pieces give at these places (n, 2)."""
+        """Evaluate these pieces at these positions (n, 2)."""
         first = self.first[piece]
         line, seen = self.seen.centerline, self.seen
         start, end = seen.place[first], seen.place[first + 1]
@@ -74,7 +74,7 @@ class Stripes:
 class Fans:
     """The lumens at points: wedges, end half-planes and full planes.
 
-    ``before`` and ``after`` are the edges (n, 2) whose conditions hold; an edge that is not there is zero.
+    ``before`` and ``after`` are the edges (n, 2) that set conditions; a missing edge is zero.
     """
 
     seen: Projection
@@ -83,14 +83,14 @@ class Fans:
     after: _Floats
 
     def regions(self) -> Regions:
-        """Where the lumens lie: a disc and two half-planes each."""
+        """The lumens, as a disc and two half-planes each."""
         center = self.seen.place[self.point]
         normal = np.stack([-_unit(self.before), _unit(self.after)], axis=1)
         limit = (normal * center[:, None]).sum(axis=2)
         return Regions(center, self.seen.centerline.radius[self.point], normal, limit)
 
     def offer(self, piece: _Indices, place: _Floats) -> Offer:
-        """What these pieces give at these places (n, 2)."""
+        """Evaluate these pieces at these positions (n, 2)."""
         point, line = self.point[piece], self.seen.centerline
         offset, radius = place - self.seen.place[point], line.radius[point]
         covers = (_dot(offset, self.before[piece]) >= 0) & (_dot(offset, self.after[piece]) <= 0)
@@ -103,8 +103,7 @@ def pieces_of(seen: Projection) -> tuple[Stripes, Fans]:
     edge = np.append(np.diff(seen.place, axis=0), np.zeros((1, 2)), axis=0)
     vessel = seen.centerline.vessel
     within = np.append(vessel[:-1] == vessel[1:], False)
-    solid = within & (np.linalg.norm(edge, axis=1) >= COLLINEAR)
-    # Edges that give no stripe set no condition either.
+    solid = within & (np.linalg.norm(edge, axis=1) >= COLLINEAR_MM)
     edge = np.where(solid[:, None], edge, 0.0)
     fans = [_after_stripes(solid, within, edge), *_at_ends(seen, solid, edge)]
     point, before, after = (np.concatenate(column) for column in zip(*fans, strict=True))
@@ -114,16 +113,16 @@ def pieces_of(seen: Projection) -> tuple[Stripes, Fans]:
 def _after_stripes(
     solid: npt.NDArray[np.bool_], within: npt.NDArray[np.bool_], edge: _Floats
 ) -> tuple[_Indices, _Floats, _Floats]:
-    """The wedges at the ends of stripes, and the half-planes where a collinear run or the end follows."""
+    """The wedges at the ends of stripes, and the half-planes before a collinear run or the end."""
     end = np.flatnonzero(solid) + 1
-    # Of a run that reaches the end of the vessel the full plane there takes the place of the half-plane.
+    # If a run reaches the end of the vessel, the full plane there replaces the half-plane.
     runs_out = _last_solid(solid, within)[end - 1] & within[end]
     end = end[~runs_out]
     return end, edge[end - 1], edge[end]
 
 
 def _last_solid(solid: npt.NDArray[np.bool_], within: npt.NDArray[np.bool_]) -> npt.NDArray[np.bool_]:
-    """Tell which segments are the last stripe of their vessel."""
+    """Return which segments are the last stripe of their vessel."""
     where = np.flatnonzero(solid)
     owner: _Indices = np.cumsum(~within) - ~within
     last = np.zeros(len(solid), bool)
@@ -134,7 +133,7 @@ def _last_solid(solid: npt.NDArray[np.bool_], within: npt.NDArray[np.bool_]) -> 
 def _at_ends(
     seen: Projection, solid: npt.NDArray[np.bool_], edge: _Floats
 ) -> list[tuple[_Indices, _Floats, _Floats]]:
-    """The half-planes before vessels, the full planes at runs there, and vessels that are one point."""
+    """Half-planes before vessels, full planes at runs at their ends, and vessels projected to a point."""
     vessel = seen.centerline.vessel
     first = np.flatnonzero(np.diff(vessel, prepend=-1))
     last = np.append(first[1:], len(vessel)) - 1
@@ -142,7 +141,6 @@ def _at_ends(
     lone = np.array(
         [a + np.argmin(seen.depth[a : b + 1]) for a, b in zip(first[flat], last[flat], strict=True)]
     )
-    # Where the last segment is no stripe a run ends the vessel.
     runs_out = ~flat & ~solid[np.maximum(last - 1, 0)]
     starts, ends = first[~flat], np.concatenate([last[runs_out], lone.astype(int)])
     nothing = np.zeros((len(ends), 2))

@@ -1,4 +1,4 @@
-"""A centerline as one camera sees it, and the grid of pixels that it falls on; in 64-bit floats."""
+"""The projection of a centerline and its grid of pixels, in 64-bit floats."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Grid:
-    """The pixels of a picture: width and height in pixels, and the side of one (mm)."""
+    """Width and height of a picture in pixels, and the pixel side (mm)."""
 
     width: int
     height: int
@@ -31,12 +31,12 @@ class Grid:
         return np.asarray((self.height / 2 - row - 0.5) * self.side, np.float64)
 
     def centers(self, pixel: npt.NDArray[np.intp]) -> npt.NDArray[np.float64]:
-        """Centres of pixels, which are counted row by row, shape (n, 2), mm."""
+        """Centres of pixels, numbered row by row, shape (n, 2), mm."""
         row, column = np.divmod(pixel, self.width)
         return np.stack([self.x(column), self.y(row)], axis=1)
 
     def pixels(self, place: npt.NDArray[np.float64]) -> tuple[npt.NDArray[np.intp], npt.NDArray[np.bool_]]:
-        """Return the pixels that hold places (..., 2), and whether they are in the picture; else pixel 0."""
+        """Return the pixels of positions (..., 2), 0 outside the picture, and whether they are inside."""
         column = np.floor(place[..., 0] / self.side + self.width / 2).astype(int)
         row = np.floor(self.height / 2 - place[..., 1] / self.side).astype(int)
         within = (column >= 0) & (column < self.width) & (row >= 0) & (row < self.height)
@@ -45,7 +45,7 @@ class Grid:
 
 @dataclass(frozen=True, eq=False)
 class Projection:
-    """A centerline in view space: places (n, 2) and depths (n,) of its points (mm)."""
+    """A centerline in view space: positions (n, 2) and depths (n,) of its points (mm)."""
 
     centerline: Centerline
     grid: Grid
@@ -59,7 +59,7 @@ class Projection:
         return np.asarray((points - self.center) @ self.axes, np.float64)
 
     def world(self, depth: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
-        """World points (H, W, 3) of a depth image (mm); NaN where the depth is not finite."""
+        """World points (H, W, 3) of a depth image (mm); NaN for depths that are not finite."""
         x, y = np.meshgrid(self.grid.x(np.arange(self.grid.width)), self.grid.y(np.arange(self.grid.height)))
         view = np.stack([x, y, np.where(np.isfinite(depth), depth, np.nan)], axis=2)
         return np.asarray(view @ self.axes.T + self.center, np.float64)

@@ -1,4 +1,4 @@
-"""Lists of lists as flat arrays, and work cut into parts of bounded size."""
+"""Lists of lists as flat arrays, and work in parts of bounded size."""
 
 from __future__ import annotations
 
@@ -7,14 +7,14 @@ from collections.abc import Iterator
 import numpy as np
 import numpy.typing as npt
 
-#: How many numbers an array of one part of the work has at most: what stays in the caches of a processor.
-_MOST = 1 << 18
+#: Array elements per part of the work, to fit processor caches.
+_MAX_PART = 1 << 18
 
 
 def ragged(
     first: npt.NDArray[np.intp], count: npt.NDArray[np.intp]
 ) -> tuple[npt.NDArray[np.intp], npt.NDArray[np.intp]]:
-    """Return all members of the ranges ``first`` to ``first + count - 1``, and whose they are.
+    """Return all members of the ranges ``first`` to ``first + count - 1`` and their owners.
 
     Returns
     -------
@@ -26,8 +26,8 @@ def ragged(
     return owner, first[owner] + np.arange(len(owner)) - before[owner]
 
 
-def parts(sizes: npt.NDArray[np.intp], most: int = _MOST) -> Iterator[slice]:
-    """Cut a list into slices whose sizes add up to at most ``most``, or hold one entry."""
+def parts(sizes: npt.NDArray[np.intp], most: int = _MAX_PART) -> Iterator[slice]:
+    """Split a list into slices with total size at most ``most``, or one entry."""
     if not len(sizes):
         return
     total = np.cumsum(sizes)

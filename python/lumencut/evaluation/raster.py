@@ -1,4 +1,4 @@
-"""Which pixels lie in which of many small convex regions."""
+"""Pixels within many small convex regions."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from lumencut.evaluation.ragged import parts, ragged
 
 @dataclass(frozen=True, eq=False)
 class Regions:
-    """Regions of the view plane, each the common part of a disc and some half-planes (mm).
+    """Regions of the view plane, each the intersection of a disc and half-planes (mm).
 
     Parameters
     ----------
@@ -38,7 +38,7 @@ class Regions:
 def pixels_within(
     regions: Regions, grid: Grid
 ) -> Iterator[tuple[npt.NDArray[np.intp], npt.NDArray[np.intp]]]:
-    """Yield pairs of a region and a pixel whose centre lies in it, a part of them at a time."""
+    """Yield pairs of a region and a pixel whose centre lies in it, in parts."""
     region, row = _rows(regions, grid)
     first, count = _columns(regions, grid, region, row)
     met = count > 0
@@ -70,7 +70,7 @@ def _columns(
         border = np.divide(rest, slope, out=np.zeros_like(rest), where=slope != 0)
         high = np.where(slope > 0, np.minimum(high, border), high)
         low = np.where(slope < 0, np.maximum(low, border), low)
-        # A half-plane whose border runs along the rows holds all of a row or nothing of it.
+        # A half-plane with its border along the rows contains all of a row or nothing.
         high = np.where((slope == 0) & (rest < 0), -np.inf, high)
     left, right = (np.clip(x / grid.side + grid.width / 2 - 0.5, -2, grid.width + 1) for x in (low, high))
     first = np.maximum(np.ceil(left).astype(int), 0)

@@ -1,4 +1,4 @@
-"""The numbers of an evaluation, and their files."""
+"""The result of an evaluation and its files."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from lumencut.evaluation.methods import METHODS
 from lumencut.renderer import Renderer
 from lumencut.settings import Settings
 
-#: A row of a table: names of methods, numbers, and None where there is nothing that a number could be of.
+#: A row of a table: names, numbers, and None for undefined numbers.
 Row = dict[str, str | float | int | None]
 
 _WORST = "lumen_within_0.05_mm_percent"
@@ -25,14 +25,14 @@ _WORST = "lumen_within_0.05_mm_percent"
 @by_name
 @dataclass(frozen=True, eq=False, repr=False)
 class Evaluation:
-    """What :func:`lumencut.evaluate` found.
+    """The result of :func:`lumencut.evaluate`.
 
     Attributes
     ----------
     table : list of dict
         A row for each method: its name under ``"method"``, and the numbers over all views.
     views : list of dict
-        The same for each method and each view, whose number, from 0, stands under ``"view"``.
+        The same for each method and view; ``"view"`` is the number of the view, from 0.
     cameras : tuple of Camera
         The views.
     settings : dict of str to Settings
@@ -54,21 +54,21 @@ class Evaluation:
     def worst_view(self, method: str) -> int:
         """Return the number of the view in which the smallest share of lumen pixels shows the exact depth.
 
-        It is the first of several, and the first view where no pixel is in a lumen.
+        The first one counts if several are equal, or if no pixel is in a lumen.
         """
         shares = [row[_WORST] for row in self.views if row["method"] == method]
         known = [share if isinstance(share, float) else 101.0 for share in shares]
         return known.index(min(known))
 
     def to_csv(self, path: str | os.PathLike[str]) -> None:
-        """Write the table as comma-separated values, a line for each method; it appears once it is whole.
+        """Write the table as CSV with a line for each method; the file appears only when complete.
 
-        Numbers are written with all their digits; what is None is empty.
+        Numbers keep all their digits; None becomes empty.
 
         Raises
         ------
         FileError
-            Where the file cannot be written.
+            If the file cannot be written.
         """
         names = list(self.table[0])
         write_text(path, written([names, *([row[name] for name in names] for row in self.table)]))
@@ -76,20 +76,20 @@ class Evaluation:
     def to_markdown(self) -> str:
         """Return the table as Markdown: a line for each number, a column for each method.
 
-        The numbers stand below the criterion that they speak of: lumen, surroundings, visibility, depth and
-        silhouettes, those of the questionnaire in section 5 of the paper.
+        The numbers are grouped by the criteria of the questionnaire in section 5 of the paper: lumen,
+        surroundings, visibility, depth and silhouettes.
         """
         rows = []
         for name in self.table[0]:
             if name in self._first:
                 rows.append([f"**{self._first[name]}**", *("" for _ in self.table)])
-            rows.append([name, *(_told(row[name]) for row in self.table)])
+            rows.append([name, *(_formatted(row[name]) for row in self.table)])
         return _markdown(rows)
 
     def save_pictures(self, folder: str | os.PathLike[str]) -> list[Path]:
-        """Write a picture of the worst view of each method, named after the method, into a folder.
+        """Write a picture of each method's worst view, named after the method, into a folder.
 
-        The folder is made where there is none. See :meth:`worst_view`.
+        The folder is created if missing. See :meth:`worst_view`.
 
         Returns
         -------
@@ -99,9 +99,9 @@ class Evaluation:
         Raises
         ------
         VolumeError
-            Where the evaluation had no volume.
+            If the evaluation had no volume.
         FileError
-            Where the folder cannot be written to.
+            If the folder cannot be written to.
         """
         if self._renderer.volume is None:
             raise VolumeError("pictures of the evaluation", "no volume", "a volume to show")
@@ -118,15 +118,15 @@ class Evaluation:
         return paths
 
 
-def _told(value: str | float | int | None) -> str:
-    """A number with the digits that a reader wants."""
+def _formatted(value: str | float | int | None) -> str:
+    """A number with four significant digits."""
     if value is None:
         return "-"
     return f"{value:.4g}" if isinstance(value, float) else str(value)
 
 
 def _markdown(rows: Sequence[Sequence[str]]) -> str:
-    """Return rows as a Markdown table, the first one as its head, with numbers to the right."""
+    """Return rows as a Markdown table; the first row is its head, and numbers are right-aligned."""
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     rule = ["-" * widths[0], *("-" * (width - 1) + ":" for width in widths[1:])]
     lines = [

@@ -1,4 +1,4 @@
-"""What a method shows of one view: the images that the measures read."""
+"""The images of a view that the measures read."""
 
 from __future__ import annotations
 
@@ -10,18 +10,18 @@ import numpy.typing as npt
 
 @dataclass(frozen=True, eq=False)
 class Shown:
-    """The images of one view by one method, each (H, W); None where a method or a scene has none.
+    """The images of one view by one method, each (H, W), or None if the method or scene has none.
 
     Parameters
     ----------
     depth : numpy.ndarray
-        Depth of what is shown (mm), NaN where nothing is.
+        Depth of the shown point (mm); NaN if none.
     vessel : numpy.ndarray
-        Id of the vessel whose zone the pixel is in, -1 where nothing is shown.
+        Id of the vessel of the pixel's zone; -1 if nothing is shown.
     position : numpy.ndarray, shape (H, W, 3)
-        World point of what is shown (mm, LPS).
+        Shown world point (mm, LPS).
     value : numpy.ndarray or None
-        The volume there, NaN outside.
+        Value of the volume there; NaN outside.
     turned_depth, turned_vessel : numpy.ndarray
         Depth and vessel after the camera has turned by one degree about its up axis.
     plain_depth : numpy.ndarray or None

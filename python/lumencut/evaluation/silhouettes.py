@@ -1,4 +1,4 @@
-"""Whether silhouettes lie where the cut surface leaps, and nowhere else."""
+"""Whether silhouettes lie at leaps of the cut surface and only there."""
 
 from __future__ import annotations
 
@@ -9,26 +9,25 @@ from lumencut.evaluation.amounts import Amounts, Columns, counted, percent, rati
 from lumencut.evaluation.shown import Shown
 from lumencut.evaluation.truth import Truth
 
-#: The strength from which on a silhouette is a line.
-_LINE = 0.25
-#: The smallest leap (mm), where vessels are thinner than half of it.
-_SMALLEST_LEAP = 2.0
+_MIN_LINE_STRENGTH = 0.25
+#: Smallest leap, for vessels with less than half this radius.
+_MIN_LEAP_MM = 2.0
 
 
 def silhouette_amounts(truth: Truth, shown: Shown) -> Amounts:
-    """Count the leaps, those of them with a line, and the length of the lines elsewhere (mm)."""
+    """Count the leaps and those with a line, and add up the length of lines elsewhere (mm)."""
     if shown.strength is None or shown.plain_depth is None:
         return dict.fromkeys(("leaps", "drawn", "stray", "area"))
     side = truth.seen.grid.side
     across, down = leaps(shown.plain_depth, leap_bounds(truth, shown))
-    line = shown.strength > _LINE
+    line = shown.strength > _MIN_LINE_STRENGTH
     near = _grown(line)
     drawn = counted(across & (near[:, :-1] | near[:, 1:])) + counted(down & (near[:-1] | near[1:]))
     at_leap = np.zeros(line.shape, bool)
     for first, second, leap in ((at_leap[:, :-1], at_leap[:, 1:], across), (at_leap[:-1], at_leap[1:], down)):
         first |= leap
         second |= leap
-    # A line may be as wide as the pixels at a leap and those beside them.
+    # A line may cover the pixels at a leap and their neighbours.
     elsewhere = ~_grown(at_leap)
     return {
         "leaps": counted(across) + counted(down),
@@ -48,39 +47,38 @@ def silhouette_columns(amounts: Amounts) -> Columns:
 
 
 def leap_bounds(truth: Truth, shown: Shown) -> npt.NDArray[np.float64]:
-    """Return how high a leap is at least (mm) at each pixel, (H, W): the diameter of the vessel, or 2 mm.
+    """Return the smallest leap at each pixel (mm), (H, W): the diameter of the vessel, at least 2 mm.
 
-    The radius is that of the nearest lumen at the pixel, and beside all lumens the median radius of the
-    vessel whose zone the pixel is in.
+    The radius is that of the nearest lumen at the pixel; outside all lumens it is the median radius of the
+    vessel of the pixel's zone.
     """
     line = truth.seen.centerline
     starts = np.flatnonzero(np.diff(line.vessel)) + 1
     usual = np.array([np.median(radii) for radii in np.split(line.radius, starts)])
-    # Where a method shows nothing there is nothing to leap to.
     of_zone = np.where(shown.vessel >= 0, usual[shown.vessel], np.inf)
     radius = np.where(np.isnan(truth.nearest.radius), of_zone, truth.nearest.radius)
-    bounds: npt.NDArray[np.float64] = np.maximum(2 * radius, _SMALLEST_LEAP)
+    bounds: npt.NDArray[np.float64] = np.maximum(2 * radius, _MIN_LEAP_MM)
     return bounds
 
 
 def leaps(
     depth: npt.NDArray[np.floating], bound: npt.NDArray[np.float64]
 ) -> tuple[npt.NDArray[np.bool_], npt.NDArray[np.bool_]]:
-    """Tell between which neighbours the depth leaps.
+    """Return between which neighbours the depth leaps.
 
-    A pair leaps where each of the two depths is farther than the larger bound of both from where the other
-    side's own slope leads. Pairs at the border of the picture have no slope on one side and never leap.
+    A pair leaps if each depth differs from the other side's linear extrapolation by more than the larger
+    bound of both. Pairs at the border of the picture lack a slope and never leap.
 
     Returns
     -------
     across, down : numpy.ndarray, shapes (H, W - 1) and (H - 1, W)
-        For each pixel and its neighbour to the right, and for each and the one below.
+        For each pixel and its right neighbour, and for each pixel and the one below.
     """
     return leaps_along(depth, bound), leaps_along(depth.T, bound.T).T
 
 
 def leaps_along(depth: npt.NDArray[np.floating], bound: npt.NDArray[np.float64]) -> npt.NDArray[np.bool_]:
-    """Tell between which neighbours of each row the depth leaps, (H, W - 1); see :func:`leaps`."""
+    """Return between which neighbours of each row the depth leaps, (H, W - 1); see :func:`leaps`."""
     height, width = depth.shape
     leap = np.zeros((height, max(width - 1, 0)), bool)
     if width >= 4:

@@ -1,7 +1,7 @@
-"""What a perfect picture of the lumens would show: at every pixel the depth of the nearest one.
+"""The truth about a view: the depth of the nearest lumen at every pixel.
 
-It is computed anew in 64-bit floats from the centerline as it is given, without levels of detail, costs,
-filters or anything else of the engine.
+It is computed in 64-bit floats from the given centerline, without the engine's levels of detail, costs or
+filters.
 """
 
 from __future__ import annotations
@@ -22,9 +22,9 @@ from lumencut.evaluation.raster import pixels_within
 if TYPE_CHECKING:
     from lumencut.camera import Camera
 
-#: Depths that differ by no more than this are the same (mm).
+#: Depths that differ by at most this are equal (mm).
 EXACT = 0.05
-#: More than rounding moves the border of a region (mm).
+#: Exceeds the effect of rounding on the border of a region (mm).
 _ROUNDING = 1e-6
 
 
@@ -35,9 +35,9 @@ class Nearest:
     Parameters
     ----------
     depth : numpy.ndarray
-        Its depth (mm); infinite where there is no lumen.
+        Its depth (mm); infinite without a lumen.
     vessel : numpy.ndarray
-        Its vessel; -1 where there is none.
+        Its vessel; -1 without a lumen.
     arc, radius : numpy.ndarray
         The arc length along the vessel and its radius there (mm).
     """
@@ -50,10 +50,10 @@ class Nearest:
 
 @dataclass(frozen=True, eq=False)
 class Truth:
-    """All that is true of one view, whatever the method.
+    """The truth about one view, the same for all methods.
 
-    ``hidden`` tells of each point of the centerline whether a nearer lumen lies before it in the picture.
-    Crossings before which a third lumen lies are left out.
+    ``hidden`` states for each centerline point whether a nearer lumen lies in front of it. Crossings behind a
+    third lumen are excluded.
     """
 
     seen: Projection
@@ -84,7 +84,6 @@ def nearest_lumen(seen: Projection) -> Nearest:
             offer = pieces.offer(piece, grid.centers(pixel))
             nearer = offer.covers & (offer.depth < depth[pixel])
             np.minimum.at(depth, pixel[nearer], offer.depth[nearer])
-            # Of those that are equally near the last one stays.
             won = np.flatnonzero(nearer & (offer.depth == depth[pixel]))
             for image, values in ((vessel, offer.vessel), (arc, offer.arc), (radius, offer.radius)):
                 image[pixel[won]] = values[won]
@@ -93,9 +92,9 @@ def nearest_lumen(seen: Projection) -> Nearest:
 
 
 def lumen_depth_at(seen: Projection, place: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
-    """Return the depth (mm) of the nearest lumen at places (n, 2), wherever in their pixels they lie.
+    """Return the depth (mm) of the nearest lumen at exact positions (n, 2), not at pixel centres.
 
-    It is infinite where there is no lumen, and at places beside the picture.
+    It is infinite without a lumen and outside the picture.
     """
     grid = seen.grid
     pixel, within = grid.pixels(place)
@@ -104,7 +103,7 @@ def lumen_depth_at(seen: Projection, place: npt.NDArray[np.float64]) -> npt.NDAr
     first = np.cumsum(count) - count
     depth = np.full(len(place), np.inf)
     for pieces in pieces_of(seen):
-        # A place lies at most half a diagonal from the centre of its pixel.
+        # A position is at most half a diagonal from the centre of its pixel.
         regions = pieces.regions().widened(0.7072 * grid.side + _ROUNDING)
         for piece, met in pixels_within(regions, grid):
             busy = count[met] > 0

@@ -18,18 +18,17 @@ _GOLDEN_ANGLE = math.pi * (3 - math.sqrt(5))
 
 
 def directions(count: int) -> npt.NDArray[np.float64]:
-    """Return unit vectors on a Fibonacci lattice, shape (count, 3): always the same ones, evenly spread."""
+    """Return evenly spread unit vectors on a Fibonacci lattice, shape (count, 3); deterministic."""
     number = np.arange(count)
     z = 1 - (2 * number + 1) / count
     across, angle = np.sqrt(1 - z**2), number * _GOLDEN_ANGLE
-    # A single view is the one from the front.
     return np.stack([across * np.sin(angle), across * np.cos(angle), z], axis=1)
 
 
 def cameras(
     tree: VesselTree, count: int, size: tuple[int, int], pixel_spacing: float | None
 ) -> tuple[Camera, ...]:
-    """Return the cameras along :func:`directions`, fitted to the tree but for a given pixel spacing (mm)."""
+    """Return cameras along :func:`directions`, fitted to the tree unless `pixel_spacing` (mm) is given."""
     views = (Camera.fitted(tree, ahead, upright(ahead), size) for ahead in directions(count))
     if pixel_spacing is None:
         return tuple(views)

@@ -1,4 +1,4 @@
-"""Whether the lumens that nothing hides are shown, and whether the nearer vessel is at crossings."""
+"""Measures of visibility: centerlines, lumens and the order at crossings."""
 
 from __future__ import annotations
 
@@ -9,14 +9,13 @@ from lumencut.evaluation.shown import Shown
 from lumencut.evaluation.truth import EXACT, Truth
 from lumencut.evaluation.width import inside_vessel
 
-#: The bounds (mm) within which the depth of a lumen pixel counts as right.
-BOUNDS = (0.05, 0.5, 2.0)
-#: How far beyond its radius the nearer vessel of a crossing may lie from what is shown (mm).
-_CROSSING_MARGIN = 0.5
+TOLERANCES_MM = (0.05, 0.5, 2.0)
+#: Tolerance, beyond the radius, of the depth shown at a crossing.
+_CROSSING_MARGIN_MM = 0.5
 
 
 def centerline_amounts(truth: Truth, shown: Shown) -> Amounts:
-    """Count the points of the centerline that no nearer lumen hides, and those of them that are shown."""
+    """Count the centerline points that no nearer lumen hides, and those shown."""
     pixel, within = truth.seen.grid.pixels(truth.seen.place)
     nearest = truth.nearest.depth.ravel()[pixel]
     lumen = np.isfinite(nearest)
@@ -43,10 +42,10 @@ def centerline_columns(amounts: Amounts) -> Columns:
 
 
 def lumen_amounts(truth: Truth, shown: Shown) -> Amounts:
-    """Count the pixels whose centre lies in a lumen, and those that show the nearest one within bounds."""
+    """Count the pixels whose centre lies in a lumen, and those that show the nearest one within tolerance."""
     lumen = np.isfinite(truth.nearest.depth)
     error = np.abs(shown.depth[lumen] - truth.nearest.depth[lumen])
-    within = {f"within {bound:g}": counted(error <= bound) for bound in BOUNDS}
+    within = {f"within {bound:g}": counted(error <= bound) for bound in TOLERANCES_MM}
     return {"pixels": len(error), **within}
 
 
@@ -54,13 +53,13 @@ def lumen_columns(amounts: Amounts) -> Columns:
     """Return the numbers of the table."""
     shares: Columns = {
         f"lumen_within_{bound:g}_mm_percent": percent(amounts[f"within {bound:g}"], amounts["pixels"])
-        for bound in BOUNDS
+        for bound in TOLERANCES_MM
     }
     return {**shares, "lumen_pixels": amounts["pixels"]}
 
 
 def shown_lumen_amounts(truth: Truth, shown: Shown) -> Amounts:
-    """Count the pixels whose centre lies in a lumen, and those that show some point of that lumen."""
+    """Count the pixels whose centre lies in a lumen, and those that show any point of that lumen."""
     lumen = np.isfinite(truth.nearest.depth)
     stations = truth.seen.centerline.at(truth.nearest.vessel[lumen], truth.nearest.arc[lumen])
     within = inside_vessel(truth, stations, shown.position[lumen][:, None])
@@ -73,15 +72,15 @@ def shown_lumen_columns(amounts: Amounts) -> Columns:
 
 
 def crossing_amounts(truth: Truth, shown: Shown) -> Amounts:
-    """Count the crossings in the picture, and those at which the nearer vessel is shown.
+    """Count the crossings in the picture, and those that show the nearer vessel.
 
-    Crossings at which even the truth shows something else are left out: at the centre of the pixel the nearer
-    vessel may already have ended.
+    Crossings where even the truth shows something else are excluded: the nearer vessel may not reach the
+    centre of the pixel.
     """
     crossings = truth.crossings
     pixel, within = truth.seen.grid.pixels(crossings.place)
     true, found = (
-        within & (np.abs(depth.ravel()[pixel] - crossings.depth) <= crossings.radius + _CROSSING_MARGIN)
+        within & (np.abs(depth.ravel()[pixel] - crossings.depth) <= crossings.radius + _CROSSING_MARGIN_MM)
         for depth in (truth.nearest.depth, shown.depth)
     )
     return {

@@ -1,4 +1,4 @@
-"""Whether vessels are shown as wide as they are."""
+"""Errors of the shown width of vessels."""
 
 from __future__ import annotations
 
@@ -11,18 +11,18 @@ from lumencut.evaluation.ragged import parts
 from lumencut.evaluation.shown import Shown
 from lumencut.evaluation.truth import EXACT, Truth
 
-#: The projected unit tangent of a station is at least this long: the vessel rises by less than 60 degrees.
-_FORESHORTENED = 0.5
-#: More than what 32-bit floats round positions by (mm).
-_ROUNDING = 1e-3
-#: Beyond three radii, how far along the vessel its centerline counts for the width of a station (mm).
-_REACH = 5.0
-#: How far the width in a picture of the truth may be off where a vessel counts as a tube (pixels).
-_BEND = 1.5
+#: Shortest projected unit tangent of a station: less than 60° out of the view plane.
+_MIN_TANGENT = 0.5
+#: Exceeds the rounding of positions in 32-bit floats.
+_ROUNDING_MM = 1e-3
+#: Length of centerline beyond three radii that counts for the width of a station.
+_EXTRA_LENGTH_MM = 5.0
+#: Largest width error of a picture of the truth; sharp bends exceed it.
+_MAX_TRUE_ERROR_PIXELS = 1.5
 
 
 def width_amounts(truth: Truth, shown: Shown) -> Amounts:
-    """Return the errors of the widths (mm) at all stations that can be judged in this view."""
+    """Return the width errors (mm) at all stations that can be judged in this view."""
     stations, place, across = lying(truth)
     side = truth.seen.grid.side
     steps = _steps(stations, side)
@@ -34,8 +34,7 @@ def width_amounts(truth: Truth, shown: Shown) -> Amounts:
         - 2 * stations.radius
         for position in (truth.seen.world(truth.nearest.depth), shown.position)
     )
-    # In a sharp bend even the truth is not as wide as the vessel.
-    errors = found[np.abs(true) <= _BEND * side]
+    errors = found[np.abs(true) <= _MAX_TRUE_ERROR_PIXELS * side]
     return {"errors": errors, "left out": len(truth.stations) - len(errors) + truth.stations_left_out}
 
 
@@ -55,10 +54,10 @@ def width_columns(amounts: Amounts) -> Columns:
 
 
 def lying(truth: Truth) -> tuple[Stations, npt.NDArray[np.float64], npt.NDArray[np.float64]]:
-    """The stations at which the vessel does not run along the view, their places, and across the vessel."""
+    """The stations of vessels not along the view, their positions, and the directions across the vessel."""
     tangent = (truth.stations.tangent @ truth.seen.axes)[:, :2]
     length = np.linalg.norm(tangent, axis=1)
-    lying = length >= _FORESHORTENED
+    lying = length >= _MIN_TANGENT
     tangent = tangent[lying] / length[lying, None]
     stations = truth.stations.chosen(lying)
     across = np.stack([-tangent[:, 1], tangent[:, 0]], axis=1)
@@ -66,7 +65,7 @@ def lying(truth: Truth) -> tuple[Stations, npt.NDArray[np.float64], npt.NDArray[
 
 
 def _steps(stations: Stations, side: float) -> npt.NDArray[np.float64]:
-    """The steps of the walks to both sides (pixels), well beyond the widest vessel."""
+    """The steps to both sides (pixels), well beyond the widest vessel."""
     widest = stations.radius.max() if len(stations) else 0.0
     most = int(np.ceil(1.5 * widest / side)) + 2
     return np.arange(-most, most + 1).astype(float)
@@ -79,7 +78,7 @@ def clear_stations(
     pixel: npt.NDArray[np.intp],
     within: npt.NDArray[np.bool_],
 ) -> npt.NDArray[np.bool_]:
-    """Tell at which stations all of the vessel is in the picture and no lumen of elsewhere lies before it."""
+    """Return at which stations the vessel is entirely in the picture with no separate lumen in front."""
     side, nearest = truth.seen.grid.side, truth.nearest
     needed = distance <= stations.radius[:, None] + side
     depth = truth.seen.view(stations.points)[:, 2]
@@ -97,18 +96,16 @@ def clear_stations(
 def inside_vessel(
     truth: Truth, stations: Stations, position: npt.NDArray[np.float64]
 ) -> npt.NDArray[np.bool_]:
-    """Tell which positions (n, walk, 3) lie in the lumen of each station's vessel, near the station."""
-    line, reach = truth.seen.centerline, 3 * stations.radius + _REACH
+    """Return which positions (n, walk, 3) lie in the lumen of each station's vessel, near the station."""
+    line, reach = truth.seen.centerline, 3 * stations.radius + _EXTRA_LENGTH_MM
     first = line.indices(stations.vessel, stations.arc - reach)
     last = np.maximum(line.indices(stations.vessel, stations.arc + reach), first + 1)
-    # The centerline goes on to the next point, unless the vessel ends.
     last = np.minimum(last + 1, line.indices(stations.vessel, line.lengths[stations.vessel]))
     count = last - first
     inside = np.zeros(position.shape[:2], bool)
     for part in parts(np.full(len(stations), position.shape[1]) * count):
-        # Where a vessel has fewer segments than the longest one here, its last one is asked again.
         segment = first[part, None] + np.minimum(np.arange(count[part].max()), count[part, None] - 1)
-        # Counted from the station, squares of distances keep their digits.
+        # Relative to the station, squared distances keep their digits.
         middle = stations.points[part, None]
         start, place = line.points[segment] - middle, position[part] - middle
         edge = line.points[segment + 1] - line.points[segment]
@@ -118,17 +115,17 @@ def inside_vessel(
         start_radius = line.radius[segment][:, None]
         radius = start_radius + t * (line.radius[segment + 1][:, None] - start_radius)
         gap = from_start + t * (t * square[:, None] - 2 * along)
-        inside[part] = (gap <= (radius + _ROUNDING) ** 2).any(axis=2)
+        inside[part] = (gap <= (radius + _ROUNDING_MM) ** 2).any(axis=2)
     return inside
 
 
 def _squares(vectors: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
-    """Squares of the lengths of vectors (n, m, 3)."""
+    """Squared lengths of vectors (n, m, 3)."""
     return np.asarray((vectors**2).sum(axis=2))
 
 
 def _run(inside: npt.NDArray[np.bool_]) -> npt.NDArray[np.float64]:
-    """How many pixels around the middle of each walk (n, walk) are inside without a gap."""
+    """Number of pixels around the middle of each walk (n, walk) that are inside without a gap."""
     middle = inside.shape[1] // 2
     right = np.logical_and.accumulate(inside[:, middle:], axis=1).sum(axis=1)
     left = np.logical_and.accumulate(inside[:, middle::-1], axis=1).sum(axis=1)
