@@ -24,7 +24,7 @@ test('what was not saved is not closed unasked, and measuring does not go on in 
   await close.click();
   await question.getByRole('button', { name: 'Discard' }).click();
   await expect(page.getByRole('heading', { name: 'Lumencut' })).toBeVisible();
-  await page.getByRole('button', { name: 'A tube with a narrowing of 50 %' }).click();
+  await page.getByRole('button', { name: 'A tube with a stenosis of 50 %' }).click();
   await expect(page.locator('main.layout')).toHaveAttribute('data-layout', 'strip');
   await tube.rest();
   await expect(page.getByRole('alert')).toHaveCount(0);
@@ -32,7 +32,7 @@ test('what was not saved is not closed unasked, and measuring does not go on in 
   await tube.press('m', 't');
   await expect(page.locator('main.layout')).toHaveAttribute('data-layout', 'four');
   await close.click();
-  await page.getByRole('button', { name: 'A tube with a narrowing of 50 %' }).click();
+  await page.getByRole('button', { name: 'A tube with a stenosis of 50 %' }).click();
   await expect(page.locator('main.layout')).toHaveAttribute('data-layout', 'strip');
   await expect(page.getByRole('button', { name: 'Trace', exact: true })).toHaveAttribute(
     'aria-pressed',

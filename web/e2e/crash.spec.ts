@@ -33,7 +33,7 @@ test('after a crash the message offers to save the session, which brings back wh
   await crash(viewer);
   await viewer.drag([0.3, 0.4], [60, 25]);
   const message = viewer.page.getByRole('alert');
-  await expect(message).toContainText('Found that it has stopped: unreachable; expected an answer.');
+  await expect(message).toContainText('Found a crash: unreachable; expected an answer.');
   const download = viewer.page.waitForEvent('download');
   await message.getByRole('button', { name: 'Save the session' }).click();
   const stream = await (await download).createReadStream();

@@ -86,7 +86,7 @@ test('findings of all vessels stand in one list, are copied, and are saved as on
   // A vessel that is hidden has no pictures: its finding is told by its name.
   await rows(viewer).nth(0).locator('.eye').click();
   await expect(findings(viewer)).toHaveCount(1);
-  await expect(panel(viewer)).toContainText('Hidden, and so not in the report:');
+  await expect(panel(viewer)).toContainText('Not in the report, because hidden:');
   viewer.expectNoFault();
   await viewer.close();
 });

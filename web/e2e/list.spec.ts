@@ -54,11 +54,11 @@ test('the browser asks before an unsaved tree goes, and what the tab keeps on re
   const held = () => page.evaluate(() => Object.keys(sessionStorage));
   expect(await held()).toEqual([]);
   await page.locator('summary', { hasText: 'Save' }).click();
-  await page.getByLabel('Keep it in this tab over a reload').check();
+  await page.getByLabel('Keep the session when this tab reloads').check();
   await expect.poll(held).toContain('lumencut-session');
   await page.reload();
   expect(asked).toEqual(['beforeunload']);
-  await button(viewer, 'Go on with them').click();
+  await button(viewer, 'Continue with them').click();
   await expect(rows(viewer)).toHaveCount(2);
   viewer.expectNoFault();
   await viewer.close();

@@ -116,7 +116,7 @@ test.describe('streams', () => {
     await viewer.rest();
     await viewer.page.getByRole('button', { name: 'Close the scan' }).click();
     await expect(viewer.page.getByRole('heading', { name: 'Lumencut' })).toBeVisible();
-    await viewer.page.getByRole('button', { name: 'A tube with a narrowing of 50 %' }).click();
+    await viewer.page.getByRole('button', { name: 'A tube with a stenosis of 50 %' }).click();
     await viewer.rest();
     expect(isEmpty(await viewer.pixels())).toBe(false);
     viewer.expectNoFault();
@@ -139,7 +139,7 @@ test.describe('streams', () => {
     [
       'has an invalid header',
       header({}, 'LCVOLUME', '{"size":[1,'),
-      /header of the volumeFound a text that is no JSON; expected size, dtype/,
+      /header of the volumeFound a text that is not JSON; expected size, dtype/,
     ],
     [
       'has a header without a size',
@@ -151,7 +151,7 @@ test.describe('streams', () => {
       header({ ...VOLUME, size: [90_000, 90_000, 90_000] }),
       /Found .*; expected /,
     ],
-    ['is not there', 404, /Found an answer 404; expected a file\.Look at the program/],
+    ['is not there', 404, /Found HTTP status 404; expected a file\.Check the program/],
   ];
   for (const [what, volume, words] of broken) {
     test(`a volume that ${what} is refused in words, and the page goes on`, async () => {
@@ -163,7 +163,7 @@ test.describe('streams', () => {
       await viewer.screenshot(`broken-${what.replaceAll(' ', '-')}`);
       await viewer.problem.getByRole('button', { name: 'Close' }).click();
       await expect(viewer.problem).toHaveCount(0);
-      await viewer.page.getByRole('button', { name: 'A tube with a narrowing of 50 %' }).click();
+      await viewer.page.getByRole('button', { name: 'A tube with a stenosis of 50 %' }).click();
       await viewer.rest();
       // The browser itself reports an answer that is an error.
       expect(viewer.faults.filter((fault) => !fault.includes('404'))).toEqual([]);
@@ -190,7 +190,7 @@ test.describe('streams', () => {
       await expect(viewer.page.getByRole('progressbar')).toHaveCount(0);
       await expect(viewer.problem).toHaveCount(0);
     }
-    await viewer.page.getByRole('button', { name: 'A tube with a narrowing of 50 %' }).click();
+    await viewer.page.getByRole('button', { name: 'A tube with a stenosis of 50 %' }).click();
     await viewer.rest();
     viewer.expectNoFault();
   });
@@ -244,7 +244,7 @@ test('50 opens of a phantom do not grow the memory', { tag: '@long' }, async ({ 
   const viewer = await Viewer.open(browser, '?device=cpu&test=1');
   await expect(viewer.page.getByRole('button', { name: 'Aorta' })).toBeEnabled();
   // What a complete view takes is taken once.
-  await viewer.page.getByRole('button', { name: 'A tube with a narrowing of 50 %' }).click();
+  await viewer.page.getByRole('button', { name: 'A tube with a stenosis of 50 %' }).click();
   await viewer.rest();
   await viewer.page.getByRole('button', { name: 'Close the scan' }).click();
   await openAndClose(viewer.page, 10);
@@ -271,7 +271,7 @@ test('without cross-origin isolation one thread computes, and the page says so',
     },
   );
   await viewer.page.goto('./?phantom=stenosis&device=cpu');
-  await expect(viewer.device).toHaveText('CPU: 1 thread, as the page is not cross-origin isolated');
+  await expect(viewer.device).toHaveText('CPU: 1 thread, because the page is not cross-origin isolated');
   await viewer.rest();
   expect(isEmpty(await viewer.pixels())).toBe(false);
   const before = await viewer.camera();

@@ -22,20 +22,20 @@ test('by ECST an original diameter is asked for; by area the percentage is that 
   await numbers.getByLabel('Method').selectOption('area');
   await expect(tube.stenosis()).toHaveText(PYTHON.area);
   await numbers.getByLabel('Method').selectOption('nascet');
-  await numbers.getByLabel('Groups').selectOption('carotid');
-  await expect(tube.stenosis()).toContainText('Group of the field: ');
-  await numbers.getByLabel('Groups').selectOption('');
+  await numbers.getByLabel('Severity category').selectOption('carotid');
+  await expect(tube.stenosis()).toContainText('Severity category: ');
+  await numbers.getByLabel('Severity category').selectOption('');
 });
 
 test('behind a near-occlusion there is no percentage', async () => {
   await tube.marked();
   const numbers = tube.viewer.page.getByTestId('numbers');
-  await numbers.getByLabel('Other side').fill('12');
-  await numbers.getByLabel('Other side').press('Enter');
+  await numbers.getByLabel('Contralateral').fill('12');
+  await numbers.getByLabel('Contralateral').press('Enter');
   await expect(tube.stenosis()).toContainText('No percentage');
   await expect(tube.stenosis()).not.toContainText('%');
-  await numbers.getByLabel('Other side').fill('');
-  await numbers.getByLabel('Other side').press('Enter');
+  await numbers.getByLabel('Contralateral').fill('');
+  await numbers.getByLabel('Contralateral').press('Enter');
   await expect(tube.stenosis()).toHaveText(PYTHON.nascet);
 });
 
@@ -129,10 +129,10 @@ test('a ruler measures between two clicks; its ends can be dragged, and it can b
 test('another width of the point spread is reckoned with, and said', async () => {
   const blur = tube.viewer.page.getByRole('region', { name: 'Blur of the scan' });
   await expect(blur).toContainText('assumed: ');
-  await blur.getByLabel('Give it').fill('0.6');
-  await blur.getByLabel('Give it').press('Enter');
+  await blur.getByLabel('Known FWHM').fill('0.6');
+  await blur.getByLabel('Known FWHM').press('Enter');
   await expect(blur).toContainText(', given.');
-  await blur.getByLabel('Give it').fill('');
-  await blur.getByLabel('Give it').press('Enter');
+  await blur.getByLabel('Known FWHM').fill('');
+  await blur.getByLabel('Known FWHM').press('Enter');
   await expect(blur).toContainText('assumed: ');
 });

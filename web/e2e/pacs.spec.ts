@@ -165,7 +165,7 @@ test('a file of another patient is shown and refused, and another one can be cho
     await button(viewer, 'For PACS (DICOM, zip)').click();
     await viewer.page.getByLabel('DICOM file of the study').setInputFiles(place.other);
     const question = viewer.page.getByRole('alertdialog', { name: 'Study of the chosen file' });
-    await expect(question).toContainText('This file is refused');
+    await expect(question).toContainText('This file cannot be used');
     await expect(question).toContainText("'J-17'");
     await expect(question.locator('dd').first()).toHaveText('Roe^Mary');
     await expect(button(viewer, 'Save in this study')).toHaveCount(0);

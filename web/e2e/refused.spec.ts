@@ -57,7 +57,7 @@ test('in a vessel that does not meet the other one, which can be bridged', async
   await expectRefused(
     () => clickAt(viewer, [STRAIGHT, 0], 'axial'),
     /Found \d+\.\d mm between them that do not look like lumen, least at .*; expected lumen/,
-    /least like lumen here: -\d+/,
+    /least lumen-like point: -\d+/,
   );
   await viewer.screenshot('refused-apart');
   await expect(viewer.problem.getByRole('button', { name: 'Click between' })).toBeVisible();

@@ -83,8 +83,8 @@ async function work(): Promise<void> {
   await viewer.press('2');
   await viewer.research(() => viewer.field('Context').selectOption('dvr'));
   await viewer.press('m');
-  await blur().getByLabel('Give it').fill('0.8');
-  await blur().getByLabel('Give it').press('Enter');
+  await blur().getByLabel('Known FWHM').fill('0.8');
+  await blur().getByLabel('Known FWHM').press('Enter');
   await expect(blur()).toContainText('0.80 mm, given', { timeout: 30_000 });
   await button(viewer, 'Confirm the suggested places').click({ timeout: 30_000 });
   await expect(stenosis(viewer)).toContainText('%');

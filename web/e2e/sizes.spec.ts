@@ -17,7 +17,7 @@ for (const [name, viewport] of [
     const viewer = await Viewer.open(browser, '?device=cpu', { viewport });
     await expect(viewer.page.getByRole('button', { name: 'Aorta' })).toBeEnabled();
     await viewer.screenshot(`${name}-start`);
-    await viewer.page.getByRole('button', { name: 'A tube with a narrowing of 50 %' }).click();
+    await viewer.page.getByRole('button', { name: 'A tube with a stenosis of 50 %' }).click();
     await viewer.rest();
     await viewer.screenshot(name);
     const page = await viewer.page.evaluate(() => [
@@ -134,7 +134,7 @@ for (const colorScheme of ['dark', 'light'] as const) {
     await expect(page.getByRole('button', { name: 'Aorta' })).toBeEnabled();
     await viewer.screenshot(`start-${colorScheme}`);
     expect(await serious()).toEqual([]);
-    await page.getByRole('button', { name: 'A tube with a narrowing of 50 %' }).click();
+    await page.getByRole('button', { name: 'A tube with a stenosis of 50 %' }).click();
     await viewer.rest();
     await viewer.screenshot(`open-${colorScheme}`);
     expect(await serious()).toEqual([]);

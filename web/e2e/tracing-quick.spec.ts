@@ -1,4 +1,4 @@
-/** The first step of the guided try, by somebody who is faster than the engine; and where keys take the focus. */
+/** The first step of the guided tour, by somebody who is faster than the engine; and where keys take the focus. */
 import { type Browser, expect, type Page, test } from '@playwright/test';
 import { Viewer } from './page';
 
@@ -8,12 +8,12 @@ const [UPPER, LOWER] = [0.3, 0.7];
 
 async function guided(browser: Browser): Promise<Viewer> {
   const viewer = await Viewer.open(browser, '?device=cpu', { viewport: SIZE });
-  await viewer.page.getByRole('button', { name: 'Guided try in two minutes' }).click({ timeout: 30_000 });
+  await viewer.page.getByRole('button', { name: 'Guided tour in two minutes' }).click({ timeout: 30_000 });
   await expect(viewer.pane()).toBeVisible({ timeout: 50_000 });
   return viewer;
 }
 
-const guide = (page: Page) => page.getByLabel('Guided try');
+const guide = (page: Page) => page.getByLabel('Guided tour');
 
 test('points that are set quickly become a vessel, though Done is pressed at once', async ({ browser }) => {
   const viewer = await guided(browser);

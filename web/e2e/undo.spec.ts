@@ -98,7 +98,9 @@ async function editMarks(): Promise<number> {
   await step(/choose the method/, () => numbers.getByLabel('Method').selectOption('ecst'));
   const original = numbers.getByLabel('Original diameter');
   await step(/give the original diameter/, () => original.fill('9').then(() => original.press('Enter')));
-  await step(/choose the groups/, () => numbers.getByLabel('Groups').selectOption('carotid'));
+  await step(/choose the severity category/, () =>
+    numbers.getByLabel('Severity category').selectOption('carotid'),
+  );
   await step(/stretch/, () => button(viewer, 'Mark a stretch').click());
   await step(/remove the reference/, () => button(viewer, 'Remove the reference after').click());
   await button(viewer, 'Ruler').click();
@@ -150,8 +152,8 @@ test('nothing of a study is left in the next one', async () => {
   await expect(page.getByTestId('ruler')).toHaveCount(1);
   await viewer.press('Control+z');
   const blur = page.getByRole('region', { name: 'Blur of the scan' });
-  await blur.getByLabel('Give it').fill('0.9');
-  await blur.getByLabel('Give it').press('Enter');
+  await blur.getByLabel('Known FWHM').fill('0.9');
+  await blur.getByLabel('Known FWHM').press('Enter');
   await expect(blur).toContainText(', given.');
   // A ruler that has its first point only.
   await button(viewer, 'Ruler').click();

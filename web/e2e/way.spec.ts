@@ -79,7 +79,7 @@ test('by keys alone, from the start page to the report', async ({ browser }) => 
   const viewer = await Viewer.open(browser, '?device=cpu', { viewport: SIZE });
   const { page } = viewer;
   const counted = await countInput(viewer);
-  await expect(button(viewer, 'A tube with a narrowing of 50 %')).toBeEnabled();
+  await expect(button(viewer, 'A tube with a stenosis of 50 %')).toBeEnabled();
   await tabTo(viewer, 'A tube with a narrowing');
   await viewer.press('Enter');
   await viewer.rest();

@@ -82,7 +82,7 @@ export class Failure extends Error {
       return thrown;
     }
     if (thrown instanceof DOMException && thrown.name === 'AbortError') {
-      return new Failure('interrupted', 'the page', 'a stop', 'to run to its end');
+      return new Failure('interrupted', 'the page', 'a stop', 'a complete run');
     }
     const text = thrown instanceof Error ? thrown.message : String(thrown);
     const fields = parsed(text);
@@ -92,21 +92,9 @@ export class Failure extends Error {
     }
     if (thrown instanceof Error && thrown.name === 'RuntimeError') {
       const advice = 'save the session, reload the page, and open the scan and the session again';
-      return new Failure(
-        CRASH,
-        'the engine of the page',
-        `that it has stopped: ${text}`,
-        'an answer',
-        advice,
-      );
+      return new Failure(CRASH, 'the engine of the page', `a crash: ${text}`, 'an answer', advice);
     }
-    return new Failure(
-      'unexpected',
-      'the page',
-      text,
-      'no error here',
-      'reload the page and open the scan again',
-    );
+    return new Failure('unexpected', 'the page', text, 'no error', 'reload the page and open the scan again');
   }
 
   /** What mends it in the words of the page, advice first; empty where nothing is known. */

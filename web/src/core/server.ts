@@ -10,8 +10,14 @@ export function placeOf(made: Made, subject: string): string {
   if (address) {
     return address;
   }
-  const advice = 'open the scan by `lumencut view`, of pip install "lumencut[dicom,plot]"';
-  throw new Failure('file', subject, 'a page alone', 'the program that reads and writes such DICOM', advice);
+  const advice = 'open the scan with `lumencut view`, from pip install "lumencut[dicom,plot]"';
+  throw new Failure(
+    'file',
+    subject,
+    'a page without its server',
+    'the server, which reads and writes DICOM',
+    advice,
+  );
 }
 
 /** What it makes of content; its refusals are failures. */
@@ -26,9 +32,11 @@ export async function made(what: Made, subject: string, content: object): Promis
   }
   const failure = Failure.of(await response.text());
   const advice =
-    response.status === 503 ? 'wait for what is made already' : 'look at the program that serves the page';
+    response.status === 503
+      ? 'wait until the current export is done'
+      : 'check the program that serves the page';
   throw failure.kind === 'unexpected'
-    ? new Failure('file', subject, `an answer ${response.status}`, 'what was asked for', advice)
+    ? new Failure('file', subject, `HTTP status ${response.status}`, 'status 200', advice)
     : failure;
 }
 

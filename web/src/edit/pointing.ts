@@ -25,7 +25,7 @@ let beginning: Promise<AfterEdit | null> | null = null;
 export async function setPoint(engine: Asked, point: Vector): Promise<Pick | null> {
   candidate.value = null;
   if (searches.value > 0) {
-    tell('No point was set: vessels are being looked for. Escape stops that.');
+    tell('No point was set: the search for vessels is still running. Press Escape to stop it.');
     return null;
   }
   if (tool.value === 'stopper') {

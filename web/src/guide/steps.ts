@@ -1,4 +1,4 @@
-/** The guided try: a phantom, and one step after the other, each done once the user did it. */
+/** The guided tour: a phantom, and one step after the other, each done once the user did it. */
 import { effect, signal } from '@preact/signals';
 import { engine } from '../client/shared';
 import type { Vector } from '../core/messages';
@@ -20,7 +20,7 @@ export interface GuideStep {
 /** The least turn that counts as one (cosine of 20°). */
 const TURNED = Math.cos(Math.PI / 9);
 
-/** The step that is under way, counted from 0; null where there is no guided try. */
+/** The step that is under way, counted from 0; null where there is no guided tour. */
 export const guideStep = signal<number | null>(null);
 
 /** Where the camera looked as the step began. */
@@ -31,13 +31,13 @@ const isTraced = (): boolean => document_.value.vessels.some((vessel) => (vessel
 /** One thing after the other: the slices are shown only once the tool is in use. */
 function tracingWords(): readonly string[] {
   if (!isTracing()) {
-    return ['Press “Trace” first, or the key t.', 'Slices in three directions are shown then.'];
+    return ['Press “Trace” or the key t.', 'Three slice views open.'];
   }
   return isTraced()
-    ? ['The centerline was found between your points.', 'Now press “Done”.']
+    ? ['Lumencut found the centerline between your points.', 'Now press “Done”.']
     : [
         'In the coronal slice, click on the bright vessel near its upper end, then near its lower end.',
-        'Its centerline is found between the clicks; then press “Done”.',
+        'Lumencut finds the centerline between the clicks; then press “Done”.',
       ];
 }
 
@@ -55,7 +55,7 @@ export const STEPS: readonly GuideStep[] = [
     title: 'Turn it',
     words: [
       'Drag in the view “Vessels”.',
-      'The vessel is cut open along its middle, whichever way you look at it.',
+      'The vessel is cut open along its centerline from every direction.',
     ],
     isDone: () => {
       const camera = store.camera.value;
@@ -71,19 +71,19 @@ export const STEPS: readonly GuideStep[] = [
     isDone: () => store.layout.value === 'measure',
   },
   {
-    title: 'Grade the narrowing',
+    title: 'Grade the stenosis',
     words: [
-      'The narrowest place and places to compare it with are suggested. They are no findings: look at them.',
-      'Drag them to where you want them, or press “Confirm the suggested places”.',
-      'This phantom was made with a narrowing of 50 %: see how near the percentage and its ± come.',
+      'The narrowest place and its references are suggested. They are not findings until you confirm them.',
+      'Check them, drag them where they belong, or press “Confirm the suggested places”.',
+      'This phantom has a stenosis of 50 %: compare the percentage and its ± with that.',
     ],
     isDone: () => Object.values(document_.value.marks).some((marks) => marks.at !== null),
   },
   {
-    title: 'Take it away',
+    title: 'Save it',
     words: [
-      'Open “Save” and choose the report: one page with pictures and numbers that opens without a network.',
-      'The session goes into a file of its own, to go on later.',
+      'Open “Save” and choose the report: one page with pictures and numbers that opens offline.',
+      'Save the session, a separate file, to continue later.',
     ],
     isDone: () => false,
   },

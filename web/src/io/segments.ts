@@ -120,7 +120,7 @@ export class LabelMap {
     });
     const more = others.length > 0 ? ` and ${others.length} more pairs` : '';
     const found = `segments that overlap: ${named.join(' and ')} in ${most[1]} voxels${more}`;
-    const mend = 'trace segments that do not, by `lumencut trace --mask` with --label, or save them apart';
+    const mend = 'trace other segments with `lumencut trace --mask` and --label, or save them separately';
     throw formatFailure(this.path, found, 'at most one segment in each voxel', mend);
   }
 }

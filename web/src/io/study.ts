@@ -76,7 +76,7 @@ export async function openFiles(
 export async function openLines(source: Source, { study, steps }: Means): Promise<readonly string[]> {
   const found = await known(source);
   if (['nifti', 'nrrd', 'metaimage', 'dicom', 'zip'].includes(found.kind)) {
-    const mend = 'trace the lines of a mask by `lumencut trace` and open what it writes';
+    const mend = 'trace a mask with `lumencut trace` and open the result';
     throw formatFailure(source.path, found.words, LINES, mend);
   }
   if (found.kind === 'empty') {
@@ -117,7 +117,7 @@ function requireOne({ volumes, dicom, archives, lines, others }: Sorted): void {
   const [first, second] = every;
   if (first && second) {
     const found = `${every.length} volumes, ${fileName(first.path)} and ${fileName(second.path)}${every.length > 2 ? ' among them' : ''}`;
-    const mend = 'choose the scan alone; the lines of a mask are traced by `lumencut trace`';
+    const mend = 'choose the scan alone; trace a mask with `lumencut trace`';
     throw formatFailure('files', found, 'one volume and its centerlines', mend);
   }
   if (lines.length > 1) {

@@ -25,11 +25,11 @@ function Why() {
     );
   }
   if (!store.hasVolume.value) {
-    return <p>There is no volume to measure in.</p>;
+    return <p>No scan is open to measure in.</p>;
   }
   if (beingMeasured.value !== null) {
     const share = told?.total ? ` ${((100 * told.done) / told.total).toFixed(0)} %` : '';
-    return <p>{`measuring…${share} Escape stops it.`}</p>;
+    return <p>{`Measuring…${share} Press Escape to stop.`}</p>;
   }
   return stopped.value === null ? null : (
     <p>

@@ -78,7 +78,7 @@ function TurnButton() {
       type="button"
       class="small"
       aria-pressed={turn !== null}
-      title="The cut sweeps the diameters of the lumen, while the place stays where it is (o)"
+      title="Rotates the cut around this place, to show every diameter of the lumen (o)"
       onClick={() => void togglePlaceTurn(engine)}
     >
       {`Turn about ${mm(turn?.at ?? store.pickedPlace.value, 1)}`}
@@ -97,7 +97,7 @@ function PlaceRow({ place, profile }: { readonly place: Place; readonly profile:
         class="link"
         style={{ color: COLORS[place.kind] }}
         onClick={() => moveTo(place.at)}
-        title="Show its section"
+        title="Shows its section"
       >
         {placeName(place)}
       </button>

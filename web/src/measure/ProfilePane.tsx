@@ -40,7 +40,7 @@ function ProfileContent({ size }: { readonly size: Pair }) {
   if (!vessel) {
     const hint = store.hasTree.value
       ? 'Pick a vessel: click on it in the view above.'
-      : 'There is no vessel yet: trace one, or open centerlines.';
+      : 'No vessel yet: trace one, or open centerlines.';
     return <p class="no-profile">{hint}</p>;
   }
   const x = axisAlong(vessel.length, size[0]);

@@ -37,7 +37,7 @@ export function SectionTools({ column, width, top }: SectionToolsProps) {
       <button
         type="button"
         class="small"
-        title={`The stenosis is at ${at}`}
+        title={`Marks the narrowest place of the stenosis at ${at}`}
         onClick={() => markHere('place')}
       >
         Narrowest here
@@ -45,12 +45,12 @@ export function SectionTools({ column, width, top }: SectionToolsProps) {
       <button
         type="button"
         class="small"
-        title={`The vessel is normal at ${at}: a reference of the stenosis`}
+        title={`Marks a normal place at ${at} as a reference of the stenosis`}
         onClick={() => markHere('reference')}
       >
         Reference here
       </button>
-      <button type="button" class="small" title={`Note the diameter at ${at}`} onClick={noteDiameter}>
+      <button type="button" class="small" title={`Notes the diameter at ${at}`} onClick={noteDiameter}>
         Diameter here
       </button>
       <LengthButton hasRoom={!isFull(marks)} />
@@ -63,8 +63,8 @@ function LengthButton({ hasRoom }: { readonly hasRoom: boolean }) {
   const from = lengthFrom.value;
   if (from === null) {
     const title = hasRoom
-      ? 'Then move the section to the other end'
-      : 'Two stretches are marked: remove one of them first';
+      ? 'Starts a length here; then move the section to the other end'
+      : 'Two stretches are marked: remove one first';
     return (
       <button type="button" class="small" disabled={!hasRoom} title={title} onClick={beginLength}>
         Length from here

@@ -10,9 +10,7 @@ const unit = (name: string): string => (hasMillimetres.value ? ` ${name}` : '');
 
 /** Why lengths have no unit; nothing where they have one. */
 export const unitless = (): string =>
-  hasMillimetres.value
-    ? ''
-    : 'The scan does not say how far its voxels lie apart: 1 mm is assumed, and lengths have no unit.';
+  hasMillimetres.value ? '' : 'This scan has no voxel spacing: 1 mm is assumed, and lengths have no unit.';
 
 /** A length, such as `3.02 mm`. */
 export function mm(value: number | null, digits = 2): string {

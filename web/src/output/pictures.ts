@@ -15,7 +15,7 @@ export async function composed(labels: 'labels' | 'plain'): Promise<HTMLCanvasEl
   const shown = document.querySelector<HTMLCanvasElement>('[data-testid=turning] canvas.picture');
   const camera = store.camera.value;
   if (!shown || !camera || shown.width === 0) {
-    throw new Failure('picture', 'picture', 'no view', 'a scan that is open');
+    throw new Failure('picture', 'picture', 'no view', 'an open scan');
   }
   const canvas = document.createElement('canvas');
   [canvas.width, canvas.height] = [shown.width, shown.height];

@@ -21,8 +21,8 @@ export const isScanNamed = signal(false);
 export async function saveReport(): Promise<void> {
   const findings = reported();
   if (findings.length === 0) {
-    const mend = 'press m to measure the picked vessel, or take a finding into the report';
-    throw new Failure('picture', 'report', 'no vessel that is measured', 'one', mend);
+    const mend = 'press m to measure the picked vessel, or include a finding';
+    throw new Failure('picture', 'report', 'no measured vessel', 'one', mend);
   }
   const html = await reportOf(findings);
   const name = fileName({ scan: namedScan(), content: 'report', ending: 'html' });

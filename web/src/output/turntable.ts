@@ -84,7 +84,7 @@ class Film implements Album {
   async finish(): Promise<Blob> {
     const recorder = this.recorder;
     if (!recorder) {
-      throw new Failure('picture', 'turntable', 'no pictures', 'a scan that is open');
+      throw new Failure('picture', 'turntable', 'no pictures', 'an open scan');
     }
     const stopped = new Promise((resolve) => {
       recorder.onstop = resolve;

@@ -30,7 +30,7 @@ export async function isSession({ file }: GivenFile): Promise<boolean> {
 export async function savedSession(): Promise<Bytes> {
   const report = store.report.value;
   if (!report?.volume) {
-    throw new Failure('session', 'session', 'no scan', 'a scan that is open');
+    throw new Failure('session', 'session', 'no scan', 'an open scan');
   }
   const written = async (asked: Asked, document: Document) => {
     const content = contentOf(document, report, looked(), givenFwhm.value);

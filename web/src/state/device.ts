@@ -47,7 +47,7 @@ async function change(device: string, failure: Failure): Promise<void> {
   try {
     const changed = await engine.changeDevice(device);
     const before = store.started.value;
-    const outcome = changed.isGpu ? 'it came back' : 'the CPU goes on';
+    const outcome = changed.isGpu ? 'it recovered' : 'the CPU continues';
     batch(() => {
       store.started.value = before && { ...before, ...changed };
       store.epoch.value += 1;

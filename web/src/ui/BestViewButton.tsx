@@ -6,7 +6,7 @@ export function BestViewButton() {
   return (
     <button
       type="button"
-      title="From where most of the vessel is seen (f)"
+      title="Turns the view so that most of the vessel is visible (f)"
       onClick={() => void showBestView(engine)}
     >
       Best view

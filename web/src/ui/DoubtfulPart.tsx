@@ -18,8 +18,8 @@ export function DoubtfulPart({ vessels }: { readonly vessels: readonly DocumentV
     <section class="doubtful-rows" aria-label="Doubtful branches">
       <h3>{countedDoubts(vessels)}</h3>
       <div class="buttons">
-        <button type="button" title="Each in turn (.), with its reason" onClick={() => stepDoubt(engine, 1)}>
-          Look at each
+        <button type="button" title="Shows each with its reason (.)" onClick={() => stepDoubt(engine, 1)}>
+          Review each
         </button>
         <button type="button" onClick={() => void accept(engine, ids)}>
           Accept all
@@ -45,7 +45,7 @@ function DoubtfulRow({ vessel }: { readonly vessel: DocumentVessel }) {
       <button
         type="button"
         class="name"
-        title={`${vessel.doubt}: turn the view to it`}
+        title={`${vessel.doubt}. Click to show it`}
         aria-label={`Show ${name}, ${reasonOf(vessel)}`}
         onClick={() => void showDoubt(engine, vessel)}
       >

@@ -18,8 +18,8 @@ export function DropZone() {
     return null;
   }
   const words = hasVolume.value
-    ? 'Drop centerlines or a mask of vessels to add them, or another scan'
-    : 'Drop a scan here, and its centerlines';
+    ? 'Drop centerlines or a vessel mask to add vessels, or drop another scan'
+    : 'Drop a scan here, with or without its centerlines';
   return <div class="drop-zone">{words}</div>;
 }
 

@@ -41,7 +41,7 @@ export function FindingsPanel() {
         </section>
       )}
       {hiddenFindings.value.length > 0 && (
-        <p class="doubts">{`Hidden, and so not in the report: ${hiddenFindings.value.join(', ')}.`}</p>
+        <p class="doubts">{`Not in the report, because hidden: ${hiddenFindings.value.join(', ')}.`}</p>
       )}
     </div>
   );
@@ -51,7 +51,7 @@ export function FindingsPanel() {
 function Nothing() {
   return (
     <>
-      <p>Nothing is marked yet. Measure a vessel and mark a place or a length on it: it stands here then.</p>
+      <p>Findings appear here once you mark a place or a length on a measured vessel.</p>
       <button type="button" onClick={() => toggleLayout('measure')}>
         Measure the picked vessel
       </button>
@@ -89,7 +89,7 @@ function FindingPart({ finding }: { readonly finding: Finding }) {
       {sentences ? sentences.map((one) => <Words key={one.words} sentence={one} />) : <Pending line={line} />}
       {sentences && <KeyImage finding={finding} name={name} />}
       <div class="buttons">
-        <button type="button" title="Section and view go there" onClick={() => show(finding)}>
+        <button type="button" title="Moves section and view there" onClick={() => show(finding)}>
           Show
         </button>
         <button
@@ -133,7 +133,7 @@ function Pending({ line }: { readonly line: number }) {
       <p class="refused">{`Not measured: found ${known.failure.found}; expected ${known.failure.expected}.`}</p>
     );
   }
-  return <p>{stopped.value === line ? 'Not measured: it was stopped.' : 'Measuring…'}</p>;
+  return <p>{stopped.value === line ? 'Not measured: stopped.' : 'Measuring…'}</p>;
 }
 
 /** The key image as it is copied; drawn anew where marks, window or numbers change. */

@@ -53,7 +53,7 @@ function StentButton() {
     <button
       type="button"
       aria-pressed={isStentShown.value}
-      title="Shows the cut through the vessels in a wide window: the struts of a stent stand apart from the lumen"
+      title="Shows the cut through the vessels in a wide window, which separates stent struts from the lumen"
       onClick={chooseStent}
     >
       Stent
@@ -65,7 +65,7 @@ function StentButton() {
 function RegionChoice() {
   const regions = started.value?.regions ?? [];
   return (
-    <label title="Look, window and slab as a region of the body is mostly read">
+    <label title="Preset for a body region or type of scan: look, window and slab">
       <span class="hidden-words">Look by region</span>
       <select value={chosenRegion.value ?? ''} onChange={(event) => chooseRegion(event.currentTarget.value)}>
         <option value="">By region</option>
@@ -101,7 +101,7 @@ function Reach() {
     return null;
   }
   return (
-    <label title="How far around the vessels the cut is shown">
+    <label title="Width of the cut shown around each vessel">
       <span class="hidden-words">Margin around the vessels (mm)</span>
       <input
         type="range"
@@ -118,7 +118,7 @@ function Reach() {
 
 function LinesChoice() {
   return (
-    <label title="Where the depth of the cut leaps, lines can mark it">
+    <label title="Lines mark where the depth of the cut jumps">
       <span class="hidden-words">Lines</span>
       <select value={lines.value} onChange={(event) => chooseLines(event.currentTarget.value as Lines)}>
         {LINES.map(([name, words]) => (

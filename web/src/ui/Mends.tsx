@@ -15,7 +15,7 @@ const spaces = ({ values }: Mend): readonly Button[] =>
 /** The buttons for each mend; a series is chosen from its list, and a gap is bridged by the tool that met it. */
 const BUTTONS: Record<MendName, (mend: Mend) => readonly Button[]> = {
   bridge: NONE,
-  every_second: () => [['Take every second voxel along each axis', { every_second: true }]],
+  every_second: () => [['Load every second voxel along each axis', { every_second: true }]],
   cpu: NONE,
   windows: NONE,
   threshold: NONE,

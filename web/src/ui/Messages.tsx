@@ -46,14 +46,14 @@ function Loading() {
 function LongWork() {
   return (
     <>
-      <strong>This takes long. Does the place lie in a vessel, and not in bone?</strong>
+      <strong>This takes long. Is the point in a vessel, and not in bone?</strong>
       <button
         type="button"
         onClick={() => {
           isLong.value = false;
         }}
       >
-        Go on
+        Continue
       </button>
     </>
   );
@@ -68,7 +68,7 @@ function Problem() {
     <div class="message problem" role="alert">
       <strong>{failure.subject}</strong>
       {failure.series.length > 0 ? (
-        <span>{`Found ${failure.series.length} series. Which of them is to be read?`}</span>
+        <span>{`Found ${failure.series.length} series. Which one should be opened?`}</span>
       ) : (
         <Sentences failure={failure} />
       )}

@@ -39,7 +39,7 @@ const MODES: readonly (readonly [Mode, string, string, string])[] = [
   ['look', '◉', 'Look', 'Look at the vessels from all sides'],
   ['trace', '✎', 'Trace', 'Trace vessels by clicks (t)'],
   ['measure', '⟷', 'Measure', 'Measure the picked vessel (m)'],
-  ['report', '▤', 'Report', 'What was found on all vessels, to copy and to save (e)'],
+  ['report', '▤', 'Report', 'Findings on all vessels, to copy and save (e)'],
 ];
 
 export function ModeButtons() {

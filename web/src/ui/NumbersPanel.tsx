@@ -73,16 +73,16 @@ function Blur({ fwhm, source }: { readonly fwhm: number; readonly source: string
   return (
     <section aria-label="Blur of the scan">
       <h3>Blur of the scan</h3>
-      <p>{`FWHM of the point spread ${mm(fwhm)}, ${source}.`}</p>
-      <label>
-        Give it
+      <p>{`FWHM of the point spread function: ${mm(fwhm)}, ${source}.`}</p>
+      <label title="Enter the FWHM if you know it; leave it empty to use the estimate">
+        Known FWHM
         <input
           class="number"
           type="number"
           min="0.05"
           max="20"
           step="any"
-          placeholder="as found"
+          placeholder="estimated"
           value={source === 'given' ? String(fwhm) : ''}
           onChange={(event) => give(event.currentTarget)}
         />

@@ -74,7 +74,7 @@ function deviceText(): string {
     return started.device ? `GPU: ${started.device}` : 'GPU';
   }
   const threads = started.threads === 1 ? '1 thread' : `${started.threads} threads`;
-  return `CPU: ${threads}${started.isIsolated ? '' : ', as the page is not cross-origin isolated'}`;
+  return `CPU: ${threads}${started.isIsolated ? '' : ', because the page is not cross-origin isolated'}`;
 }
 
 /** What was odd about the scan, one sentence each. */

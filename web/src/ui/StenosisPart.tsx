@@ -40,23 +40,27 @@ export function StenosisPart() {
         {marks.method === 'ecst' && (
           <Length
             name="Original diameter"
+            title="Diameter of the vessel before the stenosis formed, as ECST defines it (mm)"
             value={marks.original}
             onGive={(original) => set('give the original diameter', { original })}
           />
         )}
         {marks.method === 'nascet' && (
           <Length
-            name="Other side"
+            name="Contralateral"
+            title="Diameter of the same artery on the other side (mm); needed to detect a near-occlusion"
             value={marks.comparison}
-            onGive={(comparison) => set('give the diameter of a vessel like it', { comparison })}
+            onGive={(comparison) => set('give the contralateral diameter', { comparison })}
           />
         )}
-        <label>
-          Groups
+        <label title="Reports the severity category of NASCET (carotid) or CAD-RADS 2.0 (coronary)">
+          Severity category
           <select
             value={marks.group ?? ''}
             onChange={(event) =>
-              set('choose the groups', { group: (event.currentTarget.value || null) as Territory | null })
+              set('choose the severity category', {
+                group: (event.currentTarget.value || null) as Territory | null,
+              })
             }
           >
             <option value="">none</option>
@@ -80,7 +84,7 @@ function Result({ marks }: { readonly marks: VesselMarks }) {
     return (
       <div role="status" data-testid="stenosis">
         <p class="graded">{stenosisWords(stenosis)}</p>
-        {stenosis.group && <p>{`Group of the field: ${told(stenosis.group)}`}</p>}
+        {stenosis.group && <p>{`Severity category: ${told(stenosis.group)}`}</p>}
       </div>
     );
   }
@@ -98,7 +102,7 @@ function Doubts() {
 }
 
 const NOTHING_MARKED =
-  'Nothing is marked. Look at the suggested places, drag them where they belong, or confirm them.';
+  'Nothing is marked. Check the suggested places, drag them where they belong, or confirm them.';
 
 /** A reference alone is no mistake: what a percentage needs beside it is said quietly. */
 const ONLY_REFERENCES = 'A reference is marked. "Narrowest here" adds a percentage.';
@@ -128,14 +132,15 @@ function NotGraded({ marks }: { readonly marks: VesselMarks }) {
 
 interface LengthProps {
   readonly name: string;
+  readonly title?: string;
   readonly value: number | null;
   onGive(value: number | null): void;
 }
 
 /** A diameter that the reader gives (mm). */
-function Length({ name, value, onGive }: LengthProps) {
+function Length({ name, title, value, onGive }: LengthProps) {
   return (
-    <label>
+    <label title={title}>
       {name}
       <span>
         <input

@@ -32,7 +32,7 @@ export function TidyPart() {
         <button
           type="button"
           disabled={apart.value.length === 0}
-          title="Removes all vessels that do not hang together with the picked one"
+          title="Removes all vessels that are not connected to the picked one"
           onClick={() => void keepPart(engine)}
         >
           {apart.value.length > 0

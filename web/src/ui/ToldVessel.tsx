@@ -33,7 +33,7 @@ function ToldOf({ told: { vessel, words, doubts } }: { readonly told: Told }) {
       {doubts.length > 1 && (
         <button
           type="button"
-          title="What else is doubtful of this vessel"
+          title="Shows the next doubt about this vessel"
           onClick={() => {
             number.value = (number.value + 1) % doubts.length;
           }}

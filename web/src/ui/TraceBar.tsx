@@ -52,7 +52,7 @@ function Offer() {
       <button
         type="button"
         disabled={waiting.value > 0}
-        title="All vessels that are brighter than the tissue around them"
+        title="Finds all vessels that are brighter than the surrounding tissue"
         onClick={() => void findAndList(engine)}
       >
         Find all vessels
@@ -75,7 +75,7 @@ function Offer() {
 }
 
 const WHOLE =
-  'From the nearest vessel of the list to its end (w). The first time all vessels of the scan are looked for.';
+  'Takes the vessel from its parent in the list to its end (w). The first use searches the whole scan.';
 
 /** What the next click does. */
 function Hint() {
@@ -106,7 +106,7 @@ function Hint() {
       {tool.value !== 'seed' && (
         <button
           type="button"
-          title={tool.value === 'trace' ? STOPPER : 'Go on with the points of vessels'}
+          title={tool.value === 'trace' ? STOPPER : 'Continue with vessel points'}
           onClick={take(tool.value === 'trace' ? 'stopper' : 'trace')}
         >
           {tool.value === 'trace' ? 'Stopper' : 'Trace'}
@@ -121,13 +121,13 @@ function Hint() {
 
 function hintWords(): string {
   if (waiting.value > 0) {
-    return searches.value > 0 ? 'Looking for vessels …' : 'Tracing …';
+    return searches.value > 0 ? 'Searching for vessels …' : 'Tracing …';
   }
   if (candidate.value) {
-    return 'The brightest place under the pointer. Is it right in the slices? Then click it again. If it is not the vessel, click it in a slice.';
+    return 'This is the brightest place under the pointer. If the slices show your vessel there, click it again; otherwise click the vessel in a slice.';
   }
   if (tool.value === 'seed') {
-    return 'Click where the tree begins, or press Enter at the cross-hair: all branches from there are looked for.';
+    return 'Click where the tree begins, or press Enter at the cross-hair, to find all branches from there.';
   }
   if (tool.value === 'stopper') {
     return 'Click, or press Enter at the cross-hair, where no vessel may pass.';
@@ -155,11 +155,11 @@ function Doubt({ words }: { readonly words: string }) {
       </button>
       {count > 1 && (
         <>
-          <button type="button" aria-label="The one before (,)" onClick={() => stepDoubt(engine, -1)}>
+          <button type="button" aria-label="Previous (,)" onClick={() => stepDoubt(engine, -1)}>
             ‹
           </button>
           <span>{`${place + 1} of ${count}`}</span>
-          <button type="button" aria-label="The next one (.)" onClick={() => stepDoubt(engine, 1)}>
+          <button type="button" aria-label="Next (.)" onClick={() => stepDoubt(engine, 1)}>
             ›
           </button>
         </>

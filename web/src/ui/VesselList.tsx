@@ -66,7 +66,7 @@ export function VesselList() {
 function TreeChoice() {
   return (
     <div class="buttons">
-      <label title="Branches stand under the vessel that they hang on, the widest first">
+      <label title="Lists each branch under its parent vessel, the widest first">
         <input
           type="checkbox"
           checked={isTreeShown.value}
@@ -104,14 +104,14 @@ function Means() {
     <div class="buttons">
       <button
         type="button"
-        title="All vessels that are brighter than the tissue around them"
+        title="Finds all vessels that are brighter than the surrounding tissue"
         onClick={() => void findVessels(engine)}
       >
         Find all vessels
       </button>
       <button
         type="button"
-        title="From the cross-hair where you put it, else from a click (b)"
+        title="Searches from the cross-hair if you placed it, otherwise from your next click (b)"
         onClick={() => performAny(engine, 'branches')}
       >
         All branches from here
@@ -121,7 +121,7 @@ function Means() {
           Stopper
         </button>
       )}
-      <label title="A vessel goes on where no lumen is seen between two clicks, as in an occlusion; without it such a click is refused">
+      <label title="Continues a vessel where no lumen is visible between two clicks, as in an occlusion. Otherwise such a click is rejected.">
         <input
           type="checkbox"
           checked={document_.value.bridge}

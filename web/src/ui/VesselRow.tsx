@@ -156,7 +156,7 @@ function calibreWords(vessel: DocumentVessel): string {
   const trunk = sure.value.find((one) => one.line === parent);
   return [
     ...(calibre === null ? [] : [`median diameter ${calibre.toFixed(1)}`]),
-    ...(trunk ? [`hangs on ${nameOf(trunk)}`] : []),
+    ...(trunk ? [`branch of ${nameOf(trunk)}`] : []),
   ].join(', ');
 }
 
@@ -190,13 +190,13 @@ function Means({ vessel }: RowProps) {
     <div class="buttons">
       <BestViewButton />
       {vessel.clicks && (
-        <button type="button" title="Add points at its end" onClick={goOn}>
-          Go on
+        <button type="button" title="Adds points at its end" onClick={goOn}>
+          Extend
         </button>
       )}
       <button
         type="button"
-        title="Cut it where the section stands"
+        title="Cuts the vessel at the section"
         onClick={() => void cut(engine, id, pickedPlace.value)}
       >
         Cut here

@@ -32,7 +32,7 @@ export function Places({ projection }: { readonly projection: Projection }) {
 
 function wordsOf(failure: Failure): string {
   const { value } = failure;
-  const words = isGap(failure) ? 'least like lumen here' : 'here';
+  const words = isGap(failure) ? 'least lumen-like point' : 'here';
   return value === null ? words : `${words}: ${Number.isInteger(value) ? value : value.toFixed(1)}`;
 }
 

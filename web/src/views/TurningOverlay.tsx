@@ -46,7 +46,7 @@ function NoMillimetres() {
     <button
       type="button"
       class="no-millimetres"
-      title="The scan does not say how far its voxels lie apart. Lengths are then told as if that were 1 mm; what is saved tells that it is assumed. Undo takes it back."
+      title="This scan has no voxel spacing. Lengths assume 1 mm; saved files are marked accordingly. Undo reverts this."
       onClick={assumeOneMillimetre}
     >
       Assume 1 mm

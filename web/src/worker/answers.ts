@@ -49,7 +49,7 @@ export const isAtOnce = (name: Question): boolean => TURNS[name].when === 'at on
 /** Refuses long work that was cancelled before it began. */
 export function refuseStopped(name: Question, signal: AbortSignal): void {
   if (TURNS[name].words !== null && signal.aborted) {
-    throw new Failure('interrupted', 'tracing', 'a stop', 'to run to its end');
+    throw new Failure('interrupted', 'tracing', 'a stop', 'a complete run');
   }
 }
 

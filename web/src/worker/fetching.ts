@@ -69,9 +69,9 @@ async function answered(address: string, signal: AbortSignal): Promise<Response>
     ? new Failure(
         'file',
         address,
-        `an answer ${response.status}`,
+        `HTTP status ${response.status}`,
         'a file',
-        'look at the program that serves the page',
+        'check the program that serves the page',
       )
     : failure;
 }
@@ -168,7 +168,7 @@ function checkedHeader(text: string): Header {
     typeof read.dtype === 'string' &&
     read.world_from_index;
   if (!read || !isWhole) {
-    const found = read ? `only ${Object.keys(read).join(', ') || 'an empty one'}` : 'a text that is no JSON';
+    const found = read ? `only ${Object.keys(read).join(', ') || 'an empty one'}` : 'a text that is not JSON';
     const expected = 'size, dtype and world_from_index as JSON';
     throw new Failure('format', 'header of the volume', found, expected, 'open it again');
   }

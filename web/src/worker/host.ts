@@ -17,7 +17,7 @@ import { type Means, Replacing } from './replacing';
 import { startThreads } from './threads';
 
 /** What is told of a volume of which not every voxel was taken. */
-const COARSER = 'every second voxel along each axis was taken; measured numbers are less sure';
+const COARSER = 'only every second voxel along each axis was loaded; measurements are less accurate';
 
 /** What is known of everything that was loaded. */
 interface Loaded {

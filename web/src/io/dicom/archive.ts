@@ -31,9 +31,7 @@ async function entriesOf(archive: Source) {
   try {
     return await new ZipReader(new SourceReader(archive)).getEntries();
   } catch (error) {
-    throw error instanceof Failure
-      ? error
-      : damaged(archive.path, 'an archive that is damaged', 'a whole one');
+    throw error instanceof Failure ? error : damaged(archive.path, 'a damaged archive', 'an intact one');
   }
 }
 
@@ -85,7 +83,7 @@ class Member implements Source {
       await this.entry.getData(sink, { checkSignature: true, signal: stop.signal });
     } catch {
       if (!stop.signal.aborted) {
-        throw damaged(this.path, 'a member of an archive that is damaged', 'a whole one');
+        throw damaged(this.path, 'a damaged member of the archive', 'an intact one');
       }
     }
     return wanted.subarray(0, Math.max(Math.min(count, stopAt) - start, 0));

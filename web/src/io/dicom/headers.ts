@@ -70,7 +70,7 @@ async function header(source: Source, head: Uint8Array<ArrayBuffer>): Promise<Pa
 }
 
 function unreadable(source: Source): Failure {
-  return damaged(source.path, 'a header that is damaged or breaks off', 'a sound DICOM file');
+  return damaged(source.path, 'a damaged or truncated header', 'an intact DICOM file');
 }
 
 function imageOf(source: Source, file: Parsed, recorder: Recorder): Image {

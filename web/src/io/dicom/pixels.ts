@@ -94,7 +94,7 @@ function unpackedRle(path: string, shape: Shape, frame: Bytes): Numbers {
 async function decoded(path: string, syntax: string, shape: Shape, frame: Bytes): Promise<Numbers> {
   const name = CODECS[syntax];
   if (!name) {
-    throw formatFailure(path, `pixels of the transfer syntax ${syntax}`, 'one that is read here');
+    throw formatFailure(path, `pixels of the transfer syntax ${syntax}`, 'a supported one');
   }
   requireSize(path, name, shape, frame);
   const decode = await decoderOf(name);
@@ -132,7 +132,7 @@ function requireSize(path: string, name: CodecName, shape: Shape, frame: Bytes):
     throw formatFailure(path, found, `${shape.columns} × ${shape.rows} as the header says`);
   }
   if (name === 'jpeg' && size.bits > 8) {
-    const mend = 'write the series without compression, or convert it by the Python package';
+    const mend = 'write the series without compression, or convert it with the Python package';
     throw formatFailure(
       path,
       `JPEG Extended of ${size.bits} bits`,
