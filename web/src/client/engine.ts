@@ -1,4 +1,4 @@
-/** The worker as the page uses it: typed calls whose errors are failures. */
+/** Typed calls to the worker; their errors are `Failure`s. */
 import { proxy, type Remote, transfer, wrap } from 'comlink';
 import type { Answer, Asked, Beside, Message, Question, Told } from '../core/asked';
 import { Failure } from '../core/failure';
@@ -8,7 +8,7 @@ import { Precedence } from '../core/precedence';
 import type { ScanStudy } from '../core/scan-study';
 import type { EngineHost } from '../worker/host';
 
-/** Files of the same origin. */
+/** Addresses of the same origin. */
 export interface Addresses {
   readonly volume: string | null;
   readonly centerlines: string | null;
@@ -20,11 +20,11 @@ export interface Opened {
   readonly name?: string;
   readonly states?: States;
   readonly study?: ScanStudy | null;
-  /** What speaks against where centerlines were read. */
+  /** Why the coordinate system of the centerlines is doubtful. */
   readonly doubt?: PlaceDoubt | null;
 }
 
-/** Bits of the byte that stops work: a view gives way to whatever the user waits for, long work to `cancel` alone. */
+/** Bits of the shared stop byte: a view yields to any answer the user waits for, other work only to `cancel`. */
 const STOP_VIEW = 1;
 const STOP_LONG = 2;
 
@@ -39,12 +39,12 @@ export class EngineClient implements Asked {
     this.host = wrap<EngineHost>(this.worker);
   }
 
-  /** Ends the worker, and with it the threads that compute for it; nothing can be asked afterwards. */
+  /** Ends the worker and its compute threads; no question works afterwards. */
   end(): void {
     this.worker.terminate();
   }
 
-  /** The answer to a question of the table; those that the user waits for come before the view under way. */
+  /** Answers a question of the table; answers the user waits for come before the current view. */
   ask<N extends Question>(name: N, message: Message<N>, { told, ...files }: Beside = {}): Promise<Answer<N>> {
     const answer = this.host.ask(name, message, files, told ? proxy(told) : null) as Promise<Answer<N>>;
     return TURNS[name].when === 'first' ? this.first(answer) : heard(answer);
@@ -56,7 +56,7 @@ export class EngineClient implements Asked {
     return started;
   }
 
-  /** Stops the view under way, where the memory is shared; elsewhere it goes on to its end. */
+  /** Stops the current view; without shared memory it runs to completion. */
   stop(): void {
     this.say(STOP_VIEW);
   }
@@ -71,7 +71,7 @@ export class EngineClient implements Asked {
     return heard(this.host.changeDevice(device));
   }
 
-  /** Ends once the GPU that computes now is lost. */
+  /** Resolves when the current GPU is lost. */
   loss(): Promise<void> {
     return heard(this.host.loss());
   }
@@ -96,12 +96,12 @@ export class EngineClient implements Asked {
     return this.first(this.host.openFiles(files, wish, proxy(told)));
   }
 
-  /** What of a DICOM file stands before its pixels. */
+  /** The part of a DICOM file before its pixels. */
   dicomHead(file: GivenFile): Promise<Uint8Array<ArrayBuffer>> {
     return this.first(this.host.dicomHead(file));
   }
 
-  /** Stops loading, tracing and measuring; the last two, once under way, only where the memory is shared. */
+  /** Stops loading, tracing and measuring; running tracing and measuring stop only with shared memory. */
   cancel(): Promise<void> {
     this.say(STOP_LONG);
     return heard(this.host.cancel());
@@ -112,7 +112,6 @@ export class EngineClient implements Asked {
     return this.precedence.view(isRefining, heard(this.host.render(view)));
   }
 
-  /** An answer that the user waits for. */
   private first<T>(answer: Promise<T>): Promise<T> {
     return this.precedence.first(heard(answer));
   }

@@ -1,6 +1,6 @@
-/** What mends a failure: the names that every host knows, and the words of the page for each. */
+/** The mends of failures: names shared by all hosts, and their wording in the page. */
 
-/** All names: those of the crates, in their order. */
+/** In the order of the crates. */
 export const MEND_NAMES = [
   'bridge',
   'every_second',
@@ -26,13 +26,13 @@ export type MendName = (typeof MEND_NAMES)[number];
 
 export interface Mend {
   readonly name: MendName;
-  /** What can be chosen among, such as units or phases. */
+  /** Choices such as units or phases. */
   readonly values: readonly string[];
 }
 
 export const EVERY_SECOND: Mend = { name: 'every_second', values: [] };
 
-/** A space and a unit in the words of the page, such as `LPS in cm` for `lps in cm`. */
+/** `LPS in cm` for `lps in cm`. */
 export const readingWords = (reading: string): string =>
   reading.replace(/^\w+/, (space) => space.toUpperCase());
 
@@ -60,5 +60,4 @@ const WORDS: Record<MendName, (mend: Mend) => string> = {
   resample_and_fill: () => 'put the slices on a regular grid, and interpolate the missing ones',
 };
 
-/** A mend in the words of the page. */
 export const mendWords = (mend: Mend): string => WORDS[mend.name](mend);

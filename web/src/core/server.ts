@@ -1,10 +1,10 @@
-/** The program that serves the page, as far as it makes something of what the page sends; a server of files makes nothing. */
+/** Requests to the Python server of the page; a plain file server offers none. */
 import { Failure } from './failure';
 
-/** What it makes: objects of DICOM, what a chosen DICOM file says of its study, and the mask of a segmentation. */
+/** DICOM objects, the study of a chosen DICOM file, or the mask of a segmentation. */
 export type Made = 'objects' | 'study' | 'mask';
 
-/** Where it makes this; refuses for `subject` where nothing does. */
+/** Address of a service. Throws if the page has no such server. */
 export function placeOf(made: Made, subject: string): string {
   const address = document.querySelector<HTMLMetaElement>(`meta[name="lumencut-${made}"]`)?.content;
   if (address) {
@@ -20,7 +20,7 @@ export function placeOf(made: Made, subject: string): string {
   );
 }
 
-/** What it makes of content; its refusals are failures. */
+/** Posts content to a service; errors are `Failure`s. */
 export async function made(what: Made, subject: string, content: object): Promise<Response> {
   const response = await fetch(placeOf(what, subject), {
     method: 'POST',
@@ -40,7 +40,7 @@ export async function made(what: Made, subject: string, content: object): Promis
     : failure;
 }
 
-/** Bytes as a text that JSON can hold. */
+/** Base64, for JSON. */
 export function inBase64(bytes: Blob): Promise<string> {
   return new Promise((resolve) => {
     const reader = new FileReader();

@@ -1,4 +1,4 @@
-/** The guided tour over the views: what to do next. It can be left at any time. */
+/** The guided tour over the views. */
 import { guideStep, leaveGuide, nextStep, STEPS, wordsOf } from './steps';
 
 export function Guide() {

@@ -1,4 +1,4 @@
-/** The guided tour: a phantom, and one step after the other, each done once the user did it. */
+/** Steps of the guided tour with a phantom; each ends when the user has done it. */
 import { effect, signal } from '@preact/signals';
 import { engine } from '../client/shared';
 import type { Vector } from '../core/messages';
@@ -12,23 +12,23 @@ import { openPhantom } from '../study/study';
 
 export interface GuideStep {
   readonly title: string;
-  /** What to do, one sentence each. */
+  /** One sentence each. */
   readonly words: readonly string[] | (() => readonly string[]);
   readonly isDone: () => boolean;
 }
 
-/** The least turn that counts as one (cosine of 20°). */
+/** Smallest turn that counts (cosine of 20°). */
 const TURNED = Math.cos(Math.PI / 9);
 
-/** The step that is under way, counted from 0; null where there is no guided tour. */
+/** Current step, counted from 0; null without a tour. */
 export const guideStep = signal<number | null>(null);
 
-/** Where the camera looked as the step began. */
+/** Viewing direction at the start of the step. */
 let directionAtFirst: Vector | null = null;
 
 const isTraced = (): boolean => document_.value.vessels.some((vessel) => (vessel.clicks?.length ?? 0) >= 2);
 
-/** One thing after the other: the slices are shown only once the tool is in use. */
+/** The slices appear only once the tool is active. */
 function tracingWords(): readonly string[] {
   if (!isTracing()) {
     return ['Press “Trace” or the key t.', 'Three slice views open.'];
@@ -41,7 +41,6 @@ function tracingWords(): readonly string[] {
       ];
 }
 
-/** What to do in a step now. */
 export const wordsOf = ({ words }: GuideStep): readonly string[] =>
   typeof words === 'function' ? words() : words;
 
@@ -89,7 +88,7 @@ export const STEPS: readonly GuideStep[] = [
   },
 ];
 
-/** Opens the phantom without its centerlines, and begins. */
+/** Opens the phantom without its centerlines. */
 export async function startGuide(): Promise<void> {
   await openPhantom(engine, 'stenosis');
   if (store.report.value) {
@@ -102,7 +101,7 @@ export function leaveGuide(): void {
   guideStep.value = null;
 }
 
-/** Goes on to the next step, or ends after the last one. */
+/** Continues with the next step, or ends after the last. */
 export function nextStep(): void {
   const step = guideStep.peek();
   if (step !== null) {
@@ -110,7 +109,7 @@ export function nextStep(): void {
   }
 }
 
-/** Goes on by itself whenever the user has done what a step asks for; the try ends with its study. */
+/** Continues when the user has completed a step; the tour ends with its study. */
 export function followGuide(): void {
   effect(() => {
     const step = guideStep.value;
@@ -122,7 +121,7 @@ export function followGuide(): void {
       if (store.report.value === null) {
         leaveGuide();
       } else if (guideStep.peek() === step && STEPS[step]?.isDone()) {
-        // Where several things change at once this is asked again before the next step takes its place.
+        // May run again before the next step starts if several signals change at once.
         nextStep();
       }
     });

@@ -1,6 +1,6 @@
-/** The one table of what mouse, touch and keys do. The views ask it, and the help is made from it. */
+/** Table of all mouse, touch and key bindings; the help is generated from it. */
 
-/** A view, all of the page, any view while a tool is in use that sets points, or a marker that has the focus. */
+/** A view, the whole page, any view while tracing, or a focused marker. */
 export type Where = 'turning' | 'flat' | 'everywhere' | 'tracing' | 'marks';
 export type Gesture =
   | 'drag'
@@ -13,7 +13,7 @@ export type Gesture =
   | 'key';
 export type Button = 'left' | 'middle' | 'right';
 export type Modifier = '' | 'Shift' | 'Ctrl' | 'Alt';
-/** Edits of vessels, which `edit/performing.ts` does. */
+/** Edits, carried out by `edit/performing.ts`. */
 export type EditAction =
   | 'trace'
   | 'branches'
@@ -67,10 +67,10 @@ export interface Binding {
   readonly gesture: Gesture;
   readonly button?: Button;
   readonly modifier?: Modifier;
-  /** Of a key: what `KeyboardEvent.key` says. */
+  /** `KeyboardEvent.key`. */
   readonly key?: string;
   readonly action: Action;
-  /** What it does, in the help. */
+  /** Text in the help. */
   readonly words: string;
 }
 
@@ -108,7 +108,7 @@ const withCtrl = (name: string, action: Action, words: string): Binding => ({
   modifier: 'Ctrl',
 });
 
-/** Keys of the view that has the focus, which it hears itself. */
+/** Keys that the focused view handles itself. */
 const pane = (where: Where, name: string, words: string): Binding => ({
   where,
   gesture: 'key',
@@ -214,7 +214,7 @@ export const BINDINGS: readonly Binding[] = [
   key('?', 'help', 'show these keys'),
 ];
 
-/** What a drag, wheel or click does in a view; nothing where the table has no row for it. */
+/** Action of a drag, wheel or click in a view; null if unbound. */
 export function actionOf(
   where: Where,
   gesture: Gesture,
@@ -229,14 +229,14 @@ export function actionOf(
   return BINDINGS.find(fits)?.action ?? null;
 }
 
-/** What a key does; a capital without a row of its own does what the small letter does. */
+/** Action of a key; an unbound capital acts as its small letter. */
 export function actionOfKey(name: string, modifier: Modifier = ''): Action | null {
   const rowOf = (key: string) =>
     BINDINGS.find((row) => row.gesture === 'key' && row.key === key && (row.modifier ?? '') === modifier);
   return (rowOf(name) ?? rowOf(name.toLowerCase()))?.action ?? null;
 }
 
-/** How a row's input is called in the help. */
+/** Name of the input in the help. */
 export function inputName(row: Binding): string {
   const name = row.gesture === 'key' ? keyName(row.key ?? '') : buttonName(row);
   return row.modifier ? `${row.modifier}+${name}` : name;

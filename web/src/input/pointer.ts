@@ -1,21 +1,21 @@
-/** Gestures of mouse, pen and touch on an element. A press becomes a drag only beyond 4 pixels; else it is a click. */
+/** Gestures of mouse, pen and touch. A press becomes a drag after 4 pixels; otherwise it is a click. */
 import { type Action, actionOf, type Button, type Modifier, type Where } from './bindings';
 import { alongWheel, Steps } from './wheel';
 
-/** How far a pointer moves before a press is a drag (CSS pixels). */
+/** Movement that turns a press into a drag (CSS pixels). */
 const DRAG_FROM = 4;
-/** Zoom per pixel of the wheel: a trackpad sends many small steps. */
+/** Zoom per wheel pixel; trackpads send many small steps. */
 const ZOOM_PER_WHEEL = 0.0016;
 const MOST_WHEEL = 120;
-/** The pixels that a line of the wheel stands for, in browsers that count lines. */
+/** Pixels per wheel line, in browsers that report lines. */
 const LINE = 40;
-/** With Shift the wheel goes so many slices at once. */
+/** Slices per step with Shift. */
 const MANY = 10;
-/** Within which time a second click makes a double click (ms), and how near (pixels). */
+/** Maximum time (ms) and distance (pixels) of a double click. */
 export const DOUBLE_WITHIN = 350;
 export const DOUBLE_NEAR = 6;
 
-/** What a view does with gestures; places are CSS pixels within the element, from its top left. */
+/** Handlers of a view; positions are CSS pixels from its top left. */
 export interface Handlers {
   drag(action: Action, by: readonly [number, number], at: readonly [number, number]): void;
   zoom(factor: number, at: readonly [number, number]): void;
@@ -24,19 +24,19 @@ export interface Handlers {
   hover(at: readonly [number, number], shift: boolean): void;
   begin(): void;
   end(): void;
-  /** Further rows of the table that hold now, before those of the view. */
+  /** Bindings that take precedence over those of the view. */
   rows?(): Where | null;
-  /** Steps through what lies one behind the other under the pointer. */
+  /** Steps through the objects behind each other under the pointer. */
   step?(by: number): void;
-  /** The pointer is over the view no longer, or what is under it has changed. */
+  /** The pointer left the view, or the content under it changed. */
   leave?(): void;
-  /** Escape while a drag is under way: all is as it was when it began. */
+  /** Escape during a drag: restores the state at its start. */
   putBack(): void;
 }
 
 type Place = [number, number];
 
-/** Listens on an element until the function that it gives is called. */
+/** Returns the function that stops listening. */
 export function listen(element: HTMLElement, where: Where, handlers: Handlers): () => void {
   const gestures = new Pointers(element, where, handlers);
   const stop = new AbortController();
@@ -83,7 +83,7 @@ class Pointers {
   }
 
   down(event: PointerEvent): void {
-    // What lies over the view and can be pressed hears it itself.
+    // Controls over the view handle their own presses.
     if ((event.target as Partial<Element> | null)?.closest?.('button, input, select')) {
       return;
     }
@@ -94,7 +94,7 @@ class Pointers {
       event.preventDefault();
     }
     if (this.held.size > 1) {
-      // The distance of two fingers counts; a third one only rests there.
+      // A third finger is ignored.
       this.beginTwo();
       return;
     }
@@ -229,7 +229,7 @@ class Pointers {
 
   wheel(event: WheelEvent): void {
     event.preventDefault();
-    // A pinch on a trackpad comes as a wheel with Ctrl.
+    // Browsers report a trackpad pinch as a wheel with Ctrl.
     const rows = this.handlers.rows?.() ?? null;
     const modifier = modifierOf(event);
     const action =

@@ -1,4 +1,4 @@
-/** What a file is: by its content, by its name only where the content does not tell. */
+/** Identifies files by content, or by name if the content is ambiguous. */
 import { isDicom } from './dicom/recognising';
 import { firstBytes } from './inflating';
 import { niftiKind } from './nifti-header';
@@ -6,11 +6,11 @@ import { fileName, type Source } from './source';
 
 export type Kind = 'nifti' | 'nrrd' | 'metaimage' | 'dicom' | 'zip' | 'centerlines' | 'empty' | 'other';
 
-/** A file with what it is, and what would make it readable where it is not. */
+/** A file, its kind, and advice if it is not readable. */
 export interface Known {
   readonly source: Source;
   readonly kind: Kind;
-  /** In words, such as `a NIfTI volume`. */
+  /** Such as `a NIfTI volume`. */
   readonly words: string;
   readonly mend: string;
 }
@@ -27,7 +27,6 @@ const WORDS: Readonly<Record<string, string>> = {
   empty: 'an empty file',
 };
 
-/** Looks at the first bytes of a file. */
 export async function known(source: Source): Promise<Known> {
   if (source.size === 0) {
     return { source, kind: 'empty', words: WORDS.empty ?? '', mend: '' };

@@ -1,10 +1,10 @@
-/** Long work in steps: between them the worker hears a stop, and the page how far the work is. */
+/** Splits long work into steps, so that the worker can receive a stop and report progress. */
 import { Failure } from '../core/failure';
 import type { Progress } from '../core/messages';
 
 export type Told = (progress: Progress) => void;
 
-/** How long the worker computes before it listens (ms). */
+/** Longest computation without checking for messages (ms). */
 const LISTENING = 30;
 
 export class Steps {
@@ -15,7 +15,7 @@ export class Steps {
     readonly signal: AbortSignal,
   ) {}
 
-  /** Tells how far the work is, where that was some time ago, and throws where it is to stop. */
+  /** Reports progress at intervals; throws after a stop. */
   async step(words: string, done: number, total: number | null): Promise<void> {
     if (performance.now() - this.heard >= LISTENING) {
       this.told({ words, done, total });

@@ -1,4 +1,4 @@
-/** What was dropped, chosen or fetched becomes the study: one volume, its centerlines, or both. */
+/** Opens dropped, chosen or fetched files as one volume, its centerlines, or both. */
 
 import type { Judge } from '../core/judge';
 import type { States } from '../core/messages';
@@ -13,15 +13,14 @@ import type { Steps } from './steps';
 import { load, type Sink } from './volume-file';
 import { formatFailure } from './words';
 
-/** What takes a study: the engine, or a test. */
+/** Receives a study: the engine, or a test double. */
 export interface Study extends Sink {
-  /** Gives notes. */
+  /** Returns notes. */
   openCenterlines(bytes: Uint8Array, name: string): readonly string[];
-  /** What must be known of the sides of a straightened volume, by a text of its file. */
+  /** Notes on the sides of a straightened volume, from a text in its file. */
   sideNotes?(text: string): readonly string[];
 }
 
-/** What files are opened with. */
 export interface Means {
   readonly study: Study;
   readonly loadJudge: () => Promise<Judge>;
@@ -29,26 +28,26 @@ export interface Means {
 }
 
 export interface Opened {
-  /** What is told of the volume, null where there was none. */
+  /** Null if there was none. */
   readonly volume: Volume | null;
   readonly notes: readonly string[];
 }
 
 interface Volume {
-  /** The study of DICOM that it belongs to; null where it is no DICOM. */
+  /** The DICOM study; null otherwise. */
   readonly study: ScanStudy | null;
   readonly name: string;
   readonly notes: readonly string[];
   readonly states: States;
 }
 
-/** DICOM states both, or is refused. */
+/** DICOM always states both. */
 const STATED: States = { spacing: true, orientation: true };
 const VOLUMES =
   'a DICOM folder, file or zip archive, NIfTI (.nii, .nii.gz, .hdr + .img), NRRD (.nrrd, .nhdr) or MetaImage (.mha, .mhd)';
 const LINES = 'centerlines (.vtp, .vtk, .mrk.json, .fcsv, .swc, .csv, .pth)';
 
-/** What the files are, one by one. */
+/** Files by kind. */
 interface Sorted {
   readonly volumes: readonly Known[];
   readonly dicom: readonly Source[];
@@ -57,7 +56,7 @@ interface Sorted {
   readonly others: readonly Known[];
 }
 
-/** Opens files: a volume in the place of all that is open, centerlines beside it. */
+/** Opens files: a volume replaces everything, centerlines are added. */
 export async function openFiles(
   sources: readonly Source[],
   beside: Beside,
@@ -72,7 +71,7 @@ export async function openFiles(
   return { volume, notes: [...(volume?.notes ?? []), ...notes] };
 }
 
-/** Opens centerlines beside the volume; gives notes. */
+/** Adds centerlines. Returns notes. */
 export async function openLines(source: Source, { study, steps }: Means): Promise<readonly string[]> {
   const found = await known(source);
   if (['nifti', 'nrrd', 'metaimage', 'dicom', 'zip'].includes(found.kind)) {
@@ -102,7 +101,7 @@ async function sort(sources: readonly Source[], steps: Steps): Promise<Sorted> {
   };
 }
 
-/** Whether a file is the second one of a pair, whatever its voxels look like. */
+/** Whether a file holds the voxels of a header among the files. */
 function isVoxelsOf({ source }: Known, every: readonly Known[]): boolean {
   const stem = /^(.*)\.img(\.gz)?$/i.exec(source.path)?.[1];
   return (
@@ -111,7 +110,7 @@ function isVoxelsOf({ source }: Known, every: readonly Known[]): boolean {
   );
 }
 
-/** Refuses what would leave open which file is meant. */
+/** Rejects ambiguous selections. */
 function requireOne({ volumes, dicom, archives, lines, others }: Sorted): void {
   const every = [...volumes.map((one) => one.source), ...archives, ...dicom.slice(0, 1)];
   const [first, second] = every;
@@ -179,7 +178,7 @@ async function openFile({ source, kind }: Known, { beside, study, steps }: Asked
 
 const sideNotes = (study: Study, text = ''): readonly string[] => (text && study.sideNotes?.(text)) || [];
 
-/** The folder in which all files are; the name of a single one. */
+/** Common folder of the files; the name of a single file. */
 function commonName(sources: readonly Source[]): string {
   const [first] = sources;
   if (!first || sources.length === 1) {

@@ -1,4 +1,4 @@
-/** What stands in the place of a profile that is not there yet, or that cannot be. */
+/** Placeholder for a profile that is missing or cannot be measured. */
 import type { Pair } from '../core/messages';
 import { beingMeasured, measureAgain, stopped } from '../state/profiles';
 import * as store from '../state/store';

@@ -1,4 +1,4 @@
-/** The bar over the vessels while the view is turned about a place: the angle, and the diameters that were cut. */
+/** Bar shown while the view turns about a place: the angle, and the diameters in the cut. */
 import { useEffect, useRef } from 'preact/hooks';
 import { focusSoon } from '../input/focus';
 import { diameterAfter, endPlaceTurn, type PlaceTurn, placeTurn, turnTo } from '../state/place-turn';
@@ -12,7 +12,7 @@ export function PlaceTurnBar() {
     if (isOn) {
       focusSoon('[data-testid="place-turn"] input');
     } else if (wasOn.current && document.activeElement === document.body) {
-      // The bar had the focus and is gone: keys that follow are meant for the view.
+      // The focused bar is gone; keys go to the view.
       focusSoon('[data-testid="turning"]');
     }
     wasOn.current = isOn;
@@ -49,5 +49,4 @@ function Bar({ turn }: { readonly turn: PlaceTurn }) {
   );
 }
 
-/** A diameter as the moving pictures of the command line tell it. */
 const told = (diameter: number | null): string => (diameter === null ? 'wall not visible' : mm(diameter, 1));

@@ -1,4 +1,4 @@
-/** The marked and suggested places of a vessel with their numbers, and the widest place. */
+/** Table of marked and suggested places, with the longest diameter. */
 import { engine } from '../client/shared';
 import type { Profile } from '../core/messages';
 import { cut } from '../edit/vessels';
@@ -14,7 +14,7 @@ import { COLORS } from './PlaceHandles';
 import { sectionNumbers } from './sections';
 import { area, doubtWords, mm, NOTHING, placeName, spread, told } from './words';
 
-/** Places with a diameter of their own; stretches have a part of their own. */
+/** Kinds with a diameter; stretches are listed in their own part. */
 const LISTED: readonly Kind[] = ['place', 'reference', 'diameter'];
 
 export function PlacesTable({ profile }: { readonly profile: Profile }) {
@@ -46,7 +46,7 @@ export function PlacesTable({ profile }: { readonly profile: Profile }) {
   );
 }
 
-/** The stretches of the vessel that were not measured, with what makes the rest of it a vessel of its own. */
+/** Unmeasured parts of the vessel, with a button that cuts off the rest. */
 function NotMeasured({ profile }: { readonly profile: Profile }) {
   const id = document_.value.vessels.find(({ line }) => line === currentVessel.value?.line)?.id;
   return (
@@ -65,12 +65,10 @@ function NotMeasured({ profile }: { readonly profile: Profile }) {
   );
 }
 
-/** Why no place is suggested. */
 function NotSuggested({ reasons }: { readonly reasons: readonly string[] }) {
   return reasons.length > 0 ? <p data-testid="not-suggested">{reasons.map(told).join(' ')}</p> : null;
 }
 
-/** Turns the view about the place of the section. */
 function TurnButton() {
   const turn = placeTurn.value;
   return (

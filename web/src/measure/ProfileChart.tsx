@@ -1,4 +1,4 @@
-/** The diameter of a vessel by its arc length, drawn in the page. */
+/** Chart of the diameter by arc length. */
 import type { Profile } from '../core/messages';
 import type { ChartLayout } from './chart-layout';
 import { bandPath, counted, DEVIATIONS, linePath, lonely, spreadOf } from './curves';
@@ -6,7 +6,6 @@ import { flagsIn, runs } from './flags';
 import type { Kind } from './marks';
 import { pixelAt, ticks } from './scale';
 
-/** The colours of curves and words on the dark ground of the page. */
 const COLORS = {
   line: '#7db0ff',
   leftOut: '#9aa3ad',
@@ -15,7 +14,6 @@ const COLORS = {
   grid: '#ffffff1c',
 } as const;
 
-/** A place as it is drawn in the chart. */
 export interface ChartMark {
   readonly kind: Kind;
   readonly at: number;
@@ -26,7 +24,7 @@ export interface ChartMark {
 interface ProfileChartProps {
   readonly profile: Profile;
   readonly layout: ChartLayout;
-  /** Whether lengths are known in mm. */
+  /** Whether the voxel spacing is known. */
   readonly hasUnits: boolean;
 }
 
@@ -135,7 +133,7 @@ function Curves({ profile, layout, hasUnits }: ProfileChartProps) {
   );
 }
 
-/** A row for each flag that is set somewhere, under the line where the diameter is 0. */
+/** One row per flag that occurs, below the line of diameter 0. */
 function Flags({ profile, layout }: ProfileChartProps) {
   const { x, y, row, wordRow, bottom } = layout;
   const flags = flagsIn(profile);

@@ -1,4 +1,4 @@
-/** The picked vessel lying, and under it, along the same axis, its diameter; with the places that are marked on it. */
+/** The picked vessel, horizontal, above its diameter chart with the same axis and the marked places. */
 import { useMemo, useRef, useState } from 'preact/hooks';
 import type { Pair, Profile } from '../core/messages';
 import { usePaneSize } from '../pane/pane-size';
@@ -17,9 +17,9 @@ import { SectionTools, TOOLS } from './SectionTools';
 import { type Axis, pixelAt, valueAt } from './scale';
 import { fittingSide, sectionNumbers, UNKNOWN_SIDE } from './sections';
 
-/** The part of the height that the vessel takes at most. */
+/** Largest share of the height for the vessel. */
 const PART = 0.4;
-/** Where the grips on the vessel lie, below its upper edge: beside the lumen, which stays free. */
+/** Distance of the handles from the edge, clear of the lumen. */
 const GRIP = 9;
 
 export function ProfilePane() {
@@ -108,17 +108,17 @@ function Chart({ profile, size, x, lying }: ChartProps) {
 
 const isStretch = (kind: string): boolean => kind === 'stretch' || kind === 'secondStretch';
 
-/** Places have their grips at the upper edge of the vessel, stretches at the lower one. */
+/** Places have handles at the upper edge, stretches at the lower. */
 const gripOf = (kind: string, height: number): number => (isStretch(kind) ? height - GRIP : GRIP);
 
 interface PlaceLinesProps {
   readonly x: Axis;
-  /** Where the vessel ends and its profile begins, and where that ends (CSS pixels). */
+  /** Borders of the chart (CSS pixels). */
   readonly top: number;
   readonly bottom: number;
 }
 
-/** Lines across vessel and profile: one for each place, and one for the section. */
+/** Vertical lines through vessel and chart: one per place, and one for the section. */
 function PlaceLines({ x, top, bottom }: PlaceLinesProps) {
   const section = pixelAt(x, store.pickedPlace.value);
   const places = currentPlaces.value;

@@ -1,10 +1,10 @@
-/** The places of a vessel that is measured, as lines with grips across the straightened vessel that stands. */
+/** Place lines with handles over the vertical straightened vessel. */
 import type { Pair } from '../core/messages';
 import { currentPlaces, currentVessel } from './current';
 import { COLORS, PlaceHandles } from './PlaceHandles';
 import { pixelAt, valueAt } from './scale';
 
-/** How far the grips are from the right edge (CSS pixels). */
+/** Distance of the handles from the right edge (CSS pixels). */
 const GRIP = 16;
 
 export function UprightPlaces({ size, spacing }: { readonly size: Pair; readonly spacing: number }) {

@@ -1,4 +1,4 @@
-/** The key image of a finding: the straightened vessel with its marked places, and beneath it the section at each of them. */
+/** Key image of a finding: straightened vessel with marks, above the sections at the marks. */
 import { engine } from '../client/shared';
 import { Failure } from '../core/failure';
 import type { Pair, Profile, ReportPlace } from '../core/messages';
@@ -10,14 +10,13 @@ import { profileOfLine } from '../state/profiles';
 import { canvasOf, SIDE, sectionPair, straightenedCanvas } from './report-pictures';
 import { fittingSize } from './wrapping';
 
-/** So many sections stand side by side (pixels: three times their side). */
+/** Sections per row. */
 const COLUMNS = 3;
 const WIDTH = COLUMNS * SIDE;
-/** The straightened vessel is no higher than this, and a line of words this high (pixels). */
+/** Greatest height of the vessel, and line height of text (pixels). */
 const HIGHEST = 260;
 const LINE = 36;
 
-/** Draws the key image of a finding. */
 export async function keyImage(finding: Finding): Promise<HTMLCanvasElement> {
   const profile = await profileOfLine(engine, finding.line);
   const plan = await engine.ask('report_plan', markedVessel(finding));
@@ -44,7 +43,6 @@ export async function keyImage(finding: Finding): Promise<HTMLCanvasElement> {
   return canvas;
 }
 
-/** The same as a PNG. */
 export async function keyPicture(finding: Finding): Promise<Blob> {
   const canvas = await keyImage(finding);
   const blob = await new Promise<Blob | null>((resolve) => canvas.toBlob(resolve, 'image/png'));
@@ -59,7 +57,7 @@ function diameterAt(profile: Profile, at: number): string {
   return spread(profile.diameter[number] ?? null, profile.uncertainty[number] ?? null);
 }
 
-/** A line of words, drawn narrower where it would be wider than it may be (pixels): beside it stands another one. */
+/** A line of text, narrowed to fit (pixels). */
 function words(
   context: CanvasRenderingContext2D,
   text: string,
@@ -76,7 +74,7 @@ function words(
   context.fillText(text, x, y, widest);
 }
 
-/** Where a place lies along the straightened vessel: at both edges, so that the lumen stays free. */
+/** Ticks at both edges, clear of the lumen. */
 function line(
   context: CanvasRenderingContext2D,
   { place, x, height }: { readonly place: ReportPlace; readonly x: number; readonly height: number },

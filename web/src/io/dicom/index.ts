@@ -1,4 +1,4 @@
-/** DICOM: one series of grey images, of a folder, a zip archive or single files, becomes one volume. */
+/** DICOM: one greyscale series from a folder, a zip archive or single files becomes one volume. */
 
 import type { Judge } from '../../core/judge';
 import type { ReadScan } from '../../core/scan-study';
@@ -16,20 +16,19 @@ import type { Wanted } from './wanted';
 
 export { headOf } from './study';
 
-/** What the files are: named together, and what of them is wanted. */
+/** Files with a common name, and what to read from them. */
 export interface Series {
   readonly subject: string;
   readonly sources: readonly Source[];
   readonly wanted: Wanted;
 }
 
-/** What is told of a series beside its voxels: what was odd, and its study. */
+/** Notes and study of a series. */
 export interface ReadSeries {
   readonly notes: readonly string[];
   readonly study: ReadScan | null;
 }
 
-/** Reads a series into the engine. */
 export async function openDicom(series: Series, judge: Judge, sink: Sink, steps: Steps): Promise<ReadSeries> {
   const files = await lookIntoAll(series.sources, judge, steps);
   const plan = await planned(series, judge, files);
@@ -37,7 +36,7 @@ export async function openDicom(series: Series, judge: Judge, sink: Sink, steps:
   return { notes: plan.notes, study: await studyOf(plan, files) };
 }
 
-/** The plan of the volume; where a series is to be chosen first, the refusal shows a picture of each. */
+/** The plan of the volume; a failure that asks for a series includes thumbnails. */
 async function planned(series: Series, judge: Judge, files: readonly LookedInto[]): Promise<Plan> {
   try {
     const question = { ...series, files };
