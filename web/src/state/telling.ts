@@ -1,15 +1,14 @@
-/** Short messages that go by themselves. */
+/** Temporary messages. */
 import { signal } from '@preact/signals';
 import { Failure } from '../core/failure';
 import { problem, report } from './store';
 
-/** How long one stays (ms). */
+/** Display time (ms). */
 const STAYS = 8000;
 
 export const told = signal<string | null>(null);
 let timer = 0;
 
-/** Tells something for some seconds. */
 export function tell(words: string): void {
   window.clearTimeout(timer);
   told.value = words;
@@ -18,7 +17,7 @@ export function tell(words: string): void {
   }, STAYS);
 }
 
-/** Shows why something was not done; nothing where it was interrupted, or asked of a study that is closed meanwhile. */
+/** Reports a failure, except interruptions and errors of a study closed meanwhile. */
 export function tellFailure(error: unknown): void {
   const failure = Failure.of(error);
   if (failure.kind !== 'interrupted' && report.value) {

@@ -1,4 +1,4 @@
-/** Turns the view to where most of the picked vessel is seen. */
+/** Button that shows most of the picked vessel. */
 import { engine } from '../client/shared';
 import { showBestView } from '../state/actions';
 

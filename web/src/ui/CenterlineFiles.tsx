@@ -1,4 +1,4 @@
-/** Vessels as files, and files as vessels. */
+/** Buttons to save and open centerlines. */
 
 import type { CenterlineKind } from '../core/messages';
 import { attempt } from '../output/attempt';

@@ -1,14 +1,14 @@
-/** A line between panes that is dragged, or moved by arrow keys. */
+/** Divider between panes, moved by dragging or arrow keys. */
 import type { Signal } from '@preact/signals';
 
-/** The least part of the layout that a side keeps. */
+/** Smallest share of the layout per side. */
 const LEAST = 0.12;
 
 interface DividerProps {
   readonly words: string;
-  /** `column` between panes side by side, `row` between panes above each other. */
+  /** `column` separates panes side by side, `row` stacked ones. */
   readonly between: 'column' | 'row';
-  /** Where it is, as a part of the layout. */
+  /** Position as a share of the layout. */
   readonly place: Signal<number>;
 }
 

@@ -1,4 +1,4 @@
-/** The doubtful branches of the list: how many for which reason, and each with its own, to be accepted or left out. */
+/** List of doubtful branches with their reasons, to accept or leave out. */
 import { engine } from '../client/shared';
 import type { DocumentVessel } from '../core/messages';
 import { accept, leaveOut } from '../edit/branches';
@@ -37,7 +37,7 @@ export function DoubtfulPart({ vessels }: { readonly vessels: readonly DocumentV
   );
 }
 
-/** A doubtful branch: the pointer over it lights it in the views, and a click turns the view to it. */
+/** Hovering highlights the branch, a click shows it. */
 function DoubtfulRow({ vessel }: { readonly vessel: DocumentVessel }) {
   const name = nameOf(vessel);
   return (
@@ -68,5 +68,5 @@ function DoubtfulRow({ vessel }: { readonly vessel: DocumentVessel }) {
   );
 }
 
-/** The length without its unit, which the title says: the reason needs the room. */
+/** Without the unit, which the tooltip states, to leave room for the reason. */
 const lengthText = (vessel: DocumentVessel): string => lengthOf(vessel.line).toFixed(1);

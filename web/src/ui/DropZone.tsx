@@ -1,4 +1,4 @@
-/** All of the page takes files that are dropped on it, and shows so while they are over it. */
+/** Accepts files dropped anywhere on the page. */
 import { useSignal, useSignalEffect } from '@preact/signals';
 import { engine } from '../client/shared';
 import { dropped } from '../input/dropped';

@@ -1,4 +1,4 @@
-/** The report as it will be: what was found on all vessels, each with its sentences and its key image, to copy and to save. */
+/** Preview of the report: sentences and key image of each finding, to copy and save. */
 import { useEffect, useState } from 'preact/hooks';
 import { engine } from '../client/shared';
 import type { Sentence } from '../core/messages';
@@ -47,7 +47,7 @@ export function FindingsPanel() {
   );
 }
 
-/** What leads to a first finding. */
+/** Shown without findings. */
 function Nothing() {
   return (
     <>
@@ -125,7 +125,7 @@ function Words({ sentence: { kind, words } }: { readonly sentence: Sentence }) {
   return <p class={CLASSES[kind]}>{words}</p>;
 }
 
-/** A vessel whose numbers are not known yet, or that cannot be measured. */
+/** A vessel not measured yet, or that cannot be measured. */
 function Pending({ line }: { readonly line: number }) {
   const known = profiles.value.get(line);
   if (known && 'failure' in known) {
@@ -136,7 +136,7 @@ function Pending({ line }: { readonly line: number }) {
   return <p>{stopped.value === line ? 'Not measured: stopped.' : 'Measuring…'}</p>;
 }
 
-/** The key image as it is copied; drawn anew where marks, window or numbers change. */
+/** The key image, redrawn when marks, window or numbers change. */
 function KeyImage({ finding, name }: { readonly finding: Finding; readonly name: string }) {
   const [address, setAddress] = useState<string | null>(null);
   const window = store.window_.value;
@@ -155,7 +155,7 @@ function KeyImage({ finding, name }: { readonly finding: Finding; readonly name:
   return address && <img src={address} alt={`Straightened vessel and sections of ${name}`} />;
 }
 
-/** Shows where a finding is: the section stands at its place, and the view shows most of its vessel. */
+/** Moves the section to the finding, and shows most of its vessel. */
 function show({ vessel, marks, length }: Finding): void {
   store.pickedVessel.value = vessel;
   moveTo(marks.at ?? marks.references[0] ?? marks.stretch?.[0] ?? length / 2);

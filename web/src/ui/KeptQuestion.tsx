@@ -1,4 +1,4 @@
-/** Asks whether to go on with the session that was kept when the page was loaded anew. */
+/** Asks whether to continue with a session kept over a reload. */
 import { Failure } from '../core/failure';
 import { openList } from '../edit/list-open';
 import { kept } from '../session/keeping';

@@ -1,4 +1,4 @@
-/** How vessels and body are shown: the looks, how far the cut reaches around the vessels, and the lines where it leaps. */
+/** Display controls: look, region preset, margin around vessels, and edge lines. */
 import type { LookRow } from '../core/messages';
 import { isTracing } from '../edit/mode';
 import { setSetting, settingOf } from '../state/actions';
@@ -18,7 +18,7 @@ import {
 } from '../state/looks';
 import { hasTree, hasVolume, started } from '../state/store';
 
-/** The widest margin that the slider offers (mm). */
+/** Largest margin of the slider (mm). */
 const WIDEST = 30;
 const LINES: readonly (readonly [Lines, string])[] = [
   ['none', 'No lines'],
@@ -27,7 +27,7 @@ const LINES: readonly (readonly [Lines, string])[] = [
 ];
 
 export function LooksBar() {
-  // While vessels are traced the view is a projection, whatever was chosen.
+  // While tracing, the view is always a projection.
   if (!hasVolume.value || isTracing()) {
     return null;
   }
@@ -47,7 +47,7 @@ export function LooksBar() {
   );
 }
 
-/** The cut through the vessels in the window for stents: the one look that also chooses a window. */
+/** The only look that also selects a window. */
 function StentButton() {
   return (
     <button
@@ -61,7 +61,7 @@ function StentButton() {
   );
 }
 
-/** A look, a window and a slab at once, by the region of the body that is read. */
+/** Selects look, window and slab by body region. */
 function RegionChoice() {
   const regions = started.value?.regions ?? [];
   return (
@@ -93,7 +93,7 @@ function LookButton({ look }: { readonly look: LookRow }) {
   );
 }
 
-/** How far around the vessels all of the cut is shown, where it fades into the body. */
+/** Margin around the vessels in which the cut is fully shown. */
 function Reach() {
   const focus = settingOf('focus');
   const [margin, fade] = Array.isArray(focus) ? focus.map(Number) : [-1, 0];

@@ -1,4 +1,4 @@
-/** What went wrong, and how far long work is. */
+/** Failures and progress. */
 
 import { engine } from '../client/shared';
 import { CRASH, type Failure } from '../core/failure';
@@ -42,7 +42,7 @@ function Loading() {
   );
 }
 
-/** What the reader is asked where branches take long; it goes on meanwhile. */
+/** Asks during a long search, which continues meanwhile. */
 function LongWork() {
   return (
     <>
@@ -92,7 +92,7 @@ function Problem() {
   );
 }
 
-/** What can be done where no lumen was found between two clicks. */
+/** Options if no lumen was found between two clicks. */
 function Bridging({ failure }: { readonly failure: Failure }) {
   const bridge = refusal.value?.failure === failure ? refusal.value.bridge : null;
   return bridge ? (
@@ -112,7 +112,7 @@ function Bridging({ failure }: { readonly failure: Failure }) {
   ) : null;
 }
 
-/** Where no vessel is sure the doubtful ones can be looked at. */
+/** Offered if all vessels found are doubtful. */
 function DoubtfulOnes() {
   return (
     <button type="button" onClick={() => void findAndList(engine, true)}>

@@ -1,4 +1,4 @@
-/** What was measured of the picked vessel, in numbers. */
+/** Numbers of the picked vessel. */
 import { moveTo } from '../link/along';
 import { currentProfile, currentVessel } from '../measure/current';
 import { PlacesTable } from '../measure/PlacesTable';
@@ -56,16 +56,16 @@ function VesselChoice() {
   );
 }
 
-/** Shows another vessel, half way along it. */
+/** Picks a vessel, at half its length. */
 function pick(vessel: number): void {
   store.pickedVessel.value = vessel;
   moveTo((store.report.value?.vessels?.[vessel]?.length ?? 0) / 2);
 }
 
-/** The point spread that was reckoned with, and a field to give it. */
+/** FWHM used for measuring, and a field to enter it. */
 function Blur({ fwhm, source }: { readonly fwhm: number; readonly source: string }) {
   const give = (field: HTMLInputElement) => {
-    // What the field does not allow, the browser says beside it.
+    // The browser explains invalid input.
     if (field.reportValidity()) {
       giveFwhm(field.value === '' ? null : Number(field.value));
     }

@@ -1,4 +1,4 @@
-/** Asks into which study the objects of "Save for PACS" are put. */
+/** Asks for the target study of "Save for PACS". */
 import { useRef } from 'preact/hooks';
 import { attempt } from '../output/attempt';
 import {
@@ -80,7 +80,7 @@ export function PacsQuestion() {
   );
 }
 
-/** Shows whose study a chosen file is of, and what speaks against it, before objects are put there. */
+/** Shows the study of a chosen file and any warnings. */
 function FileOfStudy({ chosen: { file, facts, doubts, refusal } }: { chosen: ChosenFile }) {
   const close = () => {
     chosenFile.value = null;

@@ -1,4 +1,4 @@
-/** What can be saved: the report and the session, pictures of the turning view, and what was measured. */
+/** The menu "Save". */
 import { currentProfile } from '../measure/current';
 import { listedFindings } from '../measure/findings';
 import { attempt } from '../output/attempt';
@@ -68,7 +68,6 @@ function Choice({ words, title, save }: ChoiceProps) {
   );
 }
 
-/** Whether the session is kept over a reload. */
 function Keeping() {
   return (
     <label title="Stores vessels, marks and views, but no pixels, on this computer until the tab is closed">
@@ -84,7 +83,7 @@ function Keeping() {
   );
 }
 
-/** The report of all findings, or of the vessel that is measured. */
+/** Report of all findings, or of the vessel being measured. */
 function Report() {
   return (
     <>

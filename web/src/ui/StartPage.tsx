@@ -1,4 +1,4 @@
-/** What the page shows while nothing is open: what to do, and a phantom to try it with. */
+/** Start page: instructions and phantoms. */
 import { engine } from '../client/shared';
 import { startGuide } from '../guide/steps';
 import { started } from '../state/store';

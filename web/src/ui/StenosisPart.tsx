@@ -1,4 +1,4 @@
-/** A stenosis that the reader marked: never a percentage without its method, its references and mm. */
+/** The marked stenosis: a percentage always with its method, references and mm. */
 import type { StenosisMethod, Territory } from '../core/messages';
 import { STENOSIS_METHODS } from '../core/method-names';
 import { answers, currentMarks, currentPlaces } from '../measure/current';
@@ -77,7 +77,6 @@ function set(words: string, some: Partial<VesselMarks>): void {
   changeMarks(words, (marks) => ({ ...marks, ...some }));
 }
 
-/** What was graded, or why it is not. */
 function Result({ marks }: { readonly marks: VesselMarks }) {
   const { stenosis } = answers.value;
   if (stenosis) {
@@ -91,7 +90,7 @@ function Result({ marks }: { readonly marks: VesselMarks }) {
   return <NotGraded marks={marks} />;
 }
 
-/** What makes the percentage doubtful, or that of the places that are offered. */
+/** Doubts about the percentage, or about the suggested places. */
 function Doubts() {
   const { doubts } = answers.value;
   return doubts.length > 0 ? (
@@ -104,7 +103,7 @@ function Doubts() {
 const NOTHING_MARKED =
   'Nothing is marked. Check the suggested places, drag them where they belong, or confirm them.';
 
-/** A reference alone is no mistake: what a percentage needs beside it is said quietly. */
+/** Not an error, so shown without emphasis. */
 const ONLY_REFERENCES = 'A reference is marked. "Narrowest here" adds a percentage.';
 
 function NoPercentage({ marks }: { readonly marks: VesselMarks }) {
@@ -137,7 +136,7 @@ interface LengthProps {
   onGive(value: number | null): void;
 }
 
-/** A diameter that the reader gives (mm). */
+/** A diameter entered by the user (mm). */
 function Length({ name, title, value, onGive }: LengthProps) {
   return (
     <label title={title}>

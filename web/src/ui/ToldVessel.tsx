@@ -1,4 +1,4 @@
-/** What is told of the vessel that was traced last: its length, what it joins, and where it is doubtful, to look at and to cut. */
+/** Summary of the vessel traced last: length, connections, and doubts with buttons to show and cut. */
 import { useSignal } from '@preact/signals';
 import { engine } from '../client/shared';
 import type { Told } from '../core/messages';
@@ -12,7 +12,7 @@ export function ToldVessel() {
   return told.value && <ToldOf key={told.value.words} told={told.value} />;
 }
 
-/** One doubt at a time: the bar has two lines. */
+/** Shows one doubt at a time, since the bar has two lines. */
 function ToldOf({ told: { vessel, words, doubts } }: { readonly told: Told }) {
   const number = useSignal(0);
   const doubt = doubts[number.value];
@@ -45,7 +45,7 @@ function ToldOf({ told: { vessel, words, doubts } }: { readonly told: Told }) {
   );
 }
 
-/** Puts section and cross-hair on a vessel of the document, at an arc length (mm). */
+/** Moves section and cross-hair to an arc length of a vessel (mm). */
 function goTo(vessel: number, at: number): void {
   const place = tree.value.findIndex(({ id }) => id === vessel);
   if (place >= 0) {

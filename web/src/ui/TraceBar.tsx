@@ -1,4 +1,4 @@
-/** What can be done next about vessels, over the views: the offer to trace, what a click does now, and a doubtful branch. */
+/** Bar over the views: the offer to trace, the effect of the next click, and the doubtful branch. */
 import { useSignal } from '@preact/signals';
 import { engine } from '../client/shared';
 import { findAndList } from '../edit/branches';
@@ -24,7 +24,7 @@ export function TraceBar() {
   if (isTracing()) {
     return <Hint />;
   }
-  // A vessel that was ended is not there yet as long as its points are traced.
+  // An ended vessel appears once its points are traced.
   if (coming.value.length > 0) {
     return (
       <div class="trace-bar" role="status">
@@ -40,7 +40,7 @@ export function TraceBar() {
   ) : null;
 }
 
-/** Without centerlines the page offers to find and to trace them. */
+/** Shown if there are no vessels. */
 function Offer() {
   const isClosed = useSignal(false);
   if (isClosed.value) {
@@ -77,12 +77,12 @@ function Offer() {
 const WHOLE =
   'Takes the vessel from its parent in the list to its end (w). The first use searches the whole scan.';
 
-/** What the next click does. */
+/** Explains the next click. */
 function Hint() {
   const take = (wanted: Tool) => () => {
     tool.value = wanted;
   };
-  // Not while a point waits that may begin another vessel, nor while one is traced.
+  // Not while a point waits or is being traced.
   const isTold = waiting.value === 0 && !candidate.value && (!isDrawing.value || drawn.value !== null);
   return (
     <div class="trace-bar" role="status">
@@ -141,7 +141,7 @@ function hintWords(): string {
     : 'Click, or press Enter at the cross-hair, where a vessel begins.';
 }
 
-/** The doubtful branch that is chosen: what speaks against it, and the answer, after which the next one is shown. */
+/** The selected doubtful branch; answering shows the next one. */
 function Doubt({ words }: { readonly words: string }) {
   const [place, count] = placeOfDoubt();
   return (

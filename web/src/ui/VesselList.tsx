@@ -1,4 +1,4 @@
-/** The list of vessels: their names, colours and lengths, and what can be done with all of them. */
+/** The vessel list, with actions on all vessels. */
 
 import { engine } from '../client/shared';
 import { namesToOffer } from '../edit/anatomy';
@@ -62,7 +62,7 @@ export function VesselList() {
   );
 }
 
-/** Shows the list as a tree, or as the vessels came. */
+/** Tree, or order of entry. */
 function TreeChoice() {
   return (
     <div class="buttons">
@@ -80,7 +80,6 @@ function TreeChoice() {
   );
 }
 
-/** The way out of the list. */
 function Closing() {
   return (
     <div class="buttons">
@@ -98,7 +97,7 @@ function Closing() {
   );
 }
 
-/** How vessels come to the list. */
+/** Buttons that add vessels. */
 function Means() {
   return (
     <div class="buttons">

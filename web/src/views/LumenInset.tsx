@@ -1,4 +1,4 @@
-/** The section across the lumen under the pointer, beside it: what a click would take, with its diameter and its value. */
+/** Section of the lumen under the pointer, with its diameter and value: what a click would take. */
 import { useEffect, useRef } from 'preact/hooks';
 import { engine } from '../client/shared';
 import { Latest } from '../core/latest';
@@ -8,13 +8,13 @@ import { isTracing } from '../edit/mode';
 import { hasMillimetres } from '../state/millimetres';
 import { isInverted, type ViewName, window_ } from '../state/store';
 
-/** The side of the picture, and how far it is from the pointer (CSS pixels). */
+/** Side of the picture, and distance from the pointer (CSS pixels). */
 const SIDE = 120;
 const AWAY = 18;
-/** How high it is with its words. */
+/** Height including text. */
 const HEIGHT = SIDE + 60;
 
-/** The picture is so many diameters wide, and no less than this (mm). */
+/** Width in lumen diameters, and its minimum (mm). */
 const DIAMETERS = 4;
 const LEAST = 16;
 

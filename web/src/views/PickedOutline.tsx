@@ -1,4 +1,4 @@
-/** The picked vessel among others in the turning view: outlined in its colour outside of its wall, with its name. */
+/** Outline and name of the picked vessel in the turning view. */
 import type { LineContent } from '../core/messages';
 import { contents } from '../edit/lines';
 import { isTracing } from '../edit/mode';
@@ -9,10 +9,10 @@ import { pickedVessel } from '../state/store';
 import { type Disc, hullPath, thinned } from './hull';
 import type { Projection } from './projection';
 
-/** The outline lies outside of the wall, which stays free (CSS pixels). */
+/** Distance of the outline from the wall (CSS pixels). */
 const GAP = 2;
 const WIDTH = 2;
-/** The width of a vessel whose radius is not known (mm). */
+/** Radius of a vessel without known radius (mm). */
 const UNKNOWN = 1;
 
 export function PickedOutline({ projection }: { readonly projection: Projection }) {
@@ -46,7 +46,7 @@ function discsOf({ points, radius }: LineContent, projection: Projection): reado
   }));
 }
 
-/** The middle one of the discs that are seen. */
+/** The middle visible disc. */
 function nameAt(discs: readonly Disc[], { size }: Projection): Disc | undefined {
   const seen = discs.filter(({ at: [x, y] }) => x > 0 && y > 0 && x < size[0] && y < size[1]);
   return seen[Math.floor(seen.length / 2)];

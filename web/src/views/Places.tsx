@@ -1,4 +1,4 @@
-/** Places over a view that are no points of a vessel: those that wait to become one, and the one where no lumen was found. */
+/** Markers over a view that are not vessel points: pending points, and the least lumen-like point. */
 import type { Failure } from '../core/failure';
 import type { Vector } from '../core/messages';
 import { isGap, refusal } from '../edit/committing';
@@ -9,7 +9,7 @@ import type { Projection } from './projection';
 
 export function Places({ projection }: { readonly projection: Projection }) {
   const refused = refusal.value?.failure;
-  // What was closed is no longer pointed at.
+  // A closed message is no longer shown.
   const weakest = refused && refused === problem.value ? refused.place : null;
   return (
     <>

@@ -1,4 +1,4 @@
-/** A reformation of the picked vessel, or of all vessels, in the place of the straightened CPR. */
+/** Another reformation in place of the straightened CPR. */
 import { useCallback, useEffect, useRef, useState } from 'preact/hooks';
 import { engine } from '../client/shared';
 import { Failure } from '../core/failure';
@@ -14,7 +14,7 @@ import { mapOf, reformationOf, reformationTitle, uncurled } from '../state/refor
 import * as store from '../state/store';
 import { HairLines } from './TurningOverlay';
 
-/** What stands in the place of a picture that could not be made. */
+/** Placeholder for a picture that failed. */
 const NO_PICTURE = (): Picture => ({ size: [1, 1], bytes: new Uint8ClampedArray(4) });
 
 export function ReformedView({ kind }: { readonly kind: Reformation['kind'] }) {
@@ -97,13 +97,13 @@ export function ReformedView({ kind }: { readonly kind: Reformation['kind'] }) {
   );
 }
 
-/** Where a picture begins in its pane: it stands in the middle. */
+/** Offset that centres a picture in its pane. */
 const begin = (pane: Pair, picture: Pair): Pair => [
   Math.floor((pane[0] - picture[0]) / 2),
   Math.floor((pane[1] - picture[1]) / 2),
 ];
 
-/** From where the turning view is seen once it rests: as it turns the reformation stays as it was. */
+/** View direction at rest: the reformation does not follow while the view turns. */
 function useSide(): Side | null {
   const kept = useRef<Side | null>(null);
   const camera = store.settled.value ?? (kept.current ? null : store.camera.value);
@@ -113,7 +113,7 @@ function useSide(): Side | null {
   return kept.current;
 }
 
-/** Where the cross-hair is in the picture that is shown; null where it is not in it. */
+/** Cross-hair in the picture; null if outside. */
 function useHair(shown: ReformedPicture | null): Pair | null {
   const point = store.crossHair.value?.point ?? null;
   const [hair, setHair] = useState<Pair | null>(null);
@@ -123,7 +123,7 @@ function useHair(shown: ReformedPicture | null): Pair | null {
       setHair(null);
       return;
     }
-    // A study that was closed meanwhile has no place to tell.
+    // The study may have been closed.
     const told = (place: Pair | null) => isWanted && setHair(place);
     void engine.ask('on_reformed', point).then(told, () => told(null));
     return () => {

@@ -144,10 +144,10 @@ function sliceHandlers(
   };
 }
 
-/** Where the slices were looked at as the drag began that is under way, so that Escape puts it back. */
+/** Slice positions at the start of a drag, restored by Escape. */
 const atFirst: Partial<Record<SliceName, Look | null>> = {};
 
-/** Moves the cross-hair by slices: downwards on the wheel goes towards the feet, the back and the right. */
+/** Wheel down moves towards feet, back and right. */
 function scrollSlices(name: SliceName, steps: number): void {
   const [volume, hair] = [store.report.value?.volume, store.crossHair.value];
   if (volume && hair) {
@@ -161,7 +161,7 @@ function scrollSlices(name: SliceName, steps: number): void {
 
 const moving = new Latest();
 
-/** Moves the cross-hair by a number of voxels within a slice; the live path follows it. */
+/** Moves the cross-hair by voxels within a slice; the live path follows. */
 function moveCrossHair(name: SliceName, projection: Projection, by: Pair): void {
   const hair = store.crossHair.value;
   if (!hair) {
@@ -174,7 +174,7 @@ function moveCrossHair(name: SliceName, projection: Projection, by: Pair): void 
   });
 }
 
-/** Moves the cross-hair at once, so that no step is lost, and tells what is there when that is known. */
+/** Moves at once, so that no step is lost; the value follows later. */
 function moveTo(name: SliceName, point: Vector): void {
   store.crossHair.value = { point, value: null, vessel: null, arcLength: null };
   moving.run(async () => {

@@ -1,4 +1,4 @@
-/** Stoppers over a view: the circles that slices cut out of them, which can be dragged and removed. */
+/** Stoppers over a view as draggable circles. */
 
 import { engine } from '../client/shared';
 import type { Stopper, Vector } from '../core/messages';

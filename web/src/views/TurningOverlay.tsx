@@ -1,4 +1,4 @@
-/** What lies over the turning view: letters, bar, cross-hair and cube. */
+/** Overlay of the turning view: letters, scale bar, cross-hair and cube. */
 import { pixelOf, rightOf } from '../core/camera';
 import { negate } from '../core/vectors';
 import { TurningMeasures } from '../measure/MeasureOverlay';
@@ -40,7 +40,7 @@ export function TurningOverlay() {
   );
 }
 
-/** In the place of the scale bar where the scan does not say how far its voxels lie apart. */
+/** Replaces the scale bar if the voxel spacing is unknown. */
 function NoMillimetres() {
   return (
     <button
@@ -54,7 +54,7 @@ function NoMillimetres() {
   );
 }
 
-/** The cross-hair: four short lines around a place, which itself stays free. */
+/** Four short lines around the position, which stays visible. */
 export function HairLines({ at }: { readonly at: readonly [number, number] }) {
   return (
     <svg

@@ -1,4 +1,4 @@
-/** The vessels of the document as curves over a view, and the way to the pointer. */
+/** Vessels as curves over a view, and the live path. */
 
 import type { DocumentVessel, Vector } from '../core/messages';
 import { drawnColor, livePaths } from '../edit/drawing';
@@ -22,7 +22,7 @@ interface OverProps {
 export function VesselCurves({ projection }: OverProps) {
   const isOn = isTracing();
   const picked = tree.value[pickedVessel.value ?? -1]?.id;
-  // Over vessels that are cut open curves would hide what is looked at.
+  // In a cut, curves would hide the vessels.
   const isSeen = (vessel: DocumentVessel) =>
     vessel.id === lit.value ||
     (!vessel.isHidden &&
@@ -72,7 +72,7 @@ function Curve({ vessel, projection, isPicked, hasFar }: CurveProps) {
   );
 }
 
-/** The way that the vessel would take to the pointer; dashed and straight where none is found. */
+/** The live path; dashed and straight if none was found. */
 function LivePaths({ projection }: OverProps) {
   if (tool.value === 'look') {
     return null;
@@ -99,7 +99,7 @@ function LivePaths({ projection }: OverProps) {
   );
 }
 
-/** A curve with a dark edge, which is seen on bright and on dark. */
+/** A curve with a dark edge for contrast. */
 function Cased({ kind, d }: { readonly kind: string; readonly d: string }) {
   return (
     <>

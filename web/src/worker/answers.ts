@@ -1,4 +1,4 @@
-/** How the worker asks the engine: JSON goes in and comes out, and bytes beside it. */
+/** Questions from the worker to the engine: JSON both ways, with separate bytes. */
 import { transfer } from 'comlink';
 import type { Answer, Beside, Message, Question, Told } from '../core/asked';
 import { Failure } from '../core/failure';
@@ -8,7 +8,6 @@ import { Engine } from '../core/module';
 
 const NO_FILE = new Uint8Array();
 
-/** The answer of an engine to a question. */
 export function ask<N extends Question>(
   engine: Engine,
   name: N,
@@ -24,7 +23,7 @@ export function ask<N extends Question>(
   );
 }
 
-/** What edits are called that take a while; all others trace. */
+/** Labels of slow edits; all others trace. */
 const EDITS: Partial<Record<Edit['kind'], string>> = {
   add_branches: 'Finding branches',
   add_mask: 'Tracing the mask',
@@ -32,28 +31,28 @@ const EDITS: Partial<Record<Edit['kind'], string>> = {
   find_vessels: 'Finding vessels',
 };
 
-/** What is done for a question; null where it is quick. */
+/** Progress label; null for quick questions. */
 function wordsOf<N extends Question>(name: N, message: Message<N>): string | null {
   const edit = name === 'edit' ? (message as Message<'edit'>).edit : null;
   return (edit && EDITS[edit.kind]) ?? TURNS[name].words;
 }
 
-/** The answer to a question that asks nothing of the study. */
+/** Answers a question that needs no study. */
 export function askAtOnce<N extends Question>(name: N, message: Message<N>): Answer<N> {
   return answer(Engine.ask_at_once(name, JSON.stringify(message)));
 }
 
-/** Whether a question can be answered while other work is under way. */
+/** Whether a question can be answered during other work. */
 export const isAtOnce = (name: Question): boolean => TURNS[name].when === 'at once';
 
-/** Refuses long work that was cancelled before it began. */
+/** Rejects long work cancelled before it began. */
 export function refuseStopped(name: Question, signal: AbortSignal): void {
   if (TURNS[name].words !== null && signal.aborted) {
     throw new Failure('interrupted', 'tracing', 'a stop', 'a complete run');
   }
 }
 
-/** An answer whose bytes are not copied on their way to the page. */
+/** Transfers the bytes of an answer instead of copying them. */
 export function moved<T>(given: T): T {
   const { bytes } = (given ?? {}) as { bytes?: Bytes };
   return bytes ? transfer(given, [bytes.buffer]) : given;
@@ -65,7 +64,6 @@ function answer<T>(given: readonly unknown[]): T {
   return bytes ? { ...told, bytes } : told;
 }
 
-/** Hears the share that is done. */
 function hearing(words: string, told: Told): (share: number) => void {
   return (share) => told({ words, done: Math.round(100 * share), total: 100 });
 }

@@ -1,4 +1,4 @@
-/** Loads a study of the same origin: the stream of voxels that `lumencut view` serves or a file, and centerlines. */
+/** Loads a study of the same origin: a voxel stream of `lumencut view` or a file, and centerlines. */
 import { Failure } from '../core/failure';
 import type { Progress, States } from '../core/messages';
 import type { ScanStudy } from '../core/scan-study';
@@ -12,7 +12,7 @@ import type { Means } from './replacing';
 export type Told = (progress: Progress) => void;
 
 const MAGIC = 'LCVOLUME';
-/** The longest header that is believed (bytes). */
+/** Longest accepted header (bytes). */
 const LONGEST_HEADER = 16 << 20;
 
 interface Addresses {
@@ -26,14 +26,13 @@ interface Header {
   readonly world_from_index: readonly (readonly number[])[];
   readonly notes?: readonly string[];
   readonly name?: string;
-  /** Whether the file says how large its voxels are, and where the patient's sides are. */
+  /** Whether the file states spacing and orientation. */
   readonly states_spacing?: boolean;
   readonly states_orientation?: boolean;
-  /** Whether the scan was read from DICOM. */
   readonly has_study?: boolean;
 }
 
-/** What is told of a study beside what the engine knows. */
+/** Details of a study that the engine does not hold. */
 export interface Fetched {
   readonly notes: readonly string[];
   readonly name: string;
@@ -41,7 +40,7 @@ export interface Fetched {
   readonly study: ScanStudy | null;
 }
 
-/** Loads volume and centerlines one after the other; tells what was odd, and the name of the volume. */
+/** Loads volume, then centerlines; returns notes and the volume's name. */
 export async function fetchStudy(means: Means, addresses: Addresses, told: Told): Promise<Fetched> {
   let fetched: Fetched = { notes: [], name: '', states: { spacing: true, orientation: true }, study: null };
   if (addresses.volume !== null) {
@@ -100,14 +99,14 @@ async function fetchVolume(means: Means, address: string, told: Told): Promise<F
   return { notes: header.notes ?? [], name: header.name ?? '', states, study };
 }
 
-/** What came of an answer so far, and the rest of it. */
+/** The start of a response, and the rest of it. */
 interface Begun {
   readonly start: Uint8Array;
   readonly bytes: ByteReader;
   readonly told: Told;
 }
 
-/** Reads the answer as a file of one of the formats that can be dropped too. */
+/** Reads a response as a file that could also be dropped. */
 async function fetchFormat(
   means: Means,
   response: Response,
@@ -138,7 +137,7 @@ async function fetchFormat(
   return { ...volume, notes };
 }
 
-/** Files beside an address, of the same origin. */
+/** Files next to an address, of the same origin. */
 function besideOf(address: string, signal: AbortSignal): Beside {
   return async (path) => {
     const response = await fetch(new URL(encodeURI(path), address), { signal, cache: 'no-store' });
@@ -159,7 +158,7 @@ async function readHeader(bytes: ByteReader, start: Uint8Array, address: string)
   return checkedHeader(new TextDecoder().decode(await bytes.take(length)));
 }
 
-/** The header of a text of JSON; the engine checks the numbers in it. */
+/** Parses a JSON header; the engine validates its numbers. */
 function checkedHeader(text: string): Header {
   const read = parsed(text);
   const isWhole =
@@ -183,7 +182,7 @@ function parsed(text: string): Header | null {
   }
 }
 
-/** Hands the voxels to the engine as they come; tells how many bytes there should be in all. */
+/** Streams the voxels to the engine; returns the expected number of bytes. */
 async function readVoxels(study: Study, bytes: ByteReader, header: Header, told: Told): Promise<number> {
   const { dtype, narrow, bytesPerVoxel } = narrowed(header.dtype);
   const voxels = header.size[0] * header.size[1] * header.size[2];
@@ -202,7 +201,7 @@ async function readVoxels(study: Study, bytes: ByteReader, header: Header, told:
   }
 }
 
-/** The stream ended early: the server's words why, where it has some. */
+/** Adds the server's explanation to a stream that ended early. */
 async function refuseShort(
   address: string,
   signal: AbortSignal,

@@ -1,4 +1,4 @@
-/** What the page asks its worker for. Errors leave as the texts that `Failure.of` reads. */
+/** The worker's interface for the page. Errors cross as the text of `Failure`. */
 import { transfer } from 'comlink';
 import type { Beside, Message, Question, Told } from '../core/asked';
 import { CRASH, Failure } from '../core/failure';
@@ -16,10 +16,10 @@ import { Queue } from './queue';
 import { type Means, Replacing } from './replacing';
 import { startThreads } from './threads';
 
-/** What is told of a volume of which not every voxel was taken. */
+/** Note on a volume loaded at half resolution. */
 const COARSER = 'only every second voxel along each axis was loaded; measurements are less accurate';
 
-/** What is known of everything that was loaded. */
+/** Data of the open study. */
 interface Loaded {
   readonly report: Report;
   readonly doubt: PlaceDoubt | null;
@@ -29,10 +29,10 @@ export class EngineHost {
   private readonly queue = new Queue();
   private engine: Engine | null = null;
   private cancelled = new AbortController();
-  /** Why the module has ended. Its memory may be damaged, so that nothing more is asked of it. */
+  /** Why the module crashed; its memory may be corrupt, so nothing more is asked. */
   private crash: Error | null = null;
 
-  /** Answers a question of the table; those that need no study at once, beside the work that is queued. */
+  /** Answers a question; those that need no study bypass the queue. */
   ask(name: Question, message: unknown, files: Beside, told: Told | null): unknown {
     const asked = message as Message<Question>;
     if (isAtOnce(name)) {
@@ -47,7 +47,7 @@ export class EngineHost {
     });
   }
 
-  /** Loads the module and finds out what computes. */
+  /** Loads the module and selects the device. */
   start(device: string): Promise<Started> {
     return this.run(async () => {
       const shared = await loadModule();
@@ -73,7 +73,7 @@ export class EngineHost {
     return { device, isGpu: device !== 'cpu' };
   }
 
-  /** Computes on another device from now on, or on the same one after it was lost. */
+  /** Switches the device, or restores the same one after a loss. */
   changeDevice(device: string): Promise<{ device: string; isGpu: boolean }> {
     return this.run(async () => {
       await this.ready().change_device(device);
@@ -81,18 +81,18 @@ export class EngineHost {
     });
   }
 
-  /** Ends once the GPU that computes now is lost; other work goes on meanwhile. */
+  /** Resolves when the current GPU is lost; other work continues. */
   async loss(): Promise<void> {
     const { lost } = await this.run(() => ({ lost: this.ready().loss() }));
     await lost;
   }
 
-  /** How large the memory of the module is (bytes). */
+  /** Memory of the module (bytes). */
   memory(): Promise<number> {
     return this.run(memorySize);
   }
 
-  /** Draws the turning view on this canvas from now on. */
+  /** Renders to this canvas from now on. */
   drawOn(canvas: OffscreenCanvas): Promise<void> {
     return this.run(() => this.ready().draw_on(canvas));
   }
@@ -104,7 +104,7 @@ export class EngineHost {
     });
   }
 
-  /** Opens a volume and centerlines of the same origin; `told` hears how far it is. */
+  /** Opens a volume and centerlines of the same origin. */
   openAddresses(
     volume: string | null,
     centerlines: string | null,
@@ -114,7 +114,7 @@ export class EngineHost {
     return this.load(told, (means) => fetchStudy(means, { volume, centerlines }, told), wish);
   }
 
-  /** Opens files that were dropped or chosen; what was open stays where they are refused at once. */
+  /** Opens files; the open study stays if they are rejected before it is replaced. */
   openFiles(
     files: readonly GivenFile[],
     wish: SeriesWish,
@@ -130,7 +130,6 @@ export class EngineHost {
     return this.load(told, work, wish);
   }
 
-  /** What of a DICOM file stands before its pixels. */
   dicomHead({ path, file }: GivenFile): Promise<Uint8Array<ArrayBuffer>> {
     return this.run(async () => {
       const { headOf } = await import('../io/dicom');
@@ -138,7 +137,7 @@ export class EngineHost {
     });
   }
 
-  /** Loads in steps, until `cancel`; where that ends early and what was open is gone already, nothing is open. */
+  /** Loads in steps until `cancel`; on failure nothing stays open if the old study is already gone. */
   private load<T extends { readonly notes: readonly string[] }>(
     told: Told,
     work: (means: Means) => Promise<T>,
@@ -166,7 +165,7 @@ export class EngineHost {
     });
   }
 
-  /** Stops loading, tracing and measuring; measuring that has not begun goes on. */
+  /** Stops loading, tracing and running measurements. */
   cancel(): void {
     this.cancelled.abort();
     this.cancelled = new AbortController();
@@ -175,7 +174,7 @@ export class EngineHost {
     }
   }
 
-  /** Renders a view: on the canvas where the GPU draws, else into the answer. */
+  /** Renders a view to the GPU canvas, or into the answer. */
   render(view: View): Promise<Drawn> {
     return this.run(async () => {
       const start = performance.now();
@@ -217,7 +216,7 @@ function sent(picture: Picture, milliseconds: number): Drawn {
   return transfer({ picture, milliseconds }, [picture.bytes.buffer]);
 }
 
-/** Pixels that the engine copied out of its memory already. */
+/** Pixels that the engine has already copied. */
 function plain(bytes: Uint8ClampedArray): Uint8ClampedArray<ArrayBuffer> {
   return bytes as Uint8ClampedArray<ArrayBuffer>;
 }

@@ -1,4 +1,4 @@
-/** A mask of vessels beside the scan that is open: read as scans are, and traced. */
+/** Reads a vessel mask for the open scan, and traces it. */
 import type { Answer, Beside, Message, Question } from '../core/asked';
 import { Failure } from '../core/failure';
 import type { AfterEdit, GivenFile } from '../core/messages';
@@ -9,13 +9,13 @@ import { Steps } from '../io/steps';
 import type { Study } from '../io/study';
 import { ask, refuseStopped } from './answers';
 
-/** What comes with a question, and what stops it while a mask is read. */
+/** What accompanies a question, and its abort signal. */
 interface Asking {
   readonly beside: Beside;
   readonly signal: AbortSignal;
 }
 
-/** The answer to a question; the mask that comes with it is read first, and what was odd about its files is told too. */
+/** Answers a question after reading its mask; adds the notes on its files. */
 export async function askWithFiles<N extends Question>(
   engine: Engine,
   name: N,
@@ -37,7 +37,7 @@ export async function askWithFiles<N extends Question>(
   }
 }
 
-/** Reads a mask as scans are read; gives notes. */
+/** Returns notes. */
 async function readMask(
   engine: Engine,
   files: readonly GivenFile[],
@@ -50,7 +50,7 @@ async function readMask(
   return notes;
 }
 
-/** The engine as readers of files have it while they read a mask. */
+/** Study interface for reading a mask. */
 class MaskStudy implements Study {
   constructor(private readonly engine: Engine) {}
 
