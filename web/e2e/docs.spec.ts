@@ -1,4 +1,4 @@
-/** The built site of the documentation in a browser, from its files: nothing is asked of other hosts, and it is searched. */
+/** The documentation site in a browser, opened from files: no external requests, and a working search. */
 import { join } from 'node:path';
 import { pathToFileURL } from 'node:url';
 import { expect, type Page, test } from '@playwright/test';
@@ -7,7 +7,6 @@ const SITE = process.env.LUMENCUT_DOCS_SITE ?? '';
 const PAGES = ['index', 'gallery', 'from-scan-to-report', 'how-to', 'api/pictures', 'METHOD', 'comparison'];
 const at = (name: string) => pathToFileURL(join(SITE, `${name}.html`)).href;
 
-/** What a page asks of others, and what it complains of. */
 function watched(page: Page): string[] {
   const faults: string[] = [];
   page.on('request', (request) => {

@@ -1,4 +1,4 @@
-/** The guided tour: it goes on by itself after each step that the user does, and can be left at any time. */
+/** The guided tour: it advances by itself and can be left at any time. */
 import { AxeBuilder } from '@axe-core/playwright';
 import { expect, test } from '@playwright/test';
 import { button, expectBegun, menu, REPORT, rows, startTracing, stenosis, traced } from './controls';
@@ -20,7 +20,7 @@ test.afterEach(async () => {
 const guide = () => viewer.page.getByRole('complementary', { name: 'Guided tour' });
 const expectStep = (title: string) => expect(guide().getByRole('heading')).toHaveText(title);
 
-/** What axe finds that is serious. */
+/** Serious findings of axe. */
 async function serious(): Promise<string[]> {
   const { violations } = await new AxeBuilder({ page: viewer.page }).analyze();
   return violations
@@ -50,7 +50,7 @@ test('each step that is done leads to the next one, up to the report', async () 
   await button(viewer, 'Measure').click();
 
   await expectStep('4 of 5: Grade the stenosis');
-  // Tracing is over, with what it had put aside.
+  // Tracing has ended and restored the layout.
   await expect(viewer.page.locator('.trace-bar')).toHaveCount(0);
   await expect(viewer.field('Context')).toHaveValue('mida');
   await expect(button(viewer, 'Confirm the suggested places')).toBeVisible({ timeout: 30_000 });
@@ -87,7 +87,7 @@ test('it is left in the middle, and what was done stays', async () => {
   await viewer.press('m');
   await expect(viewer.page.locator('main')).toHaveAttribute('data-layout', 'measure');
   await expect(guide()).toHaveCount(0);
-  // It begins anew from the start page, and ends with its study.
+  // It can restart from the start page, and ends with its study.
   await button(viewer, 'Close the scan').click();
   await button(viewer, START).click();
   await expectStep('1 of 5: Trace the vessel');

@@ -1,4 +1,4 @@
-/** Opening, cancelling and closing: whole streams, broken ones, slow ones, many one after the other. */
+/** Opening, cancelling and closing: complete, broken, slow and repeated streams. */
 import { spawnSync } from 'node:child_process';
 import { existsSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
@@ -10,7 +10,6 @@ import { CENTERLINE, header, VOLUME, voxels, WHOLE } from './streams';
 const ADDRESSES = '?volume=made/volume&centerlines=made/axis.vtk&device=cpu&test=1';
 const MEGABYTE = 1 << 20;
 
-/** What the addresses of the page answer. */
 async function serve(page: Page, volume: Buffer | number, axis = CENTERLINE): Promise<void> {
   await page.route('**/made/volume', (route) =>
     typeof volume === 'number' ? route.fulfill({ status: volume }) : route.fulfill({ body: volume }),
@@ -46,7 +45,7 @@ test.describe('streams', () => {
     await serve(viewer.page, WHOLE);
     await viewer.page.goto(`./${ADDRESSES}`);
     await viewer.rest();
-    // Beyond the volume the cut surface ends, and what is behind it comes into view.
+    // Outside of the volume the cut ends and reveals what is behind.
     await viewer.drag([0.5, 0.3], [50, 60]);
     await viewer.pane().focus();
     await viewer.press('-', '-', '-', '-', '-');
@@ -165,7 +164,7 @@ test.describe('streams', () => {
       await expect(viewer.problem).toHaveCount(0);
       await viewer.page.getByRole('button', { name: 'A tube with a stenosis of 50 %' }).click();
       await viewer.rest();
-      // The browser itself reports an answer that is an error.
+      // The browser reports the failed request itself.
       expect(viewer.faults.filter((fault) => !fault.includes('404'))).toEqual([]);
     });
   }
@@ -218,7 +217,6 @@ function anotherType(): Buffer {
   return Buffer.concat([header({ ...VOLUME, dtype: 'complex64' }), voxels(VOLUME)]);
 }
 
-/** Opens the small phantom several times, waits for its view each time, and closes it. */
 function openAndClose(page: Page, times: number): Promise<void> {
   return page.evaluate(async (count) => {
     const until = async <T>(found: () => T | null | undefined | false): Promise<T> => {
@@ -243,7 +241,7 @@ function openAndClose(page: Page, times: number): Promise<void> {
 test('50 opens of a phantom do not grow the memory', { tag: '@long' }, async ({ browser }) => {
   const viewer = await Viewer.open(browser, '?device=cpu&test=1');
   await expect(viewer.page.getByRole('button', { name: 'Aorta' })).toBeEnabled();
-  // What a complete view takes is taken once.
+  // Warm-up, for memory allocated once.
   await viewer.page.getByRole('button', { name: 'A tube with a stenosis of 50 %' }).click();
   await viewer.rest();
   await viewer.page.getByRole('button', { name: 'Close the scan' }).click();
@@ -251,7 +249,7 @@ test('50 opens of a phantom do not grow the memory', { tag: '@long' }, async ({ 
   const before = await viewer.memory();
   await openAndClose(viewer.page, 40);
   expect(before).toBeGreaterThan(MEGABYTE);
-  // Whatever 40 opens left behind, a volume or a picture, would be far more.
+  // A leaked volume or picture would exceed this by far.
   expect((await viewer.memory()) - before).toBeLessThan(5 * MEGABYTE);
   viewer.expectNoFault();
   await viewer.close();

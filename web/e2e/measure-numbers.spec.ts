@@ -1,4 +1,4 @@
-/** What is told of a measured vessel, beside the profile and in the section. */
+/** Numbers of a measured vessel, next to the profile and in the section. */
 import { AxeBuilder } from '@axe-core/playwright';
 import { expect, test } from '@playwright/test';
 import { menu } from './controls';
@@ -70,14 +70,14 @@ test('a page at 200 % has no words over the lumen, and no look beneath a button'
 });
 
 test('vessel and profile share their axis', async () => {
-  // Tried until it holds: after the window changed, chart and picture change one after the other.
+  // Retried, because chart and picture update separately.
   await expect(async () => {
     const [canvas, from, to] = await Promise.all([
       tube.viewer.page.locator('[data-testid=profile] canvas').boundingBox(),
       tube.middleOf(tube.tick('0')),
       tube.middleOf(tube.tick('60')),
     ]);
-    // The middles of the first and of the last column are at the ends of the vessel.
+    // The first and last columns are centred on the ends of the vessel.
     const half = (canvas?.width ?? 0) / ((await tube.viewer.pixels('profile')).width * 2);
     expect(Math.abs((canvas?.x ?? 0) + half - from[0])).toBeLessThan(1);
     expect(Math.abs((canvas?.x ?? 0) + (canvas?.width ?? 0) - half - to[0])).toBeLessThan(1.5);

@@ -1,9 +1,9 @@
-/** The first step of the guided tour, by somebody who is faster than the engine; and where keys take the focus. */
+/** The first tour step by a user faster than the engine, and the focus after keys. */
 import { type Browser, expect, type Page, test } from '@playwright/test';
 import { Viewer } from './page';
 
 const SIZE = { width: 1100, height: 720 };
-/** On the tube, as parts of the coronal pane's height from its middle and its top. */
+/** On the tube, as shares of the coronal pane's height. */
 const [UPPER, LOWER] = [0.3, 0.7];
 
 async function guided(browser: Browser): Promise<Viewer> {

@@ -1,4 +1,4 @@
-/** Every edit can be undone and done again, and nothing of a study is left in the next one. */
+/** Every edit can be undone and redone, and a new study starts empty. */
 import { expect, test } from '@playwright/test';
 import { button, choose, nameOf, rename, rows, SESSION, saved, startTracing, stenosis } from './controls';
 import { Viewer } from './page';
@@ -6,7 +6,7 @@ import { NARROWED, openScan, STRAIGHT, traceTube, tubes } from './scans';
 
 const SIZE = { width: 1200, height: 760 };
 const SCAN = tubes('tubes.nrrd');
-/** The least number of steps that are taken. */
+/** Minimum number of steps. */
 const STEPS = 30;
 
 let viewer: Viewer;
@@ -23,7 +23,7 @@ const undoButton = () => button(viewer, 'Undo');
 const point = (n: number, name: string) =>
   viewer.pane('coronal').getByRole('button', { name: `Point ${n} of ${name}` });
 
-/** What was made of the scan, as it stands in the session file; how it is looked at is no edit. */
+/** The user's work in the session file, without the display state. */
 async function made(): Promise<string> {
   const text = (await saved(viewer, SESSION)).toString('utf-8');
   const { view, ...session } = JSON.parse(text).LumencutSession;
@@ -31,14 +31,14 @@ async function made(): Promise<string> {
   return JSON.stringify({ ...JSON.parse(text), LumencutSession: session });
 }
 
-/** Does an edit, and waits until it is the last step. */
+/** Performs an edit and waits until it is the last step. */
 async function step(words: RegExp, edit: () => Promise<unknown>): Promise<void> {
   await edit();
   await expect(undoButton()).toHaveAttribute('title', words);
   await expect(viewer.page.locator('.trace-bar span').filter({ hasText: 'Tracing …' })).toHaveCount(0);
 }
 
-/** Edits of vessels; gives how many. */
+/** Returns their number. */
 async function editVessels(): Promise<number> {
   const { page } = viewer;
   await startTracing(viewer);
@@ -64,10 +64,10 @@ async function editVessels(): Promise<number> {
   await step(/hide a vessel/, () => button(viewer, 'Hide Vessel 2').click());
   await step(/show a vessel/, () => button(viewer, 'Show Vessel 2').click());
   await step(/hide a vessel/, () => button(viewer, 'Hide Vessel 2').click());
-  // The row of a hidden vessel offers nothing but to show it again.
+  // A hidden vessel's row only offers to show it.
   await expect(rows(viewer).nth(1).locator('.buttons')).toHaveCount(0);
   await step(/show a vessel/, () => button(viewer, 'Show Vessel 2').click());
-  // It is picked as soon as it is shown.
+  // It is picked once displayed.
   await rows(viewer).nth(1).getByRole('radio').click();
   await expect(rows(viewer).nth(1).getByRole('radio')).toBeChecked();
   await step(/delete a vessel/, () => viewer.press('Delete'));
@@ -83,7 +83,7 @@ async function editVessels(): Promise<number> {
   return 2 + 4 + 11;
 }
 
-/** Edits of marks and rulers; gives how many. */
+/** Returns their number. */
 async function editMarks(): Promise<number> {
   const numbers = viewer.page.getByTestId('numbers');
   await viewer.press('m');
@@ -130,7 +130,7 @@ test('thirty steps and more are undone to the beginning and done again, and the 
     for (let n = 1; n < count; n++) {
       await viewer.press(key);
     }
-    // Not one step fewer, and not one more.
+    // Exactly as many steps.
     await button(viewer, words).click();
     await expect(button(viewer, words)).toBeDisabled();
     await expect(button(viewer, other)).toBeEnabled();
@@ -155,7 +155,7 @@ test('nothing of a study is left in the next one', async () => {
   await blur.getByLabel('Known FWHM').fill('0.9');
   await blur.getByLabel('Known FWHM').press('Enter');
   await expect(blur).toContainText(', given.');
-  // A ruler that has its first point only.
+  // An unfinished ruler.
   await button(viewer, 'Ruler').click();
   await viewer.click([0.4, 0.5], 'section');
   await choose(viewer, tubes('next.nrrd', 5));
@@ -171,7 +171,7 @@ test('nothing of a study is left in the next one', async () => {
   await viewer.screenshot('next-study');
   const session = JSON.parse(await made()).LumencutSession;
   expect(session).toMatchObject({ vessels: [], doubtful: [], stoppers: [], rulers: [], bridge: false });
-  // Measured there, nothing is marked, and the blur is its own.
+  // Measured there: no marks, and its own estimated FWHM.
   await startTracing(viewer);
   await expect(page.locator('[data-place]')).toHaveCount(0);
   await traceTube(viewer, NARROWED, [26, -26], 1);

@@ -7,7 +7,7 @@ import { progress } from '../src/state/store';
 
 const FINDING: Progress = { words: 'Finding vessels', done: 0, total: null };
 
-/** An engine that tells how far it is and answers when the test says so. */
+/** An engine that reports progress and answers on command. */
 class Slow {
   told: (heard: Progress) => void = () => {};
   end: () => void = () => {};

@@ -9,7 +9,7 @@ import { CAMERA } from './helpers';
 
 const AWAY = turnedAbout({ ...CAMERA, pixel_spacing: 0.25 }, [0, 0, 0], [0, 0, 1], 1);
 
-/** What the engine was asked for, and the views that it tells: they tell themselves apart by what is in their middle. */
+/** Requests and views; each view is identified by its centre. */
 let asked: Message<'flight'>[] = [];
 const told = ({ from, to, views }: Message<'flight'>): Camera[] =>
   Array.from({ length: views }, (_, n) => ({ ...(n < views - 1 ? from : to), center: [n, 0, 0] }));
@@ -20,7 +20,6 @@ const engine: Asked = {
     return answer() as Promise<Answer<N>>;
   },
 };
-/** Lets the answer come. */
 const answered = () => new Promise<void>((done) => setTimeout(done, 0));
 
 describe('a flight', () => {

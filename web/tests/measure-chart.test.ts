@@ -1,4 +1,4 @@
-/** The axes of a profile, its curves and its flags; the lying vessel on the same axis. */
+/** Profile axes, curves and flags, with the horizontal vessel on the same axis. */
 import { describe, expect, test } from 'vitest';
 import { axisAlong, chartLayout, LEFT, RIGHT } from '../src/measure/chart-layout';
 import { bandPath, counted, linePath, lonely, spreadOf, stretches, topOf } from '../src/measure/curves';
@@ -76,7 +76,7 @@ describe('curves', () => {
     const [low, high] = spreadOf(profile);
     expect(low[20]).toBeCloseTo(7.8, 12);
     expect(high[20]).toBeCloseTo(8.2, 12);
-    // Sections that do not count have none.
+    // Excluded sections have none.
     expect(low[118]).toBeNull();
   });
 
@@ -139,7 +139,7 @@ describe('the lying vessel', () => {
   test('the middle of each column is at the arc length of its row in the CPR', () => {
     const x = axisAlong(60, 900);
     const lying = lyingIn(x, { height: 150, density: 2, fitting: 22 });
-    // As the engine lays it out: a row every `spacing` mm, the first one at the first point.
+    // The engine's layout: a row every `spacing` mm, starting at the first point.
     const columns = Math.floor(60 / lying.spacing + 1e-9) + 1;
     const box = lyingBox(x, lying, [columns, 41]);
     const pixel = box.width / columns;

@@ -1,4 +1,4 @@
-/** The study of a series: what is kept of it for objects that are put beside the scan. */
+/** The study data kept of a series, for objects saved with it. */
 import { expect, test } from 'vitest';
 import { series } from '../e2e/dicom';
 import { type LookedInto, lookInto } from '../src/io/dicom/headers';
@@ -12,7 +12,7 @@ const sources = series([0, 2, 4]).map(
 );
 const read = (): Promise<LookedInto[]> =>
   Promise.all(sources.map((source) => lookInto(source, new Recorder({ SOPInstanceUID: [] }))));
-/** A plan of the last slices alone. */
+/** A plan of the last slices only. */
 const plan = { slices: [{ file: 1 }, { file: 2 }] } as unknown as Plan;
 
 test('it has the header of one slice without its pixels, and the UIDs of all that were read', async () => {

@@ -1,4 +1,4 @@
-/** Looking for many vessels: where a tree begins, clicks meanwhile, and what is shown first of what was found. */
+/** Searching for vessels: seeds, clicks during the search, and the first view of the result. */
 import { afterEach, beforeEach, expect, test, vi } from 'vitest';
 import type { EngineClient } from '../src/client/engine';
 import type { Camera, DocumentVessel, Vector } from '../src/core/messages';
@@ -15,7 +15,7 @@ import { told } from '../src/state/telling';
 import { tool } from '../src/state/tool';
 import { FakeTracing, withLines } from './fake-tracing';
 
-// The page's own engine runs in a worker, which there is none of here.
+// The page's engine needs a worker, which tests lack.
 vi.mock('../src/client/shared', () => ({ engine: {} }));
 
 const OPENED: Vector = [0, 0, 0];

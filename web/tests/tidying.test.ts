@@ -1,4 +1,4 @@
-/** Cleaning a tree and walking through doubtful branches, with an engine that answers at once. */
+/** Cleaning a tree and reviewing doubtful branches, with an engine that answers at once. */
 import { afterEach, beforeEach, expect, test, vi } from 'vitest';
 import type { Asked } from '../src/core/asked';
 import type { DocumentVessel, EditRequest, LineFacts, Started } from '../src/core/messages';
@@ -14,7 +14,7 @@ import { begin, document_, undo } from '../src/state/history';
 import { pickedVessel, started } from '../src/state/store';
 import { markNone, shorterThan, thinnerThan, treeChosen } from '../src/state/tidy';
 
-// The page's own engine runs in a worker, which there is none of here.
+// The page's engine needs a worker, which tests lack.
 vi.mock('../src/client/shared', () => ({ engine: {} }));
 
 const vessel = (id: number, doubt: string | null = null): DocumentVessel => ({
@@ -26,7 +26,7 @@ const vessel = (id: number, doubt: string | null = null): DocumentVessel => ({
   clicks: null,
   doubt,
 });
-/** A trunk with two branches, and two pieces by themselves, one of them of unknown radius. */
+/** A trunk with two branches, and two separate vessels, one of unknown radius. */
 const SURE = [1, 2, 3, 4, 5].map((id) => vessel(id));
 const DOUBTFUL = [6, 7, 8].map((id) => vessel(id, `reason ${id}`));
 const FACTS: readonly LineFacts[] = [
@@ -37,7 +37,6 @@ const FACTS: readonly LineFacts[] = [
   { line: 15, length: 5, calibre: null, part: 2, parent: 11 },
 ];
 
-/** What the engine knows of vessels that are sure. */
 const factsAmong = (vessels: readonly DocumentVessel[]): readonly LineFacts[] => {
   const told = new Map(FACTS.map((one) => [one.line, one]));
   const sure = vessels.filter(({ doubt }) => doubt === null);
@@ -46,7 +45,7 @@ const factsAmong = (vessels: readonly DocumentVessel[]): readonly LineFacts[] =>
 
 const asked: string[] = [];
 
-/** Removes, accepts and leaves out as the engine does. */
+/** Removes, accepts and leaves out like the engine. */
 function edited({ document, edit }: EditRequest): object {
   const { kind, ids = [] } = edit as { kind: string; ids?: readonly number[] };
   const vessels =

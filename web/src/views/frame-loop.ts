@@ -1,4 +1,4 @@
-/** Frame loop of the turning view: reduced resolution while moving, full at rest, then supersampled; newest view first. */
+/** Frame loop of the turning view: low resolution while moving, full at rest, then supersampled; latest view first. */
 
 import type { EngineClient } from '../client/engine';
 import { sampled } from '../core/camera';
