@@ -8,7 +8,6 @@ function freePort(): string {
   return spawnSync(process.execPath, ['-e', script], { encoding: 'utf-8' }).stdout.trim();
 }
 
-/** The documentation site; its tests are skipped without it. */
 const docs = process.env.LUMENCUT_DOCS_SITE;
 
 /** Slow tests that rarely fail: run only by `npm run check-long`. */

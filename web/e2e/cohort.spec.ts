@@ -87,7 +87,6 @@ test('a click selects a tile; Enter and a double click open its picture in a new
     await opened.close();
   }
   await expect(tile).toBeFocused();
-  // A failed study has no picture.
   const failed = page.locator('li[data-id="p10"]');
   await failed.locator('a').dblclick();
   await expect(failed).toBeFocused();

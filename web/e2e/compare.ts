@@ -22,7 +22,6 @@ export const OTHER_DEVICE: readonly Tolerance[] = [
   { apart: 4, share: 1e-4 },
 ];
 
-/** Another device with a context: `CONTEXT_OF_FRAME`. */
 export const OTHER_DEVICE_WITH_CONTEXT: readonly Tolerance[] = [{ apart: 4, share: 1e-3 }];
 
 /** Description of the difference; null within the tolerances. */
@@ -40,7 +39,6 @@ export function difference(found: Pixels, expected: Pixels, tolerances: readonly
     : null;
 }
 
-/** Whether a picture has a single colour. */
 export function isEmpty({ bytes }: Pixels): boolean {
   return bytes.every((value, n) => value === bytes[n % 4]);
 }

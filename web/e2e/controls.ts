@@ -5,7 +5,6 @@ import { Viewer } from './page';
 
 export const rows = (viewer: Viewer): Locator => viewer.page.locator('aside > .vessel-rows > li');
 export const nameOf = (viewer: Viewer, n: number): Locator => rows(viewer).nth(n).locator('input.name');
-/** Lists the vessels in order of entry. */
 export const listAsTheyCame = (viewer: Viewer): Promise<void> =>
   viewer.page.getByLabel(/^As a tree/).uncheck();
 
@@ -34,7 +33,6 @@ export async function untraced(
   return viewer;
 }
 
-/** Without vessels, the offer has such a button too. */
 const traceTool = (viewer: Viewer): Locator =>
   viewer.page.locator('header').getByRole('button', { name: 'Trace', exact: true });
 export async function startTracing(viewer: Viewer): Promise<void> {
@@ -92,7 +90,6 @@ export async function drop(viewer: Viewer, ...files: readonly MadeFile[]): Promi
   await viewer.page.dispatchEvent('body', 'drop', { dataTransfer: transfer });
 }
 
-/** Counts presses and keys from now on. */
 export async function countInput(viewer: Viewer): Promise<() => Promise<{ clicks: number; keys: number }>> {
   await viewer.page.evaluate(() => {
     const counts = { clicks: 0, keys: 0 };

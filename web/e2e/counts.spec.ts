@@ -3,7 +3,6 @@ import { readFileSync } from 'node:fs';
 import { expect, type Locator, test } from '@playwright/test';
 import { button, countInput, rows, untraced } from './controls';
 
-/** Maximum number of actions. */
 const MOST = 20;
 
 async function slide(slider: Locator, part: number): Promise<void> {

@@ -4,7 +4,6 @@ const SIDE = 16;
 const CT = '1.2.840.10008.5.1.4.1.1.2';
 const EXPLICIT = '1.2.840.10008.1.2.1';
 
-/** Element in explicit VR, little-endian. */
 function element(tag: number, vr: string, value: string | number): Buffer {
   const odd = typeof value === 'string' ? value.length % 2 : 0;
   const bytes =

@@ -37,7 +37,6 @@ test('centerlines whose space and unit nothing tells are read as the user says',
   await viewer.close();
 });
 
-/** A bright bar in a scan without voxel spacing. */
 function bar(): { name: string; mimeType: string; buffer: Buffer } {
   const sizes = [12, 10, 30] as const;
   const values = new Int16Array(sizes[0] * sizes[1] * sizes[2]);

@@ -73,7 +73,6 @@ test('a tree is cleaned in a few actions: short vessels by a slider, doubtful br
   const doubtful = viewer.page.locator('.doubtful-rows li');
   await expect(doubtful.first()).toBeVisible({ timeout: 90_000 });
   const [sure, unsure] = [await rows(viewer).count(), await doubtful.count()];
-  // Afterwards the list is a tree, widest first, with indented branches.
   await expect(viewer.page.getByLabel('As a tree, the widest first')).toBeChecked();
   await expect(rows(viewer).first().locator('.length')).toHaveText(/^[\d.]+ × \d+$/);
   const calibres = (await rows(viewer).locator('.length').allTextContents()).map(Number.parseFloat);

@@ -20,7 +20,6 @@ const mode = (viewer: Viewer, words: string): Locator =>
 
 async function mark(viewer: Viewer, vessel: number): Promise<void> {
   await rows(viewer).nth(vessel).getByRole('radio').check();
-  // A double press keeps the mode.
   await mode(viewer, 'Measure').dblclick();
   await expect(viewer.page.getByTestId('row-place-0')).toBeVisible();
   await button(viewer, 'Narrowest here').click();
@@ -72,7 +71,6 @@ test('findings of all vessels stand in one list, are copied, and are saved as on
   await first.getByLabel('in the report').uncheck();
   expect(await pages()).toBe(1);
 
-  // "Show" returns to the place; an undone finding disappears.
   await first.getByRole('button', { name: 'Show' }).click();
   await expect(rows(viewer).nth(0).getByRole('radio')).toBeChecked();
   await viewer.press('Control+z');

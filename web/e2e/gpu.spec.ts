@@ -80,7 +80,6 @@ async function complete(viewer: Viewer): Promise<Pixels> {
   return viewer.pixels();
 }
 
-/** Ends the browser's GPU process, like a failing driver. */
 async function crashGpu(browser: Browser): Promise<void> {
   const session = await browser.newBrowserCDPSession();
   // The protocol command has no type.
@@ -99,7 +98,6 @@ test('the GPU draws; lost, it comes back; lost again, the CPU shows the same', a
   expect(isEmpty(first)).toBe(false);
   await viewer.screenshot('gpu');
 
-  // Without user input, the page notices the loss.
   await crashGpu(browser);
   await expect(viewer.page.getByText(/1 note/)).toBeVisible({ timeout: 30_000 });
   const second = await complete(viewer);
@@ -184,7 +182,6 @@ const FADING = viewFragment({
 async function focusedOn(browser: Browser, device: 'any' | 'cpu'): Promise<Pixels[]> {
   const viewer = await Viewer.open(browser, `?phantom=stenosis&device=${device}${FADING}`);
   await expect(viewer.pane()).toBeVisible({ timeout: 50_000 });
-  // The first frame of a software GPU takes long.
   await expect(viewer.device).toContainText(device === 'any' ? 'GPU' : 'CPU', { timeout: 60_000 });
   await viewer.pin([64, 48]);
   const pictures = [await complete(viewer)];

@@ -20,7 +20,6 @@ test.afterEach(async () => {
 const guide = () => viewer.page.getByRole('complementary', { name: 'Guided tour' });
 const expectStep = (title: string) => expect(guide().getByRole('heading')).toHaveText(title);
 
-/** Serious findings of axe. */
 async function serious(): Promise<string[]> {
   const { violations } = await new AxeBuilder({ page: viewer.page }).analyze();
   return violations
@@ -87,7 +86,6 @@ test('it is left in the middle, and what was done stays', async () => {
   await viewer.press('m');
   await expect(viewer.page.locator('main')).toHaveAttribute('data-layout', 'measure');
   await expect(guide()).toHaveCount(0);
-  // It can restart from the start page, and ends with its study.
   await button(viewer, 'Close the scan').click();
   await button(viewer, START).click();
   await expectStep('1 of 5: Trace the vessel');

@@ -241,7 +241,6 @@ function openAndClose(page: Page, times: number): Promise<void> {
 test('50 opens of a phantom do not grow the memory', { tag: '@long' }, async ({ browser }) => {
   const viewer = await Viewer.open(browser, '?device=cpu&test=1');
   await expect(viewer.page.getByRole('button', { name: 'Aorta' })).toBeEnabled();
-  // Warm-up, for memory allocated once.
   await viewer.page.getByRole('button', { name: 'A tube with a stenosis of 50 %' }).click();
   await viewer.rest();
   await viewer.page.getByRole('button', { name: 'Close the scan' }).click();

@@ -4,7 +4,6 @@ import { type Browser, expect, type Locator } from '@playwright/test';
 import { saved, stenosis } from './controls';
 import { Viewer } from './page';
 
-/** A file written by the Python package (`expected/make.py`). */
 export const expected = (name: string): string =>
   readFileSync(new URL(`./expected/${name}`, import.meta.url), 'utf-8');
 export const PYTHON = JSON.parse(expected('measuring.json'));
@@ -75,13 +74,11 @@ export class MeasuredTube {
     return Math.min(...(await this.viewer.size('section'))) / 50;
   }
 
-  /** Arc length shown in a row (mm). */
   async arcLength(name: string): Promise<number> {
     const words = (await this.row(name).textContent()) ?? '';
     return Number.parseFloat(/ at ([\d.]+) mm/.exec(words)?.[1] ?? '');
   }
 
-  /** Removes all marks. */
   async nothingMarked(): Promise<void> {
     for (const name of ['place-0', 'reference-0', 'reference-1']) {
       const remove = this.row(name).getByRole('button', { name: /^Remove/ });

@@ -17,7 +17,6 @@ async function choose(files: ReturnType<typeof series>): Promise<void> {
   await viewer.page.locator('input[type=file]').first().setInputFiles(files);
 }
 
-/** Presses a mend and waits for the scan; returns its size. */
 async function mended(words: RegExp, button: string): Promise<readonly number[] | undefined> {
   await expect(viewer.problem).toContainText(words);
   await expect(viewer.problem).not.toContainText(/=True|`\w+`/);

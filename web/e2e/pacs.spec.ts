@@ -37,7 +37,6 @@ test.afterEach(() => {
   }
 });
 
-/** Serves the built page with the Python package. */
 async function served(...words: readonly string[]): Promise<Served> {
   const server = spawn(python, [SCRIPT, 'serve', join(ROOT, 'web/dist'), ...words], {
     env: ENVIRONMENT,
@@ -202,7 +201,6 @@ test('a segmentation is taken as a mask of the scan, and contours are refused by
   await expect(rows(viewer)).toHaveCount(2);
   await expect(nameOf(viewer, 1)).toHaveValue('left renal artery');
   await viewer.rest();
-  // The browser reports the one rejected request.
   expect(viewer.faults).toEqual([expect.stringContaining('422')]);
   await viewer.close();
 });

@@ -13,7 +13,6 @@ interface TestHook extends Asked {
 }
 
 export class Viewer {
-  /** Requests to other origins, and errors. */
   readonly faults: string[] = [];
   /** Position of the last click, and until when (ms) another click there is a double click. */
   private lastClick: { readonly at: Pair; readonly until: number } = { at: [0, 0], until: 0 };
@@ -111,7 +110,6 @@ export class Viewer {
     return { ...camera, size, pixel_spacing: (camera.pixel_spacing * camera.height) / Math.min(...size) };
   }
 
-  /** CSS pixels of a pane. */
   async size(name: PaneName = 'turning'): Promise<Pair> {
     return this.pane(name).evaluate((pane) => [pane.clientWidth, pane.clientHeight]);
   }
@@ -133,7 +131,6 @@ export class Viewer {
     ];
   }
 
-  /** Drags in steps and releases. */
   async drag(from: Pair, [dx, dy]: Pair, options: DragOptions = {}): Promise<void> {
     const { mouse, keyboard } = this.page;
     const [x, y] = await this.place(from, options.pane);
@@ -155,7 +152,6 @@ export class Viewer {
     const [x, y] = await this.place(at, name);
     const { at: last, until } = this.lastClick;
     if (Math.hypot(x - last[0], y - last[1]) <= DOUBLE_NEAR) {
-      // Avoids a double click.
       await this.page.waitForTimeout(Math.max(0, until - Date.now()));
     }
     await this.page.mouse.click(x, y);
@@ -163,7 +159,6 @@ export class Viewer {
     await this.frames();
   }
 
-  /** A tap, without a preceding hover. */
   async tap(at: Pair, name: PaneName = 'turning'): Promise<void> {
     await this.page.touchscreen.tap(...(await this.place(at, name)));
     await this.frames();
@@ -187,7 +182,6 @@ export class Viewer {
     }
   }
 
-  /** Fixes the size of the turning view. */
   async pin([width, height]: Pair): Promise<void> {
     await this.page.addStyleTag({
       content: `[data-testid=turning] { position: absolute; width: ${width}px; height: ${height}px; inset: 0 auto auto 0; }`,
@@ -198,7 +192,6 @@ export class Viewer {
     );
   }
 
-  /** Works in the research menu. */
   async research(work: () => Promise<unknown>): Promise<void> {
     const summary = this.page.getByText('Research', { exact: true });
     await summary.click();
@@ -206,7 +199,6 @@ export class Viewer {
     await summary.click();
   }
 
-  /** A labelled field of the toolbar, its menu or the view. */
   field(words: string): Locator {
     const label = this.page.locator('.toolbar label, .looks label', { hasText: new RegExp(`^${words}`) });
     return label.locator('select, input');
@@ -229,7 +221,6 @@ export class Viewer {
     return { width, height, bytes: Buffer.from(text, 'base64') };
   }
 
-  /** The completed turning view. */
   async picture(): Promise<Pixels> {
     await this.rest();
     return this.pixels();
@@ -245,7 +236,6 @@ export class Viewer {
       ]);
   }
 
-  /** Memory of the module (bytes). */
   memory(): Promise<number> {
     return this.page.evaluate(() => (window as unknown as { lumencutTest: TestHook }).lumencutTest.memory());
   }
@@ -269,7 +259,6 @@ interface DragOptions {
   readonly pane?: PaneName;
   readonly button?: 'left' | 'middle' | 'right';
   readonly modifier?: 'Shift' | 'Control' | 'Alt';
-  /** Keeps the button down. */
   readonly isHeld?: boolean;
 }
 
@@ -290,7 +279,6 @@ export function pageAddress(): string {
   return `http://127.0.0.1:${process.env.LUMENCUT_E2E_PORT}/`;
 }
 
-/** Fragment of a view state. */
 export function viewFragment(state: object): string {
   return `#v1=${encodeURIComponent(JSON.stringify(state))}`;
 }

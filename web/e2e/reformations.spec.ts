@@ -36,7 +36,6 @@ async function opened(browser: Browser, phantom: string, state: Partial<ViewStat
 
 const choice = (viewer: Viewer, words: string) => viewer.page.getByLabel(words, { exact: true });
 
-/** Selects the reformation of a message by the pane's controls. */
 async function choose(viewer: Viewer, asked: Reformation): Promise<void> {
   await choice(viewer, 'Reformation').selectOption(asked.kind);
   if (asked.kind === 'uncurl') {

@@ -58,7 +58,6 @@ const SHOWN: Readonly<Partial<Record<PaneName, readonly [number, number, number]
   sagittal: [1, 2, -1],
 };
 
-/** Extent of the scan (mm). */
 const EXTENT = COUNTS.map((count) => count * SIDE) as [number, number, number];
 
 /** Pixel of a position in a slice that shows the whole scan (mm from its centre). */
@@ -78,7 +77,6 @@ export async function clickAt(viewer: Viewer, at: Pair, pane: PaneName = 'corona
   await viewer.click(await pixelAt(viewer, at, pane), pane);
 }
 
-/** Traces the tube at `x` between two heights; waits for `count` vessels. */
 export async function traceTube(viewer: Viewer, x: number, [from, to]: Pair, count: number): Promise<void> {
   await clickAt(viewer, [x, from]);
   await expectBegun(viewer);

@@ -28,7 +28,6 @@ const PYTHON = process.env.LUMENCUT_PYTHON ?? join(ROOT, '.venv/bin/python');
 test.describe.configure({ mode: 'serial' });
 
 let viewer: Viewer;
-/** The session file, and the page's state when it was saved. */
 let session: Buffer;
 let before: Awaited<ReturnType<typeof told>>;
 let picture: Awaited<ReturnType<Viewer['pixels']>>;
@@ -182,7 +181,6 @@ test('a session of another scan is refused in words, and nothing changes', async
   await openInstead();
 });
 
-/** Opens the scan of the session. */
 async function openInstead(): Promise<void> {
   await viewer.problem.getByRole('button', { name: 'Close' }).click();
   await choose(viewer, SCAN);

@@ -26,7 +26,6 @@ for (const [name, viewport] of [
     ]);
     expect(page).toEqual([viewport.width, viewport.height]);
     const [width, height] = await viewer.size();
-    // The main view stays the largest.
     expect(width * height).toBeGreaterThan(0.25 * viewport.width * viewport.height);
     expect(isEmpty(await viewer.pixels())).toBe(false);
     await expect(viewer.field('Layout')).toBeInViewport({ ratio: 1 });
@@ -118,7 +117,6 @@ test.describe('touch', () => {
   });
 });
 
-/** Serious findings of axe. */
 async function seriousFaults({ page }: Viewer): Promise<readonly string[]> {
   const { violations } = await new AxeBuilder({ page }).analyze();
   return violations

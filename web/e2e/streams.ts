@@ -22,7 +22,6 @@ export const VOLUME: StreamParts = {
   name: 'made for a test',
 };
 
-/** The stream's header; `magic` and `text` allow broken ones. */
 export function header(parts: object, magic = 'LCVOLUME', text = JSON.stringify(parts)): Buffer {
   const bytes = Buffer.from(text);
   const padded = Buffer.concat([bytes, Buffer.alloc((16 - ((12 + bytes.length) % 16)) % 16, 0x20)]);
@@ -43,7 +42,6 @@ export function voxels({ size: [columns, rows, slices] }: StreamParts): Buffer {
 
 export const WHOLE = Buffer.concat([header(VOLUME), voxels(VOLUME)]);
 
-/** Axis of the tube, as a VTK file. */
 export const CENTERLINE = `# vtk DataFile Version 3.0
 axis
 ASCII

@@ -11,7 +11,6 @@ test('a stretch, its C-arm angles, and the angle to another one', async ({ brows
   await aorta.press('m');
   const mark = aorta.page.getByRole('button', { name: 'Mark a stretch' });
   await expect(mark).toBeVisible({ timeout: 30_000 });
-  // Half way along it, as in Python.
   const choice = aorta.page.getByRole('combobox', { name: /^Vessel \d/ });
   await choice.selectOption(await choice.inputValue());
   await mark.click();

@@ -39,7 +39,6 @@ async function traceTo(viewer: Viewer, end: readonly [number, number], count: nu
 
 test('a page without vessels offers the three ways to them', async ({ browser }) => {
   const viewer = await untraced(browser);
-  // Each is large enough for a finger.
   const offer = viewer.page.locator('.trace-bar.offer');
   for (const words of ['Find all vessels', 'Trace one vessel', 'I have centerlines']) {
     const box = await offer.getByRole('button', { name: words }).boundingBox();

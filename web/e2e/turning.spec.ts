@@ -135,7 +135,6 @@ test('keys choose the windows, and the strip and its list do so too', async () =
   await presets.selectOption({ label: 'Soft tissue (3)' });
   await expect(viewer.window).toHaveText('W 400 L 40');
   await expect(chosen).toHaveText('Soft tissue (3)');
-  // Narrow windows show only the list.
   const narrow = viewer.page.viewportSize();
   await viewer.page.setViewportSize({ width: 1600, height: 560 });
   const level = viewer.page.getByRole('slider', { name: 'Level of the window' });
@@ -175,7 +174,6 @@ test('space turns until it is pressed again', async () => {
   await viewer.reset();
   const camera = await viewer.camera();
   await viewer.press(' ');
-  // The view turns with time.
   await viewer.page.waitForTimeout(400);
   await viewer.press(' ');
   await viewer.rest();

@@ -6,7 +6,6 @@ import { NARROWED, openScan, STRAIGHT, traceTube, tubes } from './scans';
 
 const SIZE = { width: 1200, height: 760 };
 const SCAN = tubes('tubes.nrrd');
-/** Minimum number of steps. */
 const STEPS = 30;
 
 let viewer: Viewer;
@@ -38,7 +37,6 @@ async function step(words: RegExp, edit: () => Promise<unknown>): Promise<void> 
   await expect(viewer.page.locator('.trace-bar span').filter({ hasText: 'Tracing …' })).toHaveCount(0);
 }
 
-/** Returns their number. */
 async function editVessels(): Promise<number> {
   const { page } = viewer;
   await startTracing(viewer);
@@ -64,7 +62,6 @@ async function editVessels(): Promise<number> {
   await step(/hide a vessel/, () => button(viewer, 'Hide Vessel 2').click());
   await step(/show a vessel/, () => button(viewer, 'Show Vessel 2').click());
   await step(/hide a vessel/, () => button(viewer, 'Hide Vessel 2').click());
-  // A hidden vessel's row only offers to show it.
   await expect(rows(viewer).nth(1).locator('.buttons')).toHaveCount(0);
   await step(/show a vessel/, () => button(viewer, 'Show Vessel 2').click());
   // It is picked once displayed.
@@ -83,7 +80,6 @@ async function editVessels(): Promise<number> {
   return 2 + 4 + 11;
 }
 
-/** Returns their number. */
 async function editMarks(): Promise<number> {
   const numbers = viewer.page.getByTestId('numbers');
   await viewer.press('m');
@@ -130,7 +126,6 @@ test('thirty steps and more are undone to the beginning and done again, and the 
     for (let n = 1; n < count; n++) {
       await viewer.press(key);
     }
-    // Exactly as many steps.
     await button(viewer, words).click();
     await expect(button(viewer, words)).toBeDisabled();
     await expect(button(viewer, other)).toBeEnabled();
@@ -155,7 +150,6 @@ test('nothing of a study is left in the next one', async () => {
   await blur.getByLabel('Known FWHM').fill('0.9');
   await blur.getByLabel('Known FWHM').press('Enter');
   await expect(blur).toContainText(', given.');
-  // An unfinished ruler.
   await button(viewer, 'Ruler').click();
   await viewer.click([0.4, 0.5], 'section');
   await choose(viewer, tubes('next.nrrd', 5));

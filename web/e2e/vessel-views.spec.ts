@@ -43,7 +43,6 @@ function tube(): MadeFile {
   );
 }
 
-/** Its axis, with the radius of a circle of the same area. */
 function centerline(): MadeFile {
   const radius = Math.sqrt(AXES[0] * AXES[1]);
   const rows = Array.from({ length: 41 }, (_, n) => `${LEFT},0,${n - 20},${radius}`);
@@ -63,7 +62,6 @@ test.afterAll(() => viewer.close());
 const bar = (): Locator => viewer.page.getByTestId('place-turn');
 const angle = (): Locator => bar().getByRole('slider');
 
-/** Diameters in the bar: this cut, smallest and largest so far (mm). */
 async function diameters(): Promise<number[]> {
   const words = (await bar().getByRole('status').textContent()) ?? '';
   return [...words.matchAll(/([\d.]+) mm/g)].map(([, number]) => Number(number));

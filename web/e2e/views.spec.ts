@@ -55,7 +55,6 @@ test('a click in the turning view puts the cross-hair into all views', async () 
   const [x, y] = await viewer.hair('turning');
   expect(Math.abs(x - 0.3 * width)).toBeLessThan(2);
   expect(Math.abs(y - 0.7 * height)).toBeLessThan(2);
-  // The patient's right is on the left.
   for (const pane of ['axial', 'coronal'] as const) {
     expect((await viewer.hair(pane))[0]).toBeLessThan((await viewer.size(pane))[0] / 2 - 5);
   }
@@ -105,7 +104,6 @@ test('a notch of the wheel goes one slice, with Shift ten, by the distance of th
   };
   const before = await height();
   await viewer.wheel([0.5, 0.5], 120, 'axial');
-  // One slice of 0.5 mm towards the feet, then ten back.
   await expect.poll(async () => (await height()) - before).toBeCloseTo(-0.5, 5);
   await viewer.page.keyboard.down('Shift');
   await viewer.wheel([0.5, 0.5], -100, 'axial');
@@ -224,7 +222,6 @@ test('in a window of another size all views fill their panes', async () => {
   await viewer.rest();
 });
 
-/** Drops the last digits. */
 function rounded(state: object): unknown {
   const number = (value: unknown) => (typeof value === 'number' ? Number(value.toFixed(9)) : value);
   return JSON.parse(JSON.stringify(state, (_, value) => number(value)));

@@ -24,12 +24,10 @@ const STENT = [9, 64] as const;
 const LIMB = [8.4, -71.7] as const;
 const SIZE = { width: 1400, height: 860 };
 const MOST_CLICKS = 12;
-/** A percentage with its method, references and mm. */
 const GRADED = /\d+ % of the diameter.*NASCET.*\d+\.\d\d? mm/;
 
 test('by mouse, from the file of a scan to the report', async ({ browser }) => {
   test.skip(!existsSync(SCAN), 'there are no real scans beside the repository');
-  // Time limit of the whole workflow.
   test.setTimeout(60_000);
   const viewer = await Viewer.open(browser, '?device=cpu', { viewport: SIZE });
   const { page } = viewer;
@@ -100,7 +98,6 @@ test('by keys alone, from the start page to the report', async ({ browser }) => 
   }
   await viewer.press('Enter');
   await traced(viewer, 1);
-  // Enter twice ends the vessel; Escape ends the tool.
   await viewer.press('Enter');
   await expect(button(viewer, 'End this vessel')).toHaveCount(0);
   await viewer.screenshot('keys-traced');

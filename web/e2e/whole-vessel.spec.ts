@@ -34,7 +34,6 @@ test('a vessel and the one that hangs on it take two actions each: a click and E
   }
   const { clicks, keys } = await counted();
   expect([clicks, keys]).toEqual([2, 2]);
-  // The trunk continues into the left branch; both are connected and form the whole junction.
   await button(viewer, 'Done').click();
   await viewer.rest();
   await viewer.screenshot('whole-vessel-done');
@@ -70,7 +69,6 @@ test('by keys alone: Enter twice at the cross-hair, and the key w', async ({ bro
   await startTracing(viewer);
   await viewer.click(await at(viewer, TRUNK), 'coronal');
   await expectBegun(viewer);
-  // The point is removed; the cross-hair stays.
   await viewer.press('Backspace');
   await expect(button(viewer, 'Whole vessel')).toHaveCount(0);
   await viewer.press('Enter');

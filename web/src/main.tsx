@@ -21,7 +21,6 @@ import { followView, restore, stateOf } from './url/fragment';
 
 const asked = new URLSearchParams(window.location.search);
 
-/** An address from the page's URL, or from the server. */
 function addressOf(name: string): string | null {
   const meta = document.querySelector<HTMLMetaElement>(`meta[name="lumencut-${name}"]`);
   const address = asked.get(name) ?? meta?.content ?? null;

@@ -11,7 +11,6 @@ import {
 
 const WIDTH = 64;
 
-/** A ramp with some channels changed. */
 function ramp(changes: Readonly<Record<number, number>> = {}): Pixels {
   const bytes = Uint8Array.from({ length: WIDTH * WIDTH * 4 }, (_, n) => (changes[n] ?? 0) + (n % 200));
   return { width: WIDTH, height: WIDTH, bytes };

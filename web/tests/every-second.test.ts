@@ -15,7 +15,6 @@ class Closable extends Memory {
   close(): void {}
 }
 
-/** World position of an index. */
 const placed = (affine: readonly (readonly number[])[], index: readonly number[]) =>
   affine.slice(0, 3).map((row) => row.reduce((sum, value, a) => sum + value * (index[a] ?? 1), 0));
 
@@ -30,7 +29,6 @@ function streamed(size: [number, number, number], dtype: keyof typeof ARRAYS, un
   const next = random(count);
   for (let at = 0; at < count; ) {
     const end = Math.min(count, at + 1 + Math.floor(next() * 1.7 * size[0]));
-    // Embedded at an odd offset.
     const piece = new Uint8Array(1 + (end - at) * unit).subarray(1);
     piece.set(bytes.subarray(at * unit, end * unit));
     sink.take_voxels(at * unit, piece);

@@ -23,17 +23,14 @@ export class FakeTracing implements Asked {
   readonly lines: LineContent[] = [];
   readonly edits: EditRequest[] = [];
   readonly shown: (readonly ListedLine[])[] = [];
-  /** Notes of each edit. */
   notes: readonly string[] = [];
   /** Delays edits and trees. */
   gate: Promise<void> = Promise.resolve();
   windows: Report['windows'] = null;
   private lastId = 100;
 
-  /** Names of the questions, in order. */
   readonly trips: Question[] = [];
 
-  /** Dispatches to the method of the question's name. */
   ask<N extends Question>(name: N, message: Message<N>): Promise<Answer<N>> {
     this.trips.push(name);
     return (this as unknown as Answering)[name](message) as Promise<Answer<N>>;
@@ -49,7 +46,6 @@ export class FakeTracing implements Asked {
     return this.lines.length - 1;
   }
 
-  /** Every section lies at its arc length along z. */
   async across({ at }: Message<'across'>): Promise<Answer<'across'>> {
     return [
       [0, 0, at],
@@ -177,7 +173,6 @@ export class FakeTracing implements Asked {
 
 type Answering = Readonly<Record<Question, (message: unknown) => Promise<unknown>>>;
 
-/** A study with vessels of 10 mm. */
 export function reportOf(lines: readonly NamedLine[]): Report {
   const volume = {
     size: [1, 1, 1],

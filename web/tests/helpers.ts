@@ -3,7 +3,6 @@ import { expect } from 'vitest';
 import type { Camera, Vector } from '../src/core/messages';
 import { cross, dot, length } from '../src/core/vectors';
 
-/** Anterior view. */
 export const CAMERA: Camera = {
   center: [10, -20, 30],
   direction: [0, 1, 0],

@@ -46,7 +46,6 @@ test('with leave a change is kept, and is offered after a reload; what is saved 
   change('add', withLines(document_.value, 1));
   await later();
   expect(sessions()).toEqual(['session of 1']);
-  // After a reload, the scan is opened again.
   begin(EMPTY);
   end();
   held.set('lumencut-session', 'session of 1');

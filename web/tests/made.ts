@@ -27,14 +27,12 @@ export function gzipped(bytes: Uint8Array): Buffer {
   return gzipSync(bytes);
 }
 
-/** A copy with one byte changed. */
 export function changed(bytes: Uint8Array, at: number): Buffer {
   const copy = Buffer.from(bytes);
   copy[at] = (copy[at] ?? 0) ^ 0xff;
   return copy;
 }
 
-/** A zip archive of one member that claims to unpack to `claimed` bytes. */
 export function archived(name: string, bytes: Uint8Array, claimed = bytes.length): Buffer {
   const packed = deflateRawSync(bytes);
   const fields = Buffer.alloc(26);

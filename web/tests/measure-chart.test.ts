@@ -76,7 +76,6 @@ describe('curves', () => {
     const [low, high] = spreadOf(profile);
     expect(low[20]).toBeCloseTo(7.8, 12);
     expect(high[20]).toBeCloseTo(8.2, 12);
-    // Excluded sections have none.
     expect(low[118]).toBeNull();
   });
 

@@ -58,7 +58,6 @@ function fields(table: string): (number | string)[] {
 
 const withoutNumbers = (json: string) => json.replace(/-?\d+\.\d+(e[+-]?\d+)?/g, '0');
 
-/** Answers for the first vessel, with the names in `measured.py`. */
 async function answers(engine: Asked, line: number, length: number, { at, references }: Truth['asked']) {
   const { stenosis: graded } = await engine.ask('grade', {
     line,
@@ -91,7 +90,6 @@ async function answers(engine: Asked, line: number, length: number, { at, refere
   };
 }
 
-/** The report of a vessel, with blank pictures. */
 async function reported(engine: Asked, vessel: MeasuredVessel, length: number): Promise<string> {
   const { places } = await engine.ask('report_plan', vessel);
   return engine.ask('measured_report', {

@@ -114,7 +114,6 @@ describe('what a notebook asks its kernel for', () => {
 });
 
 describe('gestures of a notebook', () => {
-  /** The value of a constant in a file. */
   function constant(file: string, name: string): number {
     const text = readFileSync(join(import.meta.dirname, file), 'utf-8');
     const found = new RegExp(`^(?:export const |const |_)?${name} = ([\\d.e-]+)`, 'm').exec(text);

@@ -24,7 +24,6 @@ export interface Header {
 
 const modules = fileURLToPath(new URL('../node_modules', import.meta.url));
 
-/** Receives the volume. */
 export class Memory {
   header: Header | null = null;
   lines = '';
@@ -54,7 +53,6 @@ export class Memory {
   }
 }
 
-/** A volume, or the failure. */
 export interface Result {
   readonly memory: Memory;
   readonly states: States | null;
@@ -74,7 +72,6 @@ export function sourceOf(path: string, name: string): Source {
   return new BlobSource(name, new Blob([readFileSync(path)]));
 }
 
-/** All files below a folder. */
 export function below(folder: string): Source[] {
   const every = readdirSync(folder, { recursive: true }).map((name) => join(folder, String(name)));
   const files = every.filter((path) => statSync(path).isFile());

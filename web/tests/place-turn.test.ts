@@ -135,7 +135,6 @@ describe('a turn', () => {
   test('is put back to its first view by Escape where a drag began before that was reached', async () => {
     vi.stubGlobal('window', { matchMedia: () => ({ matches: false }) });
     const turn = { camera: FIRST, diameters: DIAMETERS };
-    // The flight's views are pending.
     answer = () => (questions.length > 1 ? new Promise(() => undefined) : Promise.resolve(turn));
     await togglePlaceTurn(engine);
     expect([store.camera.value, destination.value]).toEqual([CAMERA, FIRST]);

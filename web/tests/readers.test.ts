@@ -19,7 +19,6 @@ function opened({ path, folder, kind, wanted = {} }: Expected): Promise<Result> 
   return openSources(sources, { others: kind === 'volume' ? below(folder) : sources, wanted });
 }
 
-/** Series of real size take seconds on a busy machine. */
 const LONGEST = 60_000;
 
 describe.skipIf(truths.length === 0)('read as Python reads', { timeout: LONGEST }, () => {

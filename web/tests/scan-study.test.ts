@@ -12,7 +12,6 @@ const sources = series([0, 2, 4]).map(
 );
 const read = (): Promise<LookedInto[]> =>
   Promise.all(sources.map((source) => lookInto(source, new Recorder({ SOPInstanceUID: [] }))));
-/** A plan of the last slices only. */
 const plan = { slices: [{ file: 1 }, { file: 2 }] } as unknown as Plan;
 
 test('it has the header of one slice without its pixels, and the UIDs of all that were read', async () => {

@@ -12,7 +12,6 @@ const files = readdirSync(SRC, { recursive: true, encoding: 'utf8' }).filter(
   (name) => /\.tsx?$/.test(name) && !name.startsWith('core/pkg'),
 );
 
-/** Files that a file imports, including types. */
 function imported(name: string): string[] {
   const text = readFileSync(join(SRC, name), 'utf8');
   const found = [...text.matchAll(/(?:from|import)\s*\(?['"](\.[^'"]*)['"]/g)].map((match) => match[1] ?? '');
@@ -23,7 +22,6 @@ function imported(name: string): string[] {
 /** Folder of a file within src; `main.tsx` has none. */
 const folderOf = (name: string): string => name.split(/[/\\]/).slice(0, -1)[0] ?? name;
 
-/** An import cycle; empty if none. */
 function circle(graph: ReadonlyMap<string, readonly string[]>): string[] {
   const done = new Set<string>();
   const walk = (name: string, way: string[]): string[] => {

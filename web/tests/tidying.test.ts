@@ -45,7 +45,6 @@ const factsAmong = (vessels: readonly DocumentVessel[]): readonly LineFacts[] =>
 
 const asked: string[] = [];
 
-/** Removes, accepts and leaves out like the engine. */
 function edited({ document, edit }: EditRequest): object {
   const { kind, ids = [] } = edit as { kind: string; ids?: readonly number[] };
   const vessels =

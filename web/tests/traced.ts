@@ -12,11 +12,9 @@ initSync({ module: readFileSync(new URL('../src/core/pkg/lumencut_bg.wasm', impo
 export interface Opened {
   readonly engine: Asked;
   readonly report: () => Report;
-  /** Cancels all previous requests. */
   readonly cancel: () => void;
 }
 
-/** An engine with an open phantom. */
 export async function opened(phantom: string, scale = 1): Promise<Opened> {
   const module = await Engine.open('cpu');
   module.open_phantom(phantom, scale);

@@ -10,7 +10,6 @@ import { EMPTY, edited, lineOf, opened } from './traced';
 
 interface Truth {
   readonly phantom: string;
-  /** A file of its mask. */
   readonly mask: string;
   readonly clicks: readonly (readonly Vector[])[];
   readonly lines: readonly LineContent[];
@@ -74,7 +73,6 @@ describe.skipIf(every.length === 0)('as Python', () => {
       expect(apart(found, truth)).toBeLessThan(LAST_BITS);
       expect(found.bridged).toEqual(truth.bridged);
     }
-    // Equal numbers give equal bytes.
     const own = await Promise.all(lines.map((line) => engine.ask('add_line', line)));
     const named = own.map((line, n) => ({ line, name: `vessel ${n}` }));
     for (const kind of ['vtp', 'mrk.json'] as const) {

@@ -41,7 +41,6 @@ export function everyTruth(): readonly Expected[] {
   return existsSync(path) ? JSON.parse(readFileSync(path, 'utf-8')) : [];
 }
 
-/** Runs Python, which writes the files and its results. */
 function written(): string | null {
   const python = join(here, '../../.venv/bin/python');
   if (!existsSync(python)) {

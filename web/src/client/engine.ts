@@ -71,7 +71,6 @@ export class EngineClient implements Asked {
     return heard(this.host.changeDevice(device));
   }
 
-  /** Resolves when the current GPU is lost. */
   loss(): Promise<void> {
     return heard(this.host.loss());
   }
@@ -96,7 +95,6 @@ export class EngineClient implements Asked {
     return this.first(this.host.openFiles(files, wish, proxy(told)));
   }
 
-  /** The part of a DICOM file before its pixels. */
   dicomHead(file: GivenFile): Promise<Uint8Array<ArrayBuffer>> {
     return this.first(this.host.dicomHead(file));
   }

@@ -8,7 +8,6 @@ export type Answer<N extends Question> = Questions[N]['answer'];
 
 export type Told = (progress: Progress) => void;
 
-/** What accompanies a question. */
 export interface Beside {
   readonly told?: Told;
   readonly bytes?: Uint8Array;

@@ -31,11 +31,9 @@ export interface About {
   readonly point: number | null;
 }
 
-/** Optional details of an error. */
 export interface More {
   readonly mends?: readonly Mend[];
   readonly about?: About;
-  /** The DICOM series to choose from. */
   readonly series?: readonly SeriesChoice[];
   /** Position in the volume (mm, LPS), and the value there. */
   readonly place?: Vector;

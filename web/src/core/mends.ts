@@ -26,7 +26,6 @@ export type MendName = (typeof MEND_NAMES)[number];
 
 export interface Mend {
   readonly name: MendName;
-  /** Choices such as units or phases. */
   readonly values: readonly string[];
 }
 

@@ -12,7 +12,6 @@ export interface States {
   readonly orientation: boolean;
 }
 
-/** A dropped or chosen file, with its path. */
 export interface GivenFile {
   readonly path: string;
   readonly file: File;
@@ -26,11 +25,8 @@ export interface SeriesWish {
   readonly phase?: string;
   readonly fill_gaps?: boolean;
   readonly resample_slices?: boolean;
-  /** Coordinate system of the centerlines. */
   readonly coordinates?: string;
-  /** Unit of the centerlines. */
   readonly unit?: string;
-  /** Whether to sort the points of the centerlines. */
   readonly reorder?: boolean;
   /** Loads every second voxel along each axis, to save memory. */
   readonly every_second?: boolean;
@@ -57,7 +53,6 @@ export interface Started {
   readonly table: readonly SettingRow[];
   readonly looks: readonly LookRow[];
   readonly regions: readonly RegionRow[];
-  /** The reasons for doubtful vessels. */
   readonly doubts: readonly DoubtRow[];
   /** Shared byte by which the page stops the worker. */
   readonly stop: { readonly buffer: SharedArrayBuffer; readonly address: number } | null;

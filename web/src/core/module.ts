@@ -22,7 +22,6 @@ let held: WebAssembly.Memory | null = null;
 /** Memory of the module (bytes); it never shrinks. */
 export const memorySize = (): number => held?.buffer.byteLength ?? 0;
 
-/** Loads the module into this worker. */
 export async function loadModule(): Promise<Shared> {
   const address = new URL('./pkg/lumencut_bg.wasm', import.meta.url);
   const module = await WebAssembly.compileStreaming(fetch(address));
@@ -37,7 +36,6 @@ export function joinModule({ module, memory }: Shared): void {
   run_thread();
 }
 
-/** Uses workers that already wait in `joinModule`. */
 export function useThreads(count: number): void {
   use_threads(count);
 }

@@ -17,7 +17,6 @@ export interface Look {
   readonly spacing: number;
 }
 
-/** Shows the whole volume. */
 export function fittedLook(volume: VolumeReport, name: SliceName, size: Pair): Look {
   const center = middle(volume.corners);
   const { right, down } = AXES[name];
@@ -59,7 +58,6 @@ export function pannedLook(look: Look, name: SliceName, [x, y]: Pair): Look {
   return { ...look, center: add(look.center, shift) };
 }
 
-/** Magnifies; the point at the pixel stays fixed. */
 export function zoomedLook(look: Look, plane: Plane, factor: number, at: Pair): Look {
   const spacing = Math.min(Math.max(look.spacing / factor, 0.005), 20);
   const kept = pointOn(plane, at);

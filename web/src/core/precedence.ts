@@ -17,7 +17,6 @@ export class Precedence {
 
   constructor(private readonly stop: () => void) {}
 
-  /** Registers a view until it ends. */
   async view<T>(isRefining: boolean, drawn: Promise<T>): Promise<T> {
     const own: UnderWay = { isRefining, isStopped: false };
     this.underWay = own;

@@ -1,7 +1,6 @@
 /** Requests to the Python server of the page; a plain file server offers none. */
 import { Failure } from './failure';
 
-/** DICOM objects, the study of a chosen DICOM file, or the mask of a segmentation. */
 export type Made = 'objects' | 'study' | 'mask';
 
 /** Address of a service. Throws if the page has no such server. */
@@ -40,7 +39,6 @@ export async function made(what: Made, subject: string, content: object): Promis
     : failure;
 }
 
-/** Base64, for JSON. */
 export function inBase64(bytes: Blob): Promise<string> {
   return new Promise((resolve) => {
     const reader = new FileReader();

@@ -1,7 +1,6 @@
 /** Types of a session file, which the module validates. Lengths in mm. */
 import type { Pair, SettingValue, Vector } from './plain';
 
-/** Grid of the scan of the session. */
 export interface SavedScan {
   readonly size: Vector;
   readonly world_from_index: readonly (readonly number[])[];
@@ -24,11 +23,9 @@ export interface SavedMarks {
   readonly group: string | null;
   readonly stretch_mm: Pair | null;
   readonly second_stretch_mm: Pair | null;
-  /** Absent if there are none. */
   readonly diameters_mm?: readonly number[];
 }
 
-/** A branch not yet accepted, without its line. */
 export interface SavedBranch {
   readonly color: string;
   readonly doubt: string;
@@ -49,7 +46,6 @@ export interface SavedView {
   readonly picked: { readonly vessel: number; readonly at_mm: number } | null;
 }
 
-/** A session without its lines. */
 export interface SavedSession {
   readonly scan: SavedScan | null;
   readonly vessels: readonly SavedVessel[];

@@ -51,7 +51,6 @@ const SINGLE = [
 
 const ANATOMY: readonly string[] = [...SINGLE, ...SIDED.flatMap((name) => [`Left ${name}`, `Right ${name}`])];
 
-/** Alphabetical, without names already in use. */
 export function namesToOffer(taken: readonly string[]): string[] {
   const used = new Set(taken.map((name) => name.trim().toLowerCase()));
   return ANATOMY.filter((name) => !used.has(name.toLowerCase())).sort((a, b) => a.localeCompare(b, 'en'));

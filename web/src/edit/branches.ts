@@ -46,13 +46,11 @@ async function showMain(engine: Asked): Promise<void> {
   }
 }
 
-/** The widest line; the longest if no width is known. */
 function widest(facts: readonly LineFacts[]): LineFacts | null {
   const isLess = (a: LineFacts, b: LineFacts) => (a.calibre ?? 0) - (b.calibre ?? 0) || a.length - b.length;
   return [...facts].sort(isLess).at(-1) ?? null;
 }
 
-/** Finds all vessels and opens the list. */
 export async function findAndList(engine: Asked, doubtful = false): Promise<void> {
   if (await findVessels(engine, doubtful)) {
     openList();
@@ -62,7 +60,6 @@ export async function findAndList(engine: Asked, doubtful = false): Promise<void
 export const addMask = (engine: Asked, mask: readonly GivenFile[]): Promise<boolean> =>
   addMany(engine, { kind: 'add_mask' }, mask);
 
-/** Adds the vessels of a DICOM segmentation, named by its segments. */
 export async function addSegmentation(engine: Asked, file: GivenFile): Promise<boolean> {
   try {
     const { mask, names, notes: told } = await maskOf(file);
@@ -74,7 +71,6 @@ export async function addSegmentation(engine: Asked, file: GivenFile): Promise<b
   }
 }
 
-/** Adds vessels; the engine's remarks become notes. */
 function addMany(
   engine: Asked,
   edit: Edit,

@@ -14,14 +14,12 @@ export function beginVessel(
   return commit(engine, { kind: 'begin_vessel', clicks }, { then });
 }
 
-/** Id of the vessel that was begun. */
 export const begunId = (answer: AfterEdit | null): number | null => answer?.edited.added[0] ?? null;
 
 /** Returns null if the click was rejected. */
 export const addClick = (engine: Asked, id: number, point: Vector): Promise<AfterEdit | null> =>
   commit(engine, { kind: 'add_click', id, point });
 
-/** Adds a click where the user grabbed the line. */
 export const addClickOnLine = (engine: Asked, id: number, point: Vector): Promise<boolean> =>
   isDone(commit(engine, { kind: 'add_click_on_line', id, point }));
 
@@ -32,6 +30,5 @@ export const moveClick = (engine: Asked, id: number, number: number, point: Vect
 export const removeClick = (engine: Asked, id: number, number: number): Promise<boolean> =>
   isDone(commit(engine, { kind: 'remove_click', id, number }));
 
-/** Whether vessels continue where no lumen is visible. */
 export const setBridge = (engine: Asked, bridge: boolean): Promise<boolean> =>
   isDone(commit(engine, { kind: 'set_bridge', bridge }));

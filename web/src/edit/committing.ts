@@ -16,7 +16,6 @@ export interface Refusal {
   readonly bridge: (() => void) | null;
 }
 
-/** Number of running and waiting edits. */
 export const waiting = signal(0);
 export const refusal = signal<Refusal | null>(null);
 
@@ -51,9 +50,7 @@ interface Step<T> {
   readonly words: string;
   readonly after: Document;
   readonly result: T;
-  /** Absent for changes that only the page makes. */
   readonly answer?: AfterEdit;
-  /** Changes state outside of the document. */
   readonly also?: () => void;
 }
 
@@ -111,7 +108,6 @@ function refuse(failure: Failure, bridge: (() => void) | null): void {
   }
 }
 
-/** Reports the rejection and shows its position in all views. */
 export function tellRefusal(failure: Failure, bridge: (() => void) | null = null): void {
   refusal.value = { failure, bridge };
   problem.value = failure;
@@ -121,7 +117,6 @@ export function tellRefusal(failure: Failure, bridge: (() => void) | null = null
   }
 }
 
-/** Whether the failure is a gap, which can be bridged. */
 export const isGap = (failure: Failure): boolean => failure.isMendedBy('bridge');
 
 /** Clears the error message when the user tries something else. */
@@ -162,15 +157,12 @@ function teller(own: number): { told: (progress: Progress) => void; end: () => v
   return { told, end };
 }
 
-/** A change made by the page alone. */
 export function commitPlain(words: string, edit: (document: Document) => Document): Promise<boolean> {
   return isDone(inTurn(() => ({ words, after: edit(document_.value), result: words }), null));
 }
 
-/** What accompanies an edit. */
 interface Beside {
   readonly mask?: readonly GivenFile[];
-  /** Changes the vessels that the edit added. */
   readonly renamed?: (vessel: DocumentVessel) => DocumentVessel;
   /** Called with the result when the document changes, also after a gap was bridged. */
   readonly then?: (edited: Edited) => void;
@@ -199,7 +191,6 @@ export function commit(engine: Asked, edit: Edit, beside: Beside = {}): Promise<
   return inTurn(edit.kind === 'add_branches' ? askedAbout(found) : found, again);
 }
 
-/** Counts the work as a search. */
 function counted<T>(work: Work<T>): Work<T> {
   return async (told) => {
     searches.value += 1;
@@ -217,7 +208,6 @@ function withNames(edited: Edited, renamed: (vessel: DocumentVessel) => Document
   return { ...edited, document: { ...document, vessels } };
 }
 
-/** Asks the user about work that takes long. */
 function askedAbout<T>(work: Work<T>): Work<T> {
   return async (told) => {
     const timer = setTimeout(() => {

@@ -26,7 +26,6 @@ export function countedDoubts(vessels: readonly DocumentVessel[]): string {
   return `${vessels.length} doubtful: ${counted.join(', ')}`;
 }
 
-/** Index of the selected doubtful branch, and their number. */
 export function placeOfDoubt(): readonly [number, number] {
   const all = doubtful(document_.value);
   return [all.findIndex((vessel) => vessel.id === chosenDoubt.value), all.length];
@@ -51,7 +50,6 @@ export async function showDoubt(engine: Asked, vessel: DocumentVessel): Promise<
 /** Smallest field of view (mm, shorter side), so that the surroundings identify the branch. */
 const LEAST_SEEN = 80;
 
-/** The best view of a line with its surroundings. */
 async function viewOf(engine: Asked, from: Camera, line: LineId): Promise<Camera> {
   const best = await engine.ask('best_view', { camera: from, line });
   return { ...best, pixel_spacing: Math.max(best.pixel_spacing, LEAST_SEEN / Math.min(...best.size)) };
@@ -67,7 +65,6 @@ export function stepDoubt(engine: Asked, by: 1 | -1): void {
   }
 }
 
-/** Accepts or leaves out the selected branch, then selects the next. */
 export async function answerDoubt(engine: Asked, answer: 'accept' | 'leave out'): Promise<void> {
   const chosen = vesselOf(document_.value, chosenDoubt.value);
   if (!chosen?.doubt) {

@@ -13,9 +13,7 @@ import { active, tool } from '../state/tool';
 export const first = signal<Vector | null>(null);
 /** A point from a projection that the user must confirm in the slices. */
 export const candidate = signal<Vector | null>(null);
-/** World position of the pointer. */
 export const target = signal<Vector | null>(null);
-/** A point whose path is being traced. */
 interface Coming {
   readonly point: Vector;
   readonly drawing: number;
@@ -25,14 +23,12 @@ export const coming = signal<readonly Coming[]>([]);
 /** Number of the vessel being drawn; late results of earlier ones are ignored. */
 export const drawing = signal(0);
 
-/** A click being dragged. */
 export interface Dragged {
   readonly id: number;
   readonly number: number;
   readonly point: Vector;
 }
 export const dragged = signal<Dragged | null>(null);
-/** A stopper being dragged, by its number. */
 export const draggedStopper = signal<Omit<Dragged, 'id'> | null>(null);
 
 /** A path preview; straight if none was found. */
@@ -45,10 +41,8 @@ export const livePaths = signal<readonly LivePath[]>([]);
 /** The vessel that the next point extends; null if it begins a new one. */
 export const drawn = computed(() => vesselOf(document_.value, active.value));
 
-/** Colour of the vessel being drawn, known before it exists. */
 export const drawnColor = computed(() => drawn.value?.color ?? nextColor(document_.value.vessels));
 
-/** The point from which the vessel continues. */
 export const anchor = computed<Vector | null>(
   () =>
     coming.value.findLast((one) => one.drawing === drawing.value)?.point ??

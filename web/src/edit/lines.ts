@@ -28,7 +28,6 @@ export function followLines(engine: Asked): () => void {
   });
 }
 
-/** Stores lines that came with an edit. */
 function take(given: readonly NumberedLine[], wanted: readonly LineId[]): void {
   const missing = given.filter(({ line }) => wanted.includes(line) && !asked.has(line));
   if (missing.length > 0) {

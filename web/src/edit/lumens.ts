@@ -5,7 +5,6 @@ import type { Pair, PointedAt, PointedLumen } from '../core/messages';
 import { length, subtract } from '../core/vectors';
 import type { ViewName } from '../state/store';
 
-/** Lumens at the pointer position. */
 interface UnderPointer {
   readonly view: ViewName;
   readonly at: Pair;
@@ -15,7 +14,6 @@ interface UnderPointer {
 
 export const pointed = signal<UnderPointer | null>(null);
 
-/** The lumen that a click takes. */
 export const meant = computed<PointedLumen | null>(() => pointed.value?.lumens[pointed.value.number] ?? null);
 
 /** Finds the lumens at the pointer; returns the selected one, or null. */

@@ -9,12 +9,10 @@ import { forgetRefusal } from './committing';
 import { openList } from './list-open';
 import { endVessel } from './pointing';
 
-/** The doubtful branch that the user selected. */
 export const chosenDoubt = signal<number | null>(null);
 
 const TRACING: readonly Tool[] = ['trace', 'stopper', 'seed'];
 
-/** Whether clicks set points, stoppers or seeds. */
 export const isTracing = (): boolean => TRACING.includes(tool.value);
 
 interface Kept {
@@ -46,7 +44,6 @@ export function followTool(): () => void {
         // A maximised slice would hide the traced vessel.
         store.maximised.value = null;
         before = null;
-        // The cross-hair was at the last click.
         untracked(() => moveTo(store.pickedPlace.value));
       }
     });
@@ -62,7 +59,6 @@ function show({ layout, context }: Kept): void {
   untracked(() => setSetting('context', context));
 }
 
-/** Activates a tool, or deactivates it. */
 export function toggleTool(wanted: Tool): void {
   tool.value = tool.value === wanted ? 'look' : wanted;
 }

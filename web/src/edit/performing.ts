@@ -23,7 +23,6 @@ export function performAny(engine: EngineClient, action: Action): void {
   }
 }
 
-/** Returns whether the action was an edit. */
 function edit(engine: EngineClient, action: Action): boolean {
   switch (action) {
     case 'trace':
@@ -116,7 +115,6 @@ export function undoLast(engine: EngineClient): void {
 
 /** Escape: stops an edit, then closes messages, then leaves the tool. */
 function cancelEdit(engine: EngineClient): boolean {
-  // The live path reappears when the pointer moves.
   target.value = null;
   if (waiting.value > 0) {
     stopEdits(engine);

@@ -15,10 +15,8 @@ import { anchor, candidate, coming, drawing, drawn, first, forgetDrawing, isDraw
 import { addStopper } from './stoppers';
 import { checked, only, whole } from './whole-shown';
 
-/** Points closer than this are one point (mm). */
 const SAME = 0.05;
 
-/** The vessel whose first trace is running. */
 let beginning: Promise<AfterEdit | null> | null = null;
 
 /** Sets a point, a stopper or a seed. Returns the value at the point, or null. */
@@ -104,7 +102,6 @@ async function checkFirst(engine: Asked, point: Vector): Promise<Pick | null> {
   }
 }
 
-/** Whether the point itself caused the rejection. */
 function isBlamed(point: Vector | null): boolean {
   const place = refusal.value?.failure.place;
   return Boolean(point && place && length(subtract(place, point)) < SAME);
@@ -163,7 +160,6 @@ export function leave(): boolean {
   return true;
 }
 
-/** Removes the last point of the vessel being drawn. */
 export function removeLast(engine: Asked): void {
   const clicks = drawn.value?.clicks;
   if (candidate.value) {

@@ -13,13 +13,11 @@ export interface NamedMask {
   readonly notes: readonly string[];
 }
 
-/** Whether the files are one DICOM segmentation or RT Structure Set. */
 export async function isSegmentation(files: readonly GivenFile[]): Promise<boolean> {
   const [only] = files;
   return files.length === 1 && only !== undefined && CLASSES.test(await only.file.slice(0, HEAD).text());
 }
 
-/** The mask on the grid of the open scan. */
 export async function maskOf({ file }: GivenFile): Promise<NamedMask> {
   const volume = report.value?.volume;
   const known = scanStudy.value;

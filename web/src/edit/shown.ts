@@ -21,7 +21,6 @@ const linesOf = (vessels: readonly DocumentVessel[]): string =>
     .map(({ line }) => line)
     .join();
 
-/** A vessel to pick as soon as it is displayed. */
 export const toPick = signal<number | null>(null);
 
 /** Picks a vessel at half its length, now or as soon as it is displayed. */
@@ -36,7 +35,6 @@ export function pickOnceShown(id: number): void {
   });
 }
 
-/** Id of the picked vessel. */
 export const pickedId = (): number | null => tree.value[store.pickedVessel.value ?? -1]?.id ?? null;
 
 const listOf = (vessels: readonly DocumentVessel[]): readonly ListedLine[] =>
@@ -69,7 +67,6 @@ export function beginDocument(document: Document): void {
   });
 }
 
-/** Displays the document again if the engine shows another tree. */
 export function showAgain(engine: Asked): Promise<void> {
   shownText = '';
   return show(engine);
@@ -95,7 +92,6 @@ export function followDocument(engine: Asked): () => void {
   });
 }
 
-/** Stores the engine's report; moves the cross-hair if its vessel is gone. */
 async function takeUp(engine: Asked, report: Report, document: Document): Promise<void> {
   const isLeft = batch(() => {
     listedLines.value = linesOf(document.vessels);
@@ -106,7 +102,6 @@ async function takeUp(engine: Asked, report: Report, document: Document): Promis
   }
 }
 
-/** Ignores errors of a study closed meanwhile. */
 function tellOf(study: Report['volume'] | undefined, error: unknown): void {
   if (study === store.report.value?.volume) {
     store.problem.value = Failure.of(error);

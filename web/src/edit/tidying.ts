@@ -62,12 +62,10 @@ function isMarked(vessel: DocumentVessel): boolean {
   return length < shorterThan.value || (calibre !== null && calibre < thinnerThan.value);
 }
 
-/** Ids of vessels below the limits. */
 export const marked = computed<ReadonlySet<number>>(
   () => new Set(sure.value.filter(isMarked).map((vessel) => vessel.id)),
 );
 
-/** Ids of vessels not connected to the picked one. */
 export const apart = computed<readonly number[]>(() => {
   const picked = sure.value.find((vessel) => vessel.id === pickedId());
   const part = picked && factsOf(picked)?.part;

@@ -6,7 +6,6 @@ import { factsOf, sure } from './tidying';
 
 export interface ListedVessel {
   readonly vessel: DocumentVessel;
-  /** Number of ancestors. */
   readonly depth: number;
 }
 

@@ -23,7 +23,6 @@ function set(words: string, id: number, to: Partial<DocumentVessel>): Promise<bo
 export const remove = (engine: Asked, ids: readonly number[]): Promise<boolean> =>
   isDone(commit(engine, { kind: 'remove', ids }));
 
-/** Cuts a vessel at an arc length (mm). */
 export const cut = (engine: Asked, id: number, at: number): Promise<boolean> =>
   isDone(commit(engine, { kind: 'cut', id, at }));
 

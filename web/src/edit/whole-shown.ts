@@ -14,7 +14,6 @@ export const only = computed<Vector | null>(() =>
     : null,
 );
 
-/** Null if none is known. */
 export const whole = signal<WholeVessel | null>(null);
 
 /** A first point whose answer already includes the whole vessel. */

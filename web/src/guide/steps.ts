@@ -23,7 +23,6 @@ const TURNED = Math.cos(Math.PI / 9);
 /** Current step, counted from 0; null without a tour. */
 export const guideStep = signal<number | null>(null);
 
-/** Viewing direction at the start of the step. */
 let directionAtFirst: Vector | null = null;
 
 const isTraced = (): boolean => document_.value.vessels.some((vessel) => (vessel.clicks?.length ?? 0) >= 2);
@@ -88,7 +87,6 @@ export const STEPS: readonly GuideStep[] = [
   },
 ];
 
-/** Opens the phantom without its centerlines. */
 export async function startGuide(): Promise<void> {
   await openPhantom(engine, 'stenosis');
   if (store.report.value) {
@@ -101,7 +99,6 @@ export function leaveGuide(): void {
   guideStep.value = null;
 }
 
-/** Continues with the next step, or ends after the last. */
 export function nextStep(): void {
   const step = guideStep.peek();
   if (step !== null) {

@@ -67,10 +67,8 @@ export interface Binding {
   readonly gesture: Gesture;
   readonly button?: Button;
   readonly modifier?: Modifier;
-  /** `KeyboardEvent.key`. */
   readonly key?: string;
   readonly action: Action;
-  /** Text in the help. */
   readonly words: string;
 }
 
@@ -236,7 +234,6 @@ export function actionOfKey(name: string, modifier: Modifier = ''): Action | nul
   return (rowOf(name) ?? rowOf(name.toLowerCase()))?.action ?? null;
 }
 
-/** Name of the input in the help. */
 export function inputName(row: Binding): string {
   const name = row.gesture === 'key' ? keyName(row.key ?? '') : buttonName(row);
   return row.modifier ? `${row.modifier}+${name}` : name;

@@ -36,7 +36,6 @@ export interface Handlers {
 
 type Place = [number, number];
 
-/** Returns the function that stops listening. */
 export function listen(element: HTMLElement, where: Where, handlers: Handlers): () => void {
   const gestures = new Pointers(element, where, handlers);
   const stop = new AbortController();
@@ -83,7 +82,6 @@ class Pointers {
   }
 
   down(event: PointerEvent): void {
-    // Controls over the view handle their own presses.
     if ((event.target as Partial<Element> | null)?.closest?.('button, input, select')) {
       return;
     }

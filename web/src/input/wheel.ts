@@ -3,7 +3,6 @@
 /** Threshold between mouse and trackpad (pixels): a notch is 100 to 120, a trackpad event far less. */
 const NOTCH_FROM = 60;
 const NOTCH = 110;
-/** Lines per notch, in browsers that report lines. */
 const NOTCH_LINES = 3;
 /** Pixels of a trackpad or finger per step. */
 const STEP = 40;
@@ -23,7 +22,6 @@ export class Steps {
     return Math.sign(by) * Math.max(1, Math.round(notches));
   }
 
-  /** Whole steps of a movement in pixels. */
   ofPixels(pixels: number): number {
     this.rest += pixels;
     const steps = Math.trunc(this.rest / STEP);

@@ -22,7 +22,6 @@ export const ARRAYS = {
 } as const;
 
 export class EverySecond implements Study {
-  /** Share of the voxels that is kept. */
   readonly share = 1 / 8;
   private size: Size = [0, 0, 0];
   private Voxels: (typeof ARRAYS)[keyof typeof ARRAYS] = Uint8Array;
@@ -54,7 +53,6 @@ export class EverySecond implements Study {
   /** Keeps voxels with three even indices; voxels arrive in storage order. */
   take_voxels(offset: number, bytes: Uint8Array): void {
     const unit = this.Voxels.BYTES_PER_ELEMENT;
-    // Typed views need aligned bytes.
     const whole = bytes.byteOffset % unit === 0 ? bytes : bytes.slice();
     const voxels = new this.Voxels(whole.buffer as ArrayBuffer, whole.byteOffset, whole.length / unit);
     const first = offset / unit;
@@ -83,7 +81,6 @@ export class EverySecond implements Study {
     }
   }
 
-  /** Number of voxels kept before a row. */
   private keptBefore(row: number): number {
     const [ni, nj] = this.size;
     const rows = (Math.floor(row / nj) / 2) * Math.ceil(nj / 2) + (row % nj) / 2;

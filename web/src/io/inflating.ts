@@ -13,7 +13,6 @@ const PIECE = 1 << 20;
 const MOST_EMPTY = 1000;
 const MAGIC = 2;
 
-/** One part of a compressed stream, with bounded output. */
 export class Part {
   private readonly stream = new ZStream();
   /** Whether the part ended with a valid checksum. */
@@ -30,7 +29,6 @@ export class Part {
     return this.stream.avail_in === 0;
   }
 
-  /** Input after the end. */
   get rest(): Uint8Array {
     return this.stream.input.subarray(this.stream.next_in, this.stream.next_in + this.stream.avail_in);
   }

@@ -6,11 +6,9 @@ import { fileName, type Source } from './source';
 
 export type Kind = 'nifti' | 'nrrd' | 'metaimage' | 'dicom' | 'zip' | 'centerlines' | 'empty' | 'other';
 
-/** A file, its kind, and advice if it is not readable. */
 export interface Known {
   readonly source: Source;
   readonly kind: Kind;
-  /** Such as `a NIfTI volume`. */
   readonly words: string;
   readonly mend: string;
 }

@@ -13,18 +13,15 @@ export const ARRAYS = {
   float64: Float64Array,
 } as const;
 
-/** NumPy name of a type. */
 export type Kind = keyof typeof ARRAYS;
 
 export type Numbers = InstanceType<(typeof ARRAYS)[Kind]>;
 
 export interface StoredKind {
   readonly kind: Kind;
-  /** Big-endian. */
   readonly isBig: boolean;
 }
 
-/** Types that the engine computes with. */
 const OF_THE_ENGINE: readonly Kind[] = ['uint8', 'int16', 'uint16', 'float32'];
 
 /** Engine type for a file type: bytes exactly, wider numbers to 24 bits. */
@@ -66,7 +63,6 @@ export function kindName(numbers: Numbers): Kind {
   return found ?? 'float64';
 }
 
-/** Limits of an integer type. */
 export function limits(kind: Kind): readonly [bigint, bigint] {
   const bits = BigInt(8 * byteCount(kind));
   return kind.startsWith('u') ? [0n, (1n << bits) - 1n] : [-(1n << (bits - 1n)), (1n << (bits - 1n)) - 1n];

@@ -14,7 +14,6 @@ export interface Segment {
 /** Label names of a volume, and how its layers become one label map. */
 export interface Labels {
   readonly names: Readonly<Record<number, string>>;
-  /** Values per voxel in the file. */
   readonly layers: number;
   /** Null if the values already are labels. */
   readonly map: LabelMap | null;
@@ -23,7 +22,6 @@ export interface Labels {
 const FIELD = /^Segment(\d{1,6})_(ID|Name|LabelValue|Layer):=(.*)$/;
 const LARGEST_NUMBER = 65535;
 
-/** Whether a header line describes a segment. */
 export const isOfSegment = (line: string): boolean => FIELD.test(line);
 
 /** Segments of a header. They keep their label numbers unless shared; then they count from 1. */
@@ -48,7 +46,6 @@ export function segmentsOf(lines: readonly string[], layers: number): Segment[] 
   return isUnique ? segments : segments.map((one, place) => ({ ...one, number: place + 1 }));
 }
 
-/** Rejects missing layers and invalid labels. */
 export function labelsOf(
   path: string,
   stored: StoredKind,
@@ -70,7 +67,6 @@ export function labelsOf(
   return { names, layers, map: isAsStored ? null : new LabelMap(path, stored, segments, layers) };
 }
 
-/** Converts layer values to labels. */
 export class LabelMap {
   readonly kind: Kind;
   private readonly overlaps = new Map<string, number>();

@@ -32,7 +32,6 @@ export class BlobSource implements Source {
 /** Finds a file named by another one; null if absent. */
 export type Beside = (path: string) => Promise<Source | null>;
 
-/** File name without folders. */
 export function fileName(path: string): string {
   return path.slice(path.lastIndexOf('/') + 1);
 }
@@ -42,7 +41,6 @@ export function besidePath(path: string, name: string): string {
   return path.slice(0, path.lastIndexOf('/') + 1) + name;
 }
 
-/** Looks up files given together. */
 export function among(sources: readonly Source[]): Beside {
   return async (path) => sources.find((source) => source.path === path) ?? null;
 }

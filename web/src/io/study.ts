@@ -15,9 +15,7 @@ import { formatFailure } from './words';
 
 /** Receives a study: the engine, or a test double. */
 export interface Study extends Sink {
-  /** Returns notes. */
   openCenterlines(bytes: Uint8Array, name: string): readonly string[];
-  /** Notes on the sides of a straightened volume, from a text in its file. */
   sideNotes?(text: string): readonly string[];
 }
 
@@ -28,7 +26,6 @@ export interface Means {
 }
 
 export interface Opened {
-  /** Null if there was none. */
   readonly volume: Volume | null;
   readonly notes: readonly string[];
 }
@@ -47,7 +44,6 @@ const VOLUMES =
   'a DICOM folder, file or zip archive, NIfTI (.nii, .nii.gz, .hdr + .img), NRRD (.nrrd, .nhdr) or MetaImage (.mha, .mhd)';
 const LINES = 'centerlines (.vtp, .vtk, .mrk.json, .fcsv, .swc, .csv, .pth)';
 
-/** Files by kind. */
 interface Sorted {
   readonly volumes: readonly Known[];
   readonly dicom: readonly Source[];
@@ -110,7 +106,6 @@ function isVoxelsOf({ source }: Known, every: readonly Known[]): boolean {
   );
 }
 
-/** Rejects ambiguous selections. */
 function requireOne({ volumes, dicom, archives, lines, others }: Sorted): void {
   const every = [...volumes.map((one) => one.source), ...archives, ...dicom.slice(0, 1)];
   const [first, second] = every;

@@ -12,13 +12,10 @@ export type Size = readonly [number, number, number];
 /** World (LPS, mm) from voxel indices, row by row. */
 export type Affine = readonly (readonly number[])[];
 
-/** Header for the engine. */
 interface Grid {
   readonly size: Size;
   readonly world_from_index: Affine;
-  /** Acquisition data, if stated. */
   readonly scan?: object;
-  /** Names of the labels of a mask. */
   readonly label_names?: object;
 }
 
@@ -43,7 +40,6 @@ export interface VolumeFile {
   readonly states: States;
   /** Description in the file, which may name a patient: only the engine reads it. */
   readonly content?: string;
-  /** Labels of a label map. */
   readonly labels?: Labels | null;
 }
 
@@ -60,7 +56,6 @@ export function begin(sink: Sink, path: string, grid: Grid, dtype: string): void
   }
 }
 
-/** Reads the voxels of a file into the engine. */
 export async function load(file: VolumeFile, sink: Sink, steps: Steps): Promise<void> {
   requireNumbers(file);
   const needed = file.size.reduce((count, side) => count * side, storedBytes(file));
@@ -83,7 +78,6 @@ export async function load(file: VolumeFile, sink: Sink, steps: Steps): Promise<
   map?.refuseOverlaps();
 }
 
-/** Bytes per voxel in the file. */
 const storedBytes = ({ stored, labels }: VolumeFile): number =>
   byteCount(stored.kind) * (labels?.layers ?? 1);
 
@@ -113,7 +107,6 @@ async function rangeOf(file: VolumeFile, needed: number, steps: Steps): Promise<
   return [low, high];
 }
 
-/** Voxel bytes in pieces of whole voxels. */
 async function* wholeVoxels(file: VolumeFile, needed: number): AsyncGenerator<Bytes> {
   const unit = storedBytes(file);
   let begun: Bytes = new Uint8Array();

@@ -19,12 +19,10 @@ export function damaged(subject: string, found: string, expected: string): Failu
   return formatFailure(subject, found, expected, COPY_AGAIN);
 }
 
-/** Replaces line breaks and invisible characters. */
 export function printable(text: string): string {
   return text.replace(/[\p{C}\p{Zl}\p{Zp}]|(?! )\p{Zs}/gu, '\ufffd');
 }
 
-/** A header value as one short printable line. */
 export function shown(value: unknown): string {
   const text = printable(String(value));
   return text.length <= LONGEST_VALUE ? text.trim() : `${text.slice(0, LONGEST_VALUE - 1)}…`;

@@ -7,7 +7,6 @@ import { placeCrossHair } from './cross-hair';
 
 const latest = new Latest();
 
-/** Moves section and cross-hair to an arc length (mm). */
 export function moveTo(place: number): void {
   const vessel = pickedVessel.value;
   const length = vessel === null ? 0 : (report.value?.vessels?.[vessel]?.length ?? 0);
@@ -21,7 +20,6 @@ export function moveTo(place: number): void {
     try {
       const [center] = await engine.ask('across', { vessel, at: at });
       const pick = { ...(await engine.ask('at', center)), vessel, arc_length: at };
-      // Another study has other positions.
       if (report.value?.volume === study) {
         placeCrossHair(pick, 'section');
       }
@@ -31,5 +29,4 @@ export function moveTo(place: number): void {
   });
 }
 
-/** Moves them by a length (mm). */
 export const moveAlong = (by: number): void => moveTo(pickedPlace.value + by);

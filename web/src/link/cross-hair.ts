@@ -12,7 +12,6 @@ export function placeCrossHair(pick: Pick, from: ViewName): void {
       vessel: pick.vessel,
       arcLength: pick.arc_length,
     };
-    // Pointing into a section does not move it.
     if (pick.vessel !== null && from !== 'section') {
       pickedVessel.value = pick.vessel;
       pickedPlace.value = pick.arc_length ?? pickedPlace.value;

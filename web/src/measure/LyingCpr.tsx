@@ -13,7 +13,6 @@ import { type Axis, valueAt } from './scale';
 interface LyingCprProps {
   readonly x: Axis;
   readonly lying: Lying;
-  /** Available height (CSS pixels). */
   readonly height: number;
 }
 

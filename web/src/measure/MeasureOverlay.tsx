@@ -51,7 +51,6 @@ interface SliceMeasuresProps {
   readonly where: string;
 }
 
-/** Rulers with ends in a slice. */
 export function SliceMeasures({ plane, where }: SliceMeasuresProps) {
   const normal = cross(plane.right, plane.down);
   const isSeen = (point: Vector) => Math.abs(dot(subtract(point, plane.center), normal)) <= IN_SLICE;

@@ -10,7 +10,6 @@ import { mm, placeName } from './words';
 export const colorOfPlace = ({ is_reference: isReference, name }: ReportPlace): string =>
   COLORS[isReference ? 'reference' : name === 'noted diameter' ? 'diameter' : 'place'];
 
-/** Colours on the dark background of pictures. */
 export const COLORS: Readonly<Record<Kind, string>> = {
   place: '#ff6b6b',
   reference: '#7ee787',
@@ -23,7 +22,6 @@ export const COLORS: Readonly<Record<Kind, string>> = {
 const STEP = 0.5;
 
 interface PlaceHandlesProps {
-  /** Such as `in the profile`. */
   readonly view: string;
   /** Null if the place is not visible. */
   pixelAt(at: number, place: Place): Pair | null;

@@ -113,12 +113,10 @@ const gripOf = (kind: string, height: number): number => (isStretch(kind) ? heig
 
 interface PlaceLinesProps {
   readonly x: Axis;
-  /** Borders of the chart (CSS pixels). */
   readonly top: number;
   readonly bottom: number;
 }
 
-/** Vertical lines through vessel and chart: one per place, and one for the section. */
 function PlaceLines({ x, top, bottom }: PlaceLinesProps) {
   const section = pixelAt(x, store.pickedPlace.value);
   const places = currentPlaces.value;

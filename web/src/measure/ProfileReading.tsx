@@ -13,7 +13,6 @@ const STEP = 0.5;
 interface ProfileReadingProps {
   readonly profile: Profile;
   readonly x: Axis;
-  /** Top of the chart in the pane (CSS pixels). */
   readonly top: number;
   readonly hovered: number | null;
   onHover(at: number | null): void;

@@ -26,11 +26,9 @@ const CLICK_WITHIN = 4;
 
 /** Projection of world points in a picture. */
 export interface Seen {
-  /** Such as `on the vessels`. */
   readonly where: string;
   pixelOf(point: Vector): Pair;
   pointAt(pixel: Pair): Promise<Vector>;
-  /** Whether a point lies in the picture plane. */
   isSeen(point: Vector): boolean;
 }
 
@@ -50,7 +48,6 @@ export function RulerLayer({ seen }: { readonly seen: Seen }) {
       <span ref={place} hidden />
       {document_.value.rulers.map((ruler, number) =>
         seen.isSeen(ruler.from) && seen.isSeen(ruler.to) ? (
-          // Rulers are identified by their index only.
           <RulerView key={`ruler ${number}`} ruler={ruler} number={number} seen={seen} />
         ) : null,
       )}

@@ -7,10 +7,8 @@ import { beginLength, endLength, lengthFrom, markHere, noteDiameter } from './ed
 import { isFull } from './marks';
 import { mm } from './words';
 
-/** Height of the bar (CSS pixels). */
 export const TOOLS = 28;
 interface SectionToolsProps {
-  /** Column of the section, and width of the pane (CSS pixels). */
   readonly column: number;
   readonly width: number;
   readonly top: number;

@@ -88,7 +88,6 @@ function Numbers({ which, ends, stretch, profile }: NumbersProps) {
   );
 }
 
-/** Shows the stretch from the C-arm angle. */
 function turnThere({ view }: Stretch, ends: Pair, profile: Profile): void {
   const camera = store.camera.value;
   const points = ends.map((at) => centerAt(profile, at)).filter((point) => point !== null);

@@ -72,7 +72,6 @@ function wantedLines(): readonly LineId[] {
   return vessel && store.layout.value === 'measure' ? [vessel.line] : [];
 }
 
-/** Requests the sentences of measured findings while the report is shown. */
 function tellFindings(latest: Latest): void {
   if (store.layout.value !== 'report') {
     return;
@@ -111,7 +110,6 @@ function unlessGone(error: unknown): null {
   throw error;
 }
 
-/** Requests everything the engine derives from marks. */
 export async function asked(line: LineId, profile: Profile, marks: VesselMarks): Promise<Answers> {
   const [suggested, { stenosis, not_graded }, stretches] = await Promise.all([
     offeredBeside(line, marks),

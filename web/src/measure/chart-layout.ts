@@ -11,7 +11,6 @@ export const RIGHT = 104;
 /** Margins for legend and read-out above, and ticks below. */
 const ABOVE = 38;
 const BELOW = 34;
-/** Height of a row of flags. */
 export const ROW = 12;
 /** Height of a flag label; with lower rows the labels spread upwards. */
 const WORD = 11;
@@ -26,11 +25,9 @@ export interface ChartLayout {
   readonly row: number;
   /** Spacing of the flag labels; the last one aligns with the last row. */
   readonly wordRow: number;
-  /** Bottom of the plot, below the flag rows. */
   readonly bottom: number;
 }
 
-/** Axis along the vessel for a picture width. */
 export function axisAlong(length: number, width: number): Axis {
   return { low: 0, high: length, start: LEFT, end: Math.max(width - RIGHT, LEFT + 20) };
 }

@@ -41,7 +41,6 @@ export const currentProfile = computed<Profile | null>(() => {
   return found && 'profile' in found ? found.profile : null;
 });
 
-/** Why the vessel cannot be measured. */
 export const currentFailure = computed<Failure | null>(() => {
   const found = measured.value;
   return found && 'failure' in found ? found.failure : null;
@@ -52,11 +51,9 @@ export const currentMarks = computed<VesselMarks | null>(() => {
   return vessel && marksOf(document_.value, vessel.line);
 });
 
-/** The engine's answers about the marks. */
 export interface Answers {
   readonly suggested: Suggested;
   readonly stenosis: Stenosis | null;
-  /** Why a marked place has no percentage. */
   readonly notGraded: string | null;
   /** Doubts about the percentage, or about that of the suggested places. */
   readonly doubts: readonly string[];

@@ -66,7 +66,6 @@ export function bandPath(
     .join('');
 }
 
-/** Sections whose neighbours have no value. */
 export const lonely = (values: readonly (number | null)[]): number[] =>
   stretches(values).flatMap((run) => (run.length === 1 ? run : []));
 
@@ -74,7 +73,6 @@ function pointOf(x: Axis, y: Axis, at = 0, value: number | null = 0): string {
   return `${pixelAt(x, at).toFixed(2)} ${pixelAt(y, value ?? 0).toFixed(2)}`;
 }
 
-/** Diameter minus and plus `DEVIATIONS` standard deviations. */
 export function spreadOf(profile: Profile): readonly [(number | null)[], (number | null)[]] {
   const widths = counted(profile, profile.diameter);
   const by = (sign: number) =>

@@ -21,7 +21,6 @@ import { snapped } from './sections';
 import { withMarks } from './vessels';
 import { placeName } from './words';
 
-/** The state at the start of a drag. */
 interface Drag {
   readonly place: Place;
   readonly marks: VesselMarks;
@@ -34,13 +33,11 @@ let drag: Drag | null = null;
 /** Whether the dragged reference passed the stenosis, which swaps the handles. */
 export const isCrossed = signal(false);
 
-/** The document with other marks of the picked vessel. */
 function documentWith(marks: VesselMarks): Document {
   const vessel = currentVessel.value;
   return vessel ? withMarks(document_.value, vessel.line, marks) : document_.value;
 }
 
-/** Changes the marks as one undo step. */
 export function changeMarks(words: string, how: (marks: VesselMarks) => VesselMarks): void {
   const before = currentMarks.value ?? NO_MARKS;
   const after = how(before);
@@ -84,7 +81,6 @@ export function putBack(): void {
   }
 }
 
-/** Marks the stenosis or a reference at the section. */
 export function markHere(kind: 'place' | 'reference'): void {
   const profile = currentProfile.value;
   if (profile) {
@@ -114,7 +110,6 @@ export function beginLength(): void {
   }
 }
 
-/** Ends the length at the section and marks a stretch. */
 export function endLength(): void {
   const [from, profile] = [lengthFrom.value, currentProfile.value];
   if (from !== null && profile) {
@@ -124,7 +119,6 @@ export function endLength(): void {
   }
 }
 
-/** Turns a suggestion into a mark. */
 export function confirm(place: Place): void {
   if (place.isSuggestion) {
     changeMarks(`take the ${placeName({ ...place, isSuggestion: false })}`, (marks) => taken(marks, place));
@@ -138,7 +132,6 @@ export function confirmAll(): void {
     changeMarks('take the suggested places', (marks) =>
       allConfirmed(profile, marks, answers.value.suggested),
     );
-    // Show what was confirmed.
     if (compared) {
       moveTo(compared.at);
     }

@@ -9,10 +9,8 @@ import * as store from '../state/store';
 import { marksOf } from './vessels';
 
 export interface Finding {
-  /** Index in the displayed tree. */
   readonly vessel: number;
   readonly line: LineId;
-  /** May be empty. */
   readonly name: string;
   readonly length: number;
   readonly marks: VesselMarks;
@@ -23,7 +21,6 @@ export const isMarked = ({ at, references, stretch, secondStretch, diameters }: 
   [references, diameters].some((places) => places.length > 0) ||
   (stretch ?? secondStretch) !== null;
 
-/** A displayed vessel with its marks. */
 export function findingOf(vessel: number): Finding | null {
   const shown = store.report.value?.vessels?.[vessel];
   return shown
@@ -37,7 +34,6 @@ export function findingOf(vessel: number): Finding | null {
     : null;
 }
 
-/** Findings on displayed vessels, in list order. */
 export const listedFindings = computed<readonly Finding[]>(() =>
   (store.report.value?.vessels ?? []).flatMap((_, vessel) => {
     const finding = findingOf(vessel);
@@ -51,10 +47,8 @@ export const hiddenFindings = computed<readonly string[]>(() => {
   return vessels.filter(({ id, isHidden }) => isHidden && marks[id] && isMarked(marks[id])).map(nameOf);
 });
 
-/** Lines of findings excluded from the report. */
 export const leftOut = signal<ReadonlySet<LineId>>(new Set());
 
-/** Excludes or includes a finding. */
 export function leaveOut(line: LineId, isOut: boolean): void {
   const others = [...leftOut.value].filter((other) => other !== line);
   leftOut.value = new Set(isOut ? [...others, line] : others);

@@ -2,14 +2,12 @@
 
 import type { FlagLook, Pair, Profile } from '../core/messages';
 
-/** One line per flag, with its meaning. */
 export const meanings = ({ flag_table }: Profile, words: readonly string[]): string =>
   flag_table
     .filter(({ word }) => words.includes(word))
     .map(({ word, meaning }) => `${word}: ${meaning}`)
     .join('\n');
 
-/** Flags that occur, in their order. */
 export function flagsIn({ flags, flag_table }: Profile): readonly FlagLook[] {
   const found = new Set(flags.flat());
   return flag_table.filter(({ word }) => found.has(word));

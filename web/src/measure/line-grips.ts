@@ -10,7 +10,6 @@ export const HIT = 22;
 /** Movement up to this is a click (CSS pixels). */
 const STILL = 4;
 
-/** The line nearest to a column, within reach. */
 export function nearestLine(places: readonly Place[], x: Axis, column: number): Place | null {
   const away = (place: Place) => Math.abs(pixelAt(x, place.at) - column);
   const [nearest] = [...places].sort((a, b) => away(a) - away(b));

@@ -6,16 +6,12 @@ import type { Axis } from './scale';
 const WIDTHS: Pair = [12, 90];
 /** Smallest visible share of the fitting width. */
 const LEAST = 0.6;
-/** Finest pixel (mm). */
 const FINEST = 0.05;
 
-/** Geometry of the strip. */
 export interface Lying {
-  /** Visible width across the vessel (mm). */
   readonly width: number;
   /** Pixel side of the engine's picture (mm). */
   readonly spacing: number;
-  /** Height of the strip (CSS pixels). */
   readonly height: number;
   /** Vertical stretch; 1 is true to scale. */
   readonly stretch: number;
@@ -30,7 +26,6 @@ export interface Room {
   readonly fitting: number;
 }
 
-/** True to scale if there is room. */
 export function lyingIn(x: Axis, { height: most, density, fitting }: Room): Lying {
   const side = (x.high - x.low) / (x.end - x.start);
   const wished = Math.max(LEAST * fitting, Math.min(fitting, most * side));
@@ -44,7 +39,6 @@ export function lyingIn(x: Axis, { height: most, density, fitting }: Room): Lyin
   };
 }
 
-/** Rotates by 90° to the left. */
 export function lyingPicture({ size: [width, height], bytes }: Picture): Picture {
   const from = new Uint32Array(bytes.buffer, bytes.byteOffset, width * height);
   const to = new Uint32Array(width * height);

@@ -20,13 +20,11 @@ export interface Place {
 export type Suggested = readonly [Spot | null, Spot | null];
 export const NOTHING_SUGGESTED: Suggested = [null, null];
 
-/** The stenosis: the marked place, or the narrowest one. */
 export function mainPlace(profile: Profile, marks: VesselMarks): Place | null {
   const at = marks.at ?? profile.narrowest?.at ?? null;
   return at === null ? null : { kind: 'place', slot: 0, at, isSuggestion: marks.at === null };
 }
 
-/** The references before and after the stenosis. */
 export function referenceSlots({ references }: VesselMarks, main: number): [number | null, number | null] {
   const [first, second] = [...references].sort((a, b) => a - b);
   if (first === undefined) {
@@ -35,7 +33,6 @@ export function referenceSlots({ references }: VesselMarks, main: number): [numb
   return second !== undefined ? [first, second] : first < main ? [first, null] : [null, first];
 }
 
-/** Marked places, and the engine's suggestions. */
 export function placesOf(profile: Profile, marks: VesselMarks, suggested: Suggested): Place[] {
   const main = mainPlace(profile, marks);
   const references = main
@@ -44,7 +41,6 @@ export function placesOf(profile: Profile, marks: VesselMarks, suggested: Sugges
   return [...(main ? [main] : []), ...references, ...stretchEnds(marks), ...noted(marks)];
 }
 
-/** The stenosis and its references (mm). */
 export interface ComparedPlaces {
   readonly at: number;
   readonly references: readonly Place[];
@@ -64,7 +60,6 @@ function shownReferences(marks: VesselMarks, main: number, suggested: Suggested)
     if (at !== null) {
       places.push({ kind: 'reference', slot, at, isSuggestion: false, isBefore: at < main });
     } else if (offered !== null) {
-      // A new mark supersedes an older suggestion.
       places.push({ kind: 'reference', slot, at: offered, isSuggestion: true, isBefore: offered < main });
     }
   });
@@ -160,17 +155,14 @@ export function withReference(profile: Profile, marks: VesselMarks, at: number):
   return { ...marks, references: [at, ...(other === null ? [] : [other])].sort((a, b) => a - b) };
 }
 
-/** Noting one position twice changes nothing. */
 export const withDiameter = (marks: VesselMarks, at: number): VesselMarks =>
   marks.diameters.includes(at) ? marks : { ...marks, diameters: [...marks.diameters, at] };
 
-/** Whether both stretches are marked. */
 export const isFull = ({ stretch, secondStretch }: VesselMarks): boolean => Boolean(stretch && secondStretch);
 
 /** Shortest stretch (mm). */
 const LEAST_STRETCH = 1;
 
-/** Marks the first free stretch between two positions in either order. */
 export function withStretch(profile: Profile, marks: VesselMarks, one: number, other: number): VesselMarks {
   const from = within(Math.min(one, other), [0, lengthOf(profile) - LEAST_STRETCH]);
   const ends: Pair = [from, Math.max(one, other, from + LEAST_STRETCH)];
@@ -184,7 +176,6 @@ export function taken(marks: VesselMarks, { kind, at }: Place): VesselMarks {
     : { ...marks, references: [...marks.references, at].sort((a, b) => a - b) };
 }
 
-/** Turns all suggestions into marks. */
 export function allConfirmed(profile: Profile, marks: VesselMarks, suggested: Suggested): VesselMarks {
   return placesOf(profile, marks, suggested)
     .filter((place) => place.isSuggestion)

@@ -13,7 +13,6 @@ export function nearestSection({ arc_length: places }: Profile, at: number): num
   return best;
 }
 
-/** Arc length of the nearest section, where marks are placed. */
 export function snapped(profile: Profile, at: number): number {
   return profile.arc_length[nearestSection(profile, at)] ?? at;
 }
@@ -39,7 +38,6 @@ const ROOM = 2.5;
 const SIZES: Pair = [12, 120];
 export const UNKNOWN_SIDE = 30;
 
-/** Picture side that fits nearly all valid sections (mm). */
 export function fittingSide({ counts, diameter_max: longest }: Profile): number {
   const all = longest.flatMap((value, n) => (value === null ? [] : [{ value, counts: counts[n] }]));
   const counted = all.filter((section) => section.counts);
@@ -63,7 +61,6 @@ export function sectionNumbers(profile: Profile, at: number): SectionNumbers {
   };
 }
 
-/** Centre of the lumen, interpolated. */
 export function centerAt({ arc_length: places, center }: Profile, at: number): Vector | null {
   const after = places.findIndex((place) => place >= at);
   const [b, place] = [center[after], places[after]];

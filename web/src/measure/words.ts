@@ -17,7 +17,6 @@ export function mm(value: number | null, digits = 2): string {
   return value === null ? NOTHING : `${value.toFixed(digits)}${unit('mm')}`;
 }
 
-/** Diameter ± standard deviation, such as `3.02 ± 0.05 mm`. */
 export function spread(diameter: number | null, uncertainty: number | null): string {
   if (diameter === null) {
     return NOTHING;
@@ -56,7 +55,6 @@ export function placeName({ kind, slot, isSuggestion, isBefore }: Place): string
 export const doubtWords = ({ flags, bounds }: SectionNumbers): readonly string[] =>
   bounds === null ? flags : [...flags, told(bounds)];
 
-/** One line about a section. */
 export function sectionWords(section: SectionNumbers): string {
   const { at, diameter, uncertainty, shortest, longest, counts } = section;
   const parts = [`${mm(at, 1)}:`];

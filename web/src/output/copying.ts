@@ -13,7 +13,6 @@ export async function copyPicture(picture: Promise<Blob>): Promise<void> {
   tell('The picture is copied');
 }
 
-/** Adds advice if the browser denies the clipboard. */
 async function copied(copy: () => Promise<void>): Promise<void> {
   try {
     await copy();

@@ -1,13 +1,11 @@
 /** Names of saved files: scan, content, side of the view, and time. */
 import type { Vector } from '../core/messages';
 
-/** Parts of a name, in order. */
 export interface Named {
   /** Null if the file must not identify the scan. */
   readonly scan: string | null;
   readonly content: string;
   readonly side?: string | null;
-  /** Without the dot. */
   readonly ending: string;
 }
 

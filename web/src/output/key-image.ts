@@ -10,7 +10,6 @@ import { profileOfLine } from '../state/profiles';
 import { canvasOf, SIDE, sectionPair, straightenedCanvas } from './report-pictures';
 import { fittingSize } from './wrapping';
 
-/** Sections per row. */
 const COLUMNS = 3;
 const WIDTH = COLUMNS * SIDE;
 /** Greatest height of the vessel, and line height of text (pixels). */
@@ -74,7 +73,6 @@ function words(
   context.fillText(text, x, y, widest);
 }
 
-/** Ticks at both edges, clear of the lumen. */
 function line(
   context: CanvasRenderingContext2D,
   { place, x, height }: { readonly place: ReportPlace; readonly x: number; readonly height: number },

@@ -18,7 +18,6 @@ import { reported, reportOf } from './report';
 import { pngOf, straightenedCanvas } from './report-pictures';
 
 const SUBJECT = 'Save for PACS';
-/** Version of the request. */
 const VERSION = 1;
 const UPRIGHT =
   'Straightened CPR. Rows: distance along the vessel, its first point on top. Columns: distance across it.';
@@ -26,18 +25,14 @@ const LYING =
   'Straightened CPR. Columns: distance along the vessel, its first point on the left. Rows: distance across it.';
 /** Width of the straightened vessel without a pane, and the finest pixel (mm). */
 const [WIDTH, FINEST] = [50, 0.25];
-/** Maximum number of columns. */
 const MOST_COLUMNS = 2000;
 
-/** Target study: that of the scan, an anonymous one, or that of a file. */
 export type PacsStudy = 'scan' | 'anonymous' | GivenFile;
 
-/** A chosen DICOM file and its study, for the user to confirm. */
 export interface ChosenFile {
   readonly file: GivenFile;
   /** Name, ID, date, modality and body part with their labels. */
   readonly facts: ReadonlyArray<readonly [string, string]>;
-  /** Warnings, as sentences. */
   readonly doubts: readonly string[];
   /** Why the file is rejected; null if it is not. */
   readonly refusal: string | null;
@@ -47,7 +42,6 @@ export const isPacsAsked = signal(false);
 
 export const chosenFile = signal<ChosenFile | null>(null);
 
-/** Shows the study of a chosen file for confirmation. */
 export async function askAboutFile(file: GivenFile): Promise<void> {
   const content = { study: await studyPart(file), fingerprint: fingerprint() };
   const response = await made('study', SUBJECT, content);
@@ -60,7 +54,6 @@ export async function askForPacs(): Promise<void> {
   isPacsAsked.value = true;
 }
 
-/** Saves the objects of the displayed views. */
 export async function savePacs(study: PacsStudy): Promise<void> {
   tell('Making the DICOM objects …');
   const response = await made('objects', SUBJECT, await requestOf(study));
@@ -113,7 +106,6 @@ async function studyPart(study: PacsStudy): Promise<object> {
   };
 }
 
-/** The turning view as displayed. */
 async function viewPart(): Promise<object> {
   const canvas = await composed('labels');
   const camera = store.camera.value;
@@ -153,7 +145,6 @@ const withWords = (shown: HTMLCanvasElement, axes: string): object => ({
 const pixelWords = (spacing: number): string =>
   store.states.value.spacing ? ` A pixel is ${spacing.toFixed(3)} mm.` : '';
 
-/** A finding with its key image and contours. */
 async function partOf(finding: Finding): Promise<object> {
   const { line, marks } = finding;
   await profileOfLine(engine, line);

@@ -7,9 +7,7 @@ import { studyFileName } from './study-file-names';
 import { wrapped } from './wrapping';
 
 const FONT = '13px system-ui, sans-serif';
-/** Line height and margin (pixels). */
 const [LINE, MARGIN] = [17, 8];
-/** Minimum width for the caption. */
 const LEAST_WIDTH = 320;
 
 export async function savePane(name: ViewName, content: string, words: string): Promise<void> {

@@ -5,7 +5,6 @@ import { BlobReader, BlobWriter, configure, ZipWriter } from '@zip.js/zip.js/lib
 configure({ useWebWorkers: false });
 
 export class PictureArchive {
-  // PNGs are already compressed.
   private readonly zip = new ZipWriter(new BlobWriter('application/zip'), { level: 0 });
   private count = 0;
 

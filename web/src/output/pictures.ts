@@ -10,7 +10,6 @@ import { tell } from '../state/telling';
 import { sideOf } from './file-names';
 import { studyFileName } from './study-file-names';
 
-/** The displayed view, optionally with labels. */
 export async function composed(labels: 'labels' | 'plain'): Promise<HTMLCanvasElement> {
   const shown = document.querySelector<HTMLCanvasElement>('[data-testid=turning] canvas.picture');
   const camera = store.camera.value;
@@ -99,7 +98,6 @@ export function sideOfView(): string | null {
   return camera && store.states.value.orientation ? sideOf(camera.direction) : null;
 }
 
-/** Downloads a file and reports its name. */
 export function saveAs(blob: Blob, name: string, remark = ''): void {
   const link = document.createElement('a');
   link.href = URL.createObjectURL(blob);

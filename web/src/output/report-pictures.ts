@@ -37,10 +37,8 @@ export function canvasOf(width: number, height: number): [HTMLCanvasElement, Can
 
 const pixelsOf = ({ size, bytes }: Picture): ImageData => new ImageData(bytes, size[0], size[1]);
 
-/** PNG in base64. */
 export const pngOf = (canvas: HTMLCanvasElement): string => canvas.toDataURL('image/png').split(',')[1] ?? '';
 
-/** The turning view with labels and marked places. */
 export async function viewPicture(profile: Profile, places: readonly ReportPlace[]): Promise<string> {
   const camera = store.camera.value;
   const canvas = await composed('labels');
@@ -63,7 +61,6 @@ export async function viewPicture(profile: Profile, places: readonly ReportPlace
   return pngOf(canvas);
 }
 
-/** The straightened vessel from left to right. */
 export async function straightened(vessel: number, plan: ReportPlan): Promise<ReportStrip> {
   const canvas = await straightenedCanvas(vessel, plan);
   return { picture: pngOf(canvas), size: [canvas.width, canvas.height], spacing: plan.spacing };
@@ -119,7 +116,6 @@ export async function sectionPair(
   return canvas;
 }
 
-/** The measured plane, centred on the lumen. */
 async function planeOf(
   vessel: number,
   profile: Profile,
@@ -135,7 +131,6 @@ async function planeOf(
   };
 }
 
-/** The scale bar in both pictures. */
 function drawBar(context: CanvasRenderingContext2D, bar: PictureLabels['bar']): void {
   if (!bar) {
     return;

@@ -14,7 +14,6 @@ import { fileName } from './file-names';
 import { saveAs } from './pictures';
 import { pngOf, sectionPair, straightened, viewPicture } from './report-pictures';
 
-/** Whether reports name the scan. */
 export const isScanNamed = signal(false);
 
 export async function saveReport(): Promise<void> {
@@ -40,7 +39,6 @@ export function reported(): readonly Finding[] {
     : [...marked, picked].sort((a, b) => a.vessel - b.vessel);
 }
 
-/** Mentions missing percentages. */
 async function remarkOn(findings: readonly Finding[]): Promise<string> {
   const grades = findings.map(({ line, marks }) => engine.ask('grade', { line, marks }));
   const missing = (await Promise.all(grades)).flatMap(({ not_graded: reason }) => (reason ? [reason] : []));

@@ -11,7 +11,6 @@ import * as store from '../state/store';
 import { saveAs } from './pictures';
 import { studyFileName } from './study-file-names';
 
-/** CSV or JSON of all measured vessels. */
 export async function saveNumbers(kind: 'csv' | 'json'): Promise<void> {
   const vessels = measuredVessels();
   if (vessels.length === 0) {

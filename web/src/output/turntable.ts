@@ -9,7 +9,6 @@ import { studyFileName } from './study-file-names';
 const FRAMES = 72;
 const PER_SECOND = 18;
 
-/** Collects the pictures of a turn. */
 interface Album {
   add(picture: HTMLCanvasElement): Promise<void>;
   finish(): Promise<Blob>;
@@ -97,7 +96,6 @@ class Film implements Album {
   }
 }
 
-/** Waits for the complete view of a camera. */
 function settled(camera: Camera): Promise<void> {
   return new Promise((resolve) => {
     const stop = store.settled.subscribe((shown) => {

@@ -6,7 +6,6 @@ import * as store from '../state/store';
 /** Rotation per wheel step (radians). */
 export const TURN_STEP = Math.PI / 36;
 
-/** Rotation or roll, and the value shown per pixel. */
 export function CprControls() {
   const degrees = Math.round((store.cprAngle.value * 180) / Math.PI);
   const isRolled = store.cprRoll.value !== null;
@@ -41,7 +40,6 @@ export function CprControls() {
   );
 }
 
-/** Selects a CFA feature, a roll, or neither. */
 function choose(name: string): void {
   const isRoll = name === 'narrowest' || name === 'widest';
   batch(() => {

@@ -10,14 +10,11 @@ import { usePaneSize } from './pane-size';
 
 interface FlatPictureProps {
   readonly name: ViewName;
-  /** Label for screen readers. */
   readonly words: string;
   /** Renders the picture; its identity changes with the picture. */
   readonly ask: ((size: Pair) => Promise<Picture>) | null;
   readonly handlers: Handlers;
-  /** Text shown without a picture. */
   readonly empty?: string;
-  /** CSS of the canvas. */
   readonly style?: Record<string, string>;
   /** Whether the current picture is outdated. */
   readonly isLate?: boolean;
@@ -154,7 +151,6 @@ function pressed(event: KeyboardEvent, handlers: Handlers, onArrow?: (by: Pair) 
   }
 }
 
-/** Delegates to the latest handlers. */
 function forwarded(handlers: () => Handlers): Handlers {
   return {
     drag: (...given) => handlers().drag(...given),
@@ -171,7 +167,6 @@ function forwarded(handlers: () => Handlers): Handlers {
   };
 }
 
-/** Removes the picture of a vessel that is gone. */
 function clear(canvas: HTMLCanvasElement | null): void {
   canvas?.getContext('2d')?.clearRect(0, 0, canvas.width, canvas.height);
 }

@@ -6,22 +6,17 @@ import type { Pair } from '../core/messages';
 export interface HandleProps {
   /** CSS pixels from the top left of the overlay. */
   readonly at: Pair;
-  /** Accessible name and tooltip. */
   readonly words: string;
   readonly color: string;
-  /** CSS class: `handle ${kind}`. */
   readonly kind: string;
   onBegin?(): void;
   /** Pointer position (pixels of the overlay). */
   onDrag(at: Pair): void;
   /** Steps right and down: -1, 0 or 1; ten times with Shift. */
   onArrow?(by: Pair): void;
-  /** End of a drag or key move. */
   onEnd(): void;
-  /** Escape during a drag. */
   onPutBack(): void;
   onConfirm?(): void;
-  /** Right click, Delete or Backspace. */
   onRemove?(): void;
 }
 
@@ -32,7 +27,6 @@ const ARROWS: Readonly<Record<string, Pair>> = {
   ArrowDown: [0, 1],
 };
 
-/** The nearest handle among overlapping ones. */
 function nearestHandle(x: number, y: number): Element | undefined {
   const away = (handle: Element) => {
     const { left, right, top, bottom } = handle.getBoundingClientRect();
@@ -48,7 +42,6 @@ export function Handle(props: HandleProps) {
     event.stopPropagation();
     const nearest = nearestHandle(event.clientX, event.clientY);
     if (nearest && nearest !== event.currentTarget && event.isTrusted) {
-      // Handles overlap: the nearest one is meant.
       nearest.dispatchEvent(new PointerEvent('pointerdown', event));
     } else if (event.button === 0) {
       event.currentTarget.setPointerCapture(event.pointerId);

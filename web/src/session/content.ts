@@ -13,7 +13,6 @@ import type {
 import type { SavedMarks, SavedScan, SavedView } from '../core/session-file';
 import type { Document, VesselMarks } from '../state/document';
 
-/** The display state saved with a session. */
 export interface Looked {
   readonly camera: Camera;
   readonly method: string;

@@ -11,7 +11,6 @@ const ALLOWED = 'lumencut-keeps-session';
 /** Delay after a change (ms), so that rapid changes write nothing. */
 const AFTER = 1000;
 
-/** Whether the user allowed it. */
 export const isKeeping = signal(false);
 
 /** A session kept before this load, until the user decides about it. */

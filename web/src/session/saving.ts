@@ -110,7 +110,6 @@ function onceShown(document: Document, work: () => void): void {
   });
 }
 
-/** Restores pick and cross-hair. */
 function point({ picked, cross_hair: place }: SavedView, document: Document): void {
   const number = picked ? tree.value.indexOf(document.vessels[picked.vessel] as DocumentVessel) : -1;
   if (picked && number >= 0) {
@@ -126,7 +125,6 @@ function point({ picked, cross_hair: place }: SavedView, document: Document): vo
   }
 }
 
-/** Restores the display state. */
 function look(view: SavedView): void {
   const { window, context_window: _, ...settings } = view.settings;
   const size = store.camera.value?.size ?? view.camera.size;

@@ -19,7 +19,6 @@ import { tool } from './tool';
 const WINDOW_PER_PIXEL = 0.004;
 const NARROWEST = 1e-3;
 
-/** Changes the camera if there is one. */
 export function changeCamera(change: (camera: Camera) => Camera): void {
   const camera = store.camera.value;
   if (camera) {
@@ -27,12 +26,10 @@ export function changeCamera(change: (camera: Camera) => Camera): void {
   }
 }
 
-/** Centre of rotation of the turning view. */
 function pivot(camera: Camera): Vector {
   return store.crossHair.value?.point ?? camera.center;
 }
 
-/** A drag in the turning view (CSS pixels). */
 export function dragTurning(action: Action, by: Pair, axis: Vector | null): void {
   if (placeTurn.value && (action === 'rotate' || action === 'rotate about vessel')) {
     dragPlaceTurn(by[0], store.camera.value?.size[1] ?? 1);
@@ -76,7 +73,6 @@ function kept() {
   };
 }
 
-/** Drag handlers of a view that change the window. */
 export function windowBack(): { begin(): void; end(): void; putBack(): void } {
   return {
     begin: () => {
@@ -104,7 +100,6 @@ export function setWindow(window: Window): void {
   store.window_.value = [window[0], Math.max(window[1], NARROWEST)];
 }
 
-/** Selects a named window by index. */
 export function choosePreset(number: number): void {
   const preset = store.report.value?.windows?.presets[number];
   if (preset) {
@@ -114,7 +109,6 @@ export function choosePreset(number: number): void {
   }
 }
 
-/** A setting, or its default. */
 export function settingOf(name: string): SettingValue {
   const chosen = store.settings.value[name];
   const row = store.started.value?.table.find((setting) => setting.name === name);
@@ -139,14 +133,12 @@ export async function showBestView(engine: Asked): Promise<void> {
   }
 }
 
-/** Layouts of modes, which return to the previous layout. */
 type ModeLayout = 'measure' | 'report';
 const isOfMode = (layout: store.Layout): layout is ModeLayout => layout === 'measure' || layout === 'report';
 
 /** Layout before measuring or the report. */
 let layoutBefore: store.Layout = 'strip';
 
-/** Opens the layout of a mode, or returns to the previous one. */
 export function toggleLayout(wanted: ModeLayout): void {
   if (tool.value !== 'ruler' || wanted === 'report') {
     // Clicks must not set points here; this also restores the layout before tracing.
@@ -157,7 +149,6 @@ export function toggleLayout(wanted: ModeLayout): void {
   showLayout(now === wanted ? layoutBefore : wanted);
 }
 
-/** Shows a layout; measuring starts at the narrowest place. */
 export function showLayout(layout: store.Layout): void {
   batch(() => {
     store.maximised.value = null;
@@ -166,12 +157,10 @@ export function showLayout(layout: store.Layout): void {
   });
 }
 
-/** Turns the camera slightly about the patient's long axis. */
 export function turnSlowly(angle: number): void {
   changeCamera((camera) => turnedAbout(camera, pivot(camera), [0, 0, 1], angle));
 }
 
-/** Carries out the action of a key. */
 export function perform(engine: EngineClient, action: Action): void {
   if (action.startsWith('view ')) {
     void showNamedView(engine, action.slice('view '.length));

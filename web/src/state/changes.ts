@@ -5,7 +5,6 @@ import type { Document } from './document';
 export const vesselOf = (document: Document, id: number | null): DocumentVessel | null =>
   document.vessels.find((vessel) => vessel.id === id) ?? null;
 
-/** Returns the same document if the vessel is absent. */
 export function changed(document: Document, id: number, to: Partial<DocumentVessel>): Document {
   return vesselOf(document, id)
     ? {
@@ -37,10 +36,8 @@ function kept<T>(before: readonly T[], after: readonly T[]): readonly T[] {
   return all.length === before.length && all.every((one, n) => one === before[n]) ? before : all;
 }
 
-/** Name of a vessel in the list. */
 export const nameOf = ({ name, id }: DocumentVessel): string => name || `vessel ${id}`;
 
-/** Displayed vessels, in order. */
 export const shownVessels = (document: Document): readonly DocumentVessel[] =>
   document.vessels.filter((vessel) => !vessel.isHidden && vessel.doubt === null);
 

@@ -6,11 +6,9 @@ export interface Ruler {
   readonly to: Vector;
 }
 
-/** Marks on a vessel, in the engine's form. */
 export type VesselMarks = Marks;
 
 export interface Document extends VesselDocument {
-  /** By vessel id. */
   readonly marks: Readonly<Record<number, VesselMarks>>;
   readonly rulers: readonly Ruler[];
   /** The user assumes 1 mm for a scan without voxel spacing. */

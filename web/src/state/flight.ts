@@ -31,7 +31,6 @@ export function flyTo(engine: Asked, to: Camera): void {
   void fly(engine, flights, from, to);
 }
 
-/** Requests the views in between and shows them. */
 async function fly(engine: Asked, number: number, from: Camera, to: Camera): Promise<void> {
   try {
     const views = await engine.ask('flight', { from: resized(from, to.size), to, views: VIEWS });
@@ -74,7 +73,6 @@ function show(number: number, from: Camera, views: readonly Camera[]): void {
 const looksAlike = (a: Camera, b: Camera): boolean =>
   a.center === b.center && a.direction === b.direction && a.up === b.up;
 
-/** Flies to the view in the answer, or reports why there is none. */
 export async function flyToAnswer(engine: Asked, view: Promise<Camera>): Promise<void> {
   try {
     flyTo(engine, await view);

@@ -16,7 +16,6 @@ interface Step {
 const past = signal<readonly Step[]>([]);
 const future = signal<readonly Step[]>([]);
 
-/** The user's work on the scan. */
 export const document_ = signal<Document>(EMPTY);
 
 /** The document as last saved or opened; other changes are lost on closing. */
@@ -44,7 +43,6 @@ export function change(words: string, after: Document): void {
   take({ words, before, after });
 }
 
-/** Records a change of the window as one undo step. */
 export function windowChanged(before: Window): void {
   const [document, after] = [document_.value, window_.value];
   if (after[0] !== before[0] || after[1] !== before[1]) {
@@ -60,7 +58,6 @@ function take(step: Step): void {
   });
 }
 
-/** Changes the document during a drag, without a step. */
 export function preview(during: Document): void {
   document_.value = during;
 }

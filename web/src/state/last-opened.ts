@@ -5,7 +5,6 @@ type Open = (wish: SeriesWish) => Promise<void>;
 
 let last: { readonly open: Open; readonly wish: SeriesWish } = { open: async () => {}, wish: {} };
 
-/** Opens files so that they can be reopened. */
 export function openWith(wish: SeriesWish, open: Open): Promise<void> {
   last = { open, wish };
   return open(wish);

@@ -4,7 +4,6 @@ import type { LookRow, RegionRow, Settings, SettingValue } from '../core/message
 import { choosePreset, settingOf } from './actions';
 import * as store from './store';
 
-/** Edge lines at jumps of depth: none, near vessels, or all. */
 export type Lines = 'none' | 'near' | 'all';
 
 /** Whether a setting matches a look; the size of a focus is free. */
@@ -43,7 +42,6 @@ export function chooseLook(look: Pick<LookRow, 'settings'>): void {
   });
 }
 
-/** The look for reading stents. */
 export const STENT_LOOK = 'lumen';
 const STENT_PRESET = 'stent';
 
@@ -52,7 +50,6 @@ export const mayHoldStents = computed<boolean>(
   () => store.hasTree.value && (store.report.value?.windows?.may_hold_stents ?? false),
 );
 
-/** Index of a named window; -1 if absent. */
 const presetNamed = (wanted: string): number =>
   store.report.value?.windows?.presets.findIndex(({ name }) => name === wanted) ?? -1;
 
@@ -62,7 +59,6 @@ function isWindowOf(preset: string): boolean {
   return window?.[0] === level && window[1] === width;
 }
 
-/** Whether the stent look and window are active. */
 export const isStentShown = computed<boolean>(
   () => chosenLook.value === STENT_LOOK && isWindowOf(STENT_PRESET),
 );
@@ -76,7 +72,6 @@ export function chooseStent(): void {
   }
 }
 
-/** Window name of a region for the open scan. */
 const presetOf = (region: RegionRow): string =>
   store.report.value?.windows?.is_hounsfield ? region.preset : region.preset_of_other_units;
 

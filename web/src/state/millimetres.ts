@@ -8,7 +8,6 @@ export const hasMillimetres = computed(() => states.value.spacing || document_.v
 /** Whether mm are assumed, which saved files state. */
 export const isMillimetreAssumed = computed(() => !states.value.spacing && document_.value.isOneMillimetre);
 
-/** Assumes 1 mm as an undo step. */
 export function assumeOneMillimetre(): void {
   change('assume 1 mm', { ...document_.value, isOneMillimetre: true });
 }

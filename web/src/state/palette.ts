@@ -16,7 +16,6 @@ export const PALETTE: readonly (readonly [color: string, words: string])[] = [
   ['#ffffff', 'white'],
 ];
 
-/** Colour of doubtful branches only. */
 export const DOUBTFUL = '#ffa500';
 
 /** The least used colour, the first of several. */

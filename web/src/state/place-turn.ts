@@ -26,10 +26,8 @@ export interface PlaceTurn {
 
 export const placeTurn = signal<PlaceTurn | null>(null);
 
-/** Tolerance when comparing axes. */
 const SAME = 1e-6;
 
-/** Starts turning about the section, or stops. */
 export async function togglePlaceTurn(engine: Asked): Promise<void> {
   const [vessel, line, camera] = [store.pickedVessel.value, store.pickedLine(), store.camera.value];
   if (placeTurn.value) {
@@ -60,7 +58,6 @@ function begin(engine: Asked, found: Pick<PlaceTurn, 'line' | 'at' | 'first' | '
   });
 }
 
-/** Keeps the view. */
 export function endPlaceTurn(): void {
   placeTurn.value = null;
 }
@@ -86,7 +83,6 @@ export function sweptTo(turn: PlaceTurn, angle: number): PlaceTurn {
   };
 }
 
-/** Rotates the view to an angle (degrees). */
 export function turnTo(angle: number): void {
   const [turn, camera] = [placeTurn.value, store.camera.value];
   const next = turn && sweptTo(turn, angle);

@@ -5,13 +5,11 @@ import { Failure } from '../core/failure';
 import type { LineId, Profile } from '../core/messages';
 import * as store from './store';
 
-/** A profile, or why it is missing. */
 export type Measured = { readonly profile: Profile } | { readonly failure: Failure };
 
 export const profiles = signal<ReadonlyMap<LineId, Measured>>(new Map());
 /** FWHM of the point spread function entered by the user (mm). */
 export const givenFwhm = signal<number | null>(null);
-/** The line being measured, and the one whose measurement was stopped. */
 export const beingMeasured = signal<LineId | null>(null);
 export const stopped = signal<LineId | null>(null);
 
@@ -40,7 +38,6 @@ export async function measure(engine: Asked, line: LineId): Promise<void> {
   });
 }
 
-/** The cached or newly measured profile. */
 export async function profileOfLine(engine: Asked, line: LineId): Promise<Profile> {
   const known = profiles.value.get(line);
   if (known) {
@@ -52,7 +49,6 @@ export async function profileOfLine(engine: Asked, line: LineId): Promise<Profil
   return engine.ask('profile', { line, fwhm: givenFwhm.value });
 }
 
-/** Null if stopped. */
 async function profileOf(engine: Asked, line: LineId, question: number): Promise<Measured | null> {
   try {
     tell(question, null);
@@ -72,7 +68,6 @@ function tell(question: number, total: number | null): void {
   }
 }
 
-/** Resumes a stopped measurement. */
 export function measureAgain(): void {
   stopped.value = null;
 }

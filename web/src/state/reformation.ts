@@ -2,10 +2,8 @@
 import { signal } from '@preact/signals';
 import type { MapOf, Reformation, Side } from '../core/messages';
 
-/** The straightened CPR, or another reformation. */
 export type ReformationKind = 'cpr' | Reformation['kind'];
 
-/** Display names, in order. */
 export const REFORMATIONS: readonly (readonly [ReformationKind, string])[] = [
   ['cpr', 'Straightened CPR'],
   ['uncurl', 'Uncurled CPR'],
@@ -19,7 +17,6 @@ export const reformationKind = signal<ReformationKind>('cpr');
 export const uncurled = signal(0.5);
 export const mapOf = signal<MapOf>('wall');
 
-/** Options of a reformation. */
 export interface Chosen {
   readonly vessel: number | null;
   /** View direction of the turning view; null before it is shown. */
@@ -48,6 +45,5 @@ export function reformationOf(kind: Reformation['kind'], chosen: Chosen): Reform
   }
 }
 
-/** Title of the pane. */
 export const reformationTitle = (): string =>
   REFORMATIONS.find(([kind]) => kind === reformationKind.value)?.[1] ?? '';

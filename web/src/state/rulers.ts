@@ -6,10 +6,8 @@ import type { Document, Ruler } from './document';
 import { change, document_, endPreview, preview } from './history';
 import { tool } from './tool';
 
-/** First point of an unfinished ruler. */
 export const firstEnd = signal<Vector | null>(null);
 
-/** Starts or finishes a ruler. */
 export function setRulerPoint(point: Vector): void {
   const from = firstEnd.value;
   if (from === null) {
@@ -22,7 +20,6 @@ export function setRulerPoint(point: Vector): void {
   tool.value = 'look';
 }
 
-/** Activates or deactivates the ruler tool. */
 export function toggleRuler(): void {
   firstEnd.value = null;
   tool.value = tool.value === 'ruler' ? 'look' : 'ruler';

@@ -21,7 +21,6 @@ import type { ScanStudy } from '../core/scan-study';
 export type Layout = 'one' | 'two' | 'four' | 'strip' | 'measure' | 'report';
 export const LAYOUTS: readonly Layout[] = ['one', 'two', 'four', 'strip', 'measure', 'report'];
 
-/** All views. */
 export type ViewName =
   | 'turning'
   | 'axial'
@@ -33,7 +32,6 @@ export type ViewName =
   | 'numbers'
   | 'findings';
 
-/** Position of the cross-hair, and the value there. */
 export interface CrossHair {
   readonly point: Vector;
   readonly value: number | null;
@@ -49,9 +47,7 @@ export const epoch = signal(0);
 export const report = signal<Report | null>(null);
 export const studyName = signal('');
 export const notes = signal<readonly string[]>([]);
-/** Whether the file states spacing and orientation. */
 export const states = signal<States>({ spacing: true, orientation: true });
-/** The DICOM study of the scan, if known. */
 export const scanStudy = signal<ScanStudy | null>(null);
 export const histogram = signal<Histogram | null>(null);
 export const progress = signal<Progress | null>(null);
@@ -59,7 +55,6 @@ export const problem = signal<Failure | null>(null);
 
 export const camera = signal<Camera | null>(null);
 export const method = signal<Method>('csr');
-/** Initial look. */
 const FIRST_LOOK = 'focus';
 /** Initial settings; edge lines are white, because yellow signals warnings. */
 export const firstSettings = computed<Settings>(() => ({
@@ -69,19 +64,15 @@ export const firstSettings = computed<Settings>(() => ({
 /** Non-default settings, without windows. */
 export const settings = signal<Settings>(firstSettings.value);
 export const window_ = signal<Window>([300, 900]);
-/** Inverted greyscale. */
 export const isInverted = signal(false);
 export const isTurning = signal(false);
 
 export const crossHair = signal<CrossHair | null>(null);
 /** Initial position of the cross-hair, to detect whether the user moved it. */
 export const firstPlace = signal<Vector | null>(null);
-/** Vessel of the CPR, and arc length of the section (mm). */
 export const pickedVessel = signal<number | null>(null);
 export const pickedPlace = signal(0);
-/** Rotation of the CPR (radians). */
 export const cprAngle = signal(0);
-/** CFA feature of the CPR. */
 export const cprFeature = signal<Feature | null>(null);
 /** Side of the lumen that the CPR follows; null for a constant rotation. */
 export const cprRoll = signal<Roll | null>(null);
@@ -102,7 +93,6 @@ export const hasTree = computed(() => (report.value?.vessels?.length ?? 0) > 0);
 export const pickedLine = (): LineId | null =>
   report.value?.vessels?.[pickedVessel.value ?? -1]?.line ?? null;
 
-/** Settings of the turning view, with windows. */
 export const viewSettings = computed<Settings>(() => {
   const chosen: Record<string, Settings[string]> = { ...settings.value };
   const windows = report.value?.windows;

@@ -3,7 +3,6 @@ import { signal } from '@preact/signals';
 import { Failure } from '../core/failure';
 import { problem, report } from './store';
 
-/** Display time (ms). */
 const STAYS = 8000;
 
 export const told = signal<string | null>(null);

@@ -8,7 +8,6 @@ export const thinnerThan = signal(0);
 /** Whether the user wants a tree; null by default. */
 export const treeChosen = signal<boolean | null>(null);
 
-/** The vessel whose row is under the pointer. */
 export const lit = signal<number | null>(null);
 
 export function markNone(): void {

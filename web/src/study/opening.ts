@@ -42,7 +42,6 @@ export function openFiles(
 /** A volume that may be a new scan or a vessel mask, until the user decides. */
 export const question = signal<readonly GivenFile[] | null>(null);
 
-/** File names that may be centerlines. */
 const CENTERLINES = /\.(vtp|vtk|fcsv|pth|swc|tre|csv|json)$/i;
 const VOLUMES = /\.(nii|nii\.gz|nrrd|nhdr|mha|mhd|hdr|img|raw|zraw)$/i;
 

@@ -17,7 +17,6 @@ import { putRulerAway } from '../state/rulers';
 import * as store from '../state/store';
 import { tool } from '../state/tool';
 
-/** View size before layout. */
 const FIRST_SIZE = [512, 512] as const;
 
 /** What was opened; centerlines may add to existing vessels. */
@@ -25,7 +24,6 @@ export interface Loaded extends Opened {
   readonly isBeside?: boolean;
 }
 
-/** Opens a study and shows it from the front. */
 export async function open(engine: EngineClient, load: () => Promise<Loaded>, name: string): Promise<void> {
   batch(() => {
     store.problem.value = null;
@@ -132,7 +130,6 @@ async function showStudy(
   });
 }
 
-/** Adds centerlines as an undo step, and shows the longest. */
 async function showBeside(engine: EngineClient, { report, notes }: Opened): Promise<void> {
   const loaded = report.vessels ?? [];
   await addLoaded(engine, loaded);

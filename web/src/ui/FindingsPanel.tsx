@@ -47,7 +47,6 @@ export function FindingsPanel() {
   );
 }
 
-/** Shown without findings. */
 function Nothing() {
   return (
     <>
@@ -155,7 +154,6 @@ function KeyImage({ finding, name }: { readonly finding: Finding; readonly name:
   return address && <img src={address} alt={`Straightened vessel and sections of ${name}`} />;
 }
 
-/** Moves the section to the finding, and shows most of its vessel. */
 function show({ vessel, marks, length }: Finding): void {
   store.pickedVessel.value = vessel;
   moveTo(marks.at ?? marks.references[0] ?? marks.stretch?.[0] ?? length / 2);

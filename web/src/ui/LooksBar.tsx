@@ -61,7 +61,6 @@ function StentButton() {
   );
 }
 
-/** Selects look, window and slab by body region. */
 function RegionChoice() {
   const regions = started.value?.regions ?? [];
   return (

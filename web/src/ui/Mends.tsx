@@ -73,7 +73,6 @@ function Series({ of }: { readonly of: readonly SeriesChoice[] }) {
   );
 }
 
-/** One line about a series. */
 function wordsOf({ number, description, modality, images, size, spacing, trouble }: SeriesChoice): string {
   const steps = spacing?.map((step) => Number(step.toPrecision(3)));
   const extent = size && steps ? [size.join(' × '), `${steps.join(' × ')} mm`] : [`${images} images`];

@@ -56,7 +56,6 @@ function VesselChoice() {
   );
 }
 
-/** Picks a vessel, at half its length. */
 function pick(vessel: number): void {
   store.pickedVessel.value = vessel;
   moveTo((store.report.value?.vessels?.[vessel]?.length ?? 0) / 2);

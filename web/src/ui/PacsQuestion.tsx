@@ -80,7 +80,6 @@ export function PacsQuestion() {
   );
 }
 
-/** Shows the study of a chosen file and any warnings. */
 function FileOfStudy({ chosen: { file, facts, doubts, refusal } }: { chosen: ChosenFile }) {
   const close = () => {
     chosenFile.value = null;

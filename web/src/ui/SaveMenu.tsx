@@ -83,7 +83,6 @@ function Keeping() {
   );
 }
 
-/** Report of all findings, or of the vessel being measured. */
 function Report() {
   return (
     <>

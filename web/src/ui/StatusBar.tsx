@@ -59,7 +59,6 @@ function readOut(): string {
   return parts.join(' · ');
 }
 
-/** Name of a displayed vessel, or its number. */
 export function vesselName(vessel: number): string {
   const shown = tree.value[vessel];
   return shown ? nameOf(shown) : `vessel ${vessel + 1}`;
@@ -77,7 +76,6 @@ function deviceText(): string {
   return `CPU: ${threads}${started.isIsolated ? '' : ', because the page is not cross-origin isolated'}`;
 }
 
-/** Notes on the scan, one sentence each. */
 function Notes() {
   const menu = useClosing();
   const notes = store.notes.value;

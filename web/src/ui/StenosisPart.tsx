@@ -136,7 +136,6 @@ interface LengthProps {
   onGive(value: number | null): void;
 }
 
-/** A diameter entered by the user (mm). */
 function Length({ name, title, value, onGive }: LengthProps) {
   return (
     <label title={title}>

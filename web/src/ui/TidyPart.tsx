@@ -10,7 +10,6 @@ const USUAL_LENGTH = 60;
 const USUAL_CALIBRE = 10;
 
 export function TidyPart() {
-  // A single vessel cannot be cleaned up.
   if (sure.value.length < 2) {
     return null;
   }

@@ -45,7 +45,6 @@ function ToldOf({ told: { vessel, words, doubts } }: { readonly told: Told }) {
   );
 }
 
-/** Moves section and cross-hair to an arc length of a vessel (mm). */
 function goTo(vessel: number, at: number): void {
   const place = tree.value.findIndex(({ id }) => id === vessel);
   if (place >= 0) {

@@ -40,7 +40,6 @@ export function TraceBar() {
   ) : null;
 }
 
-/** Shown if there are no vessels. */
 function Offer() {
   const isClosed = useSignal(false);
   if (isClosed.value) {
@@ -77,7 +76,6 @@ function Offer() {
 const WHOLE =
   'Takes the vessel from its parent in the list to its end (w). The first use searches the whole scan.';
 
-/** Explains the next click. */
 function Hint() {
   const take = (wanted: Tool) => () => {
     tool.value = wanted;

@@ -62,7 +62,6 @@ export function VesselList() {
   );
 }
 
-/** Tree, or order of entry. */
 function TreeChoice() {
   return (
     <div class="buttons">
@@ -97,7 +96,6 @@ function Closing() {
   );
 }
 
-/** Buttons that add vessels. */
 function Means() {
   return (
     <div class="buttons">

@@ -18,7 +18,6 @@ import { lit } from '../state/tidy';
 import { active, tool } from '../state/tool';
 import { BestViewButton } from './BestViewButton';
 
-/** Id of the datalist of names. */
 export const NAMES_TO_OFFER = 'names-to-offer';
 
 interface RowProps {
@@ -82,7 +81,6 @@ export function VesselRow({ vessel, depth }: RowProps & { readonly depth: number
 const rowClass = (isPicked: boolean, isMarked: boolean): string =>
   `${isPicked ? 'picked' : ''}${isMarked ? ' marked' : ''}`;
 
-/** Hovering a row highlights its vessel in all views. */
 export const lighting = ({ id }: DocumentVessel) => ({
   onPointerEnter: () => {
     lit.value = id;
@@ -124,7 +122,6 @@ function NameField({ vessel, isPicked }: RowProps & { readonly isPicked: boolean
   );
 }
 
-/** Hidden vessels cannot be picked. */
 function pickShown(vessel: DocumentVessel): void {
   if (!vessel.isHidden) {
     void pick(vessel);
@@ -175,7 +172,6 @@ function ColorChoice({ vessel }: RowProps) {
   );
 }
 
-/** Actions on the picked vessel. */
 function Means({ vessel }: RowProps) {
   const { id } = vessel;
   const others = document_.value.vessels.filter((one) => one.id !== id && one.doubt === null);

@@ -15,7 +15,6 @@ export function useClosing(): RefObject<HTMLDetailsElement | null> {
     };
     const keyed = (event: KeyboardEvent) => {
       if (event.key === 'Escape' && menu.current?.open) {
-        // Escape closes only the menu.
         event.stopPropagation();
         close();
         menu.current.querySelector('summary')?.focus();

@@ -36,7 +36,6 @@ function follow(action: Action): void {
   }
 }
 
-/** Whether the key activates the focused control. */
 function isPress(target: EventTarget | null, key: string): boolean {
   const isPressed =
     target instanceof HTMLButtonElement ||

@@ -23,7 +23,6 @@ export interface ViewState {
   readonly hair?: Vector;
 }
 
-/** The part of the address after `#`. */
 export function fragmentOf(state: ViewState): string {
   return `v1=${encodeURIComponent(JSON.stringify(state))}`;
 }
@@ -80,7 +79,6 @@ function isCamera(value: unknown): value is NonNullable<ViewState['camera']> {
   return isVector(center) && areAxes(direction, up) && isPositive(pixel_spacing) && isPositive(height);
 }
 
-/** Whether two vectors are valid camera axes. */
 function areAxes(direction: unknown, up: unknown): boolean {
   const isZero = (number: number) => Math.abs(number) < ROUNDING;
   return (
@@ -120,7 +118,6 @@ export function currentState(): ViewState {
 
 const short = (value: number): number => Math.round(value * 1000) / 1000;
 
-/** Applies the state of an address. */
 export function restore(state: ViewState): void {
   batch(() => {
     const size = store.camera.value?.size ?? ([512, 512] as const);
@@ -154,7 +151,6 @@ export function restore(state: ViewState): void {
   });
 }
 
-/** Known settings with valid values. */
 function knownSettings(settings: Settings): Settings {
   const rows = new Map(store.started.value?.table.map((row) => [row.name, row]));
   const fits = ([name, value]: [string, unknown]) => {
@@ -169,7 +165,6 @@ function isLength(value: unknown): boolean {
   return isNumber(value) && Math.abs(value) <= 1e6;
 }
 
-/** A colour channel. */
 function isChannel(value: unknown): boolean {
   return Number.isInteger(value) && Number(value) >= 0 && Number(value) <= 255;
 }

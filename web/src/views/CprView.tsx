@@ -9,7 +9,6 @@ import { FlatPicture } from '../pane/FlatPicture';
 import { dragWindow, windowBack } from '../state/actions';
 import * as store from '../state/store';
 
-/** Displayed width (mm). */
 const WIDTH = 50;
 
 export function CprView() {

@@ -11,7 +11,6 @@ import { isInverted, type ViewName, window_ } from '../state/store';
 /** Side of the picture, and distance from the pointer (CSS pixels). */
 const SIDE = 120;
 const AWAY = 18;
-/** Height including text. */
 const HEIGHT = SIDE + 60;
 
 /** Width in lumen diameters, and its minimum (mm). */

@@ -46,7 +46,6 @@ function discsOf({ points, radius }: LineContent, projection: Projection): reado
   }));
 }
 
-/** The middle visible disc. */
 function nameAt(discs: readonly Disc[], { size }: Projection): Disc | undefined {
   const seen = discs.filter(({ at: [x, y] }) => x > 0 && y > 0 && x < size[0] && y < size[1]);
   return seen[Math.floor(seen.length / 2)];

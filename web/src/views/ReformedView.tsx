@@ -97,7 +97,6 @@ export function ReformedView({ kind }: { readonly kind: Reformation['kind'] }) {
   );
 }
 
-/** Offset that centres a picture in its pane. */
 const begin = (pane: Pair, picture: Pair): Pair => [
   Math.floor((pane[0] - picture[0]) / 2),
   Math.floor((pane[1] - picture[1]) / 2),

@@ -23,7 +23,6 @@ const FIRST_SIDE = 50;
 /** Wheel step along the vessel (mm). */
 const STEP = 0.5;
 
-/** A section plane, with its line and arc length. */
 interface Frame extends Pick<Plane, 'center' | 'right' | 'down'> {
   readonly line: LineId | null;
   readonly at: number;

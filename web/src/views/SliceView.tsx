@@ -161,7 +161,6 @@ function scrollSlices(name: SliceName, steps: number): void {
 
 const moving = new Latest();
 
-/** Moves the cross-hair by voxels within a slice; the live path follows. */
 function moveCrossHair(name: SliceName, projection: Projection, by: Pair): void {
   const hair = store.crossHair.value;
   if (!hair) {

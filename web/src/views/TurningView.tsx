@@ -89,7 +89,6 @@ export function TurningView() {
   );
 }
 
-/** The requested view (CSS pixels). */
 function wantedView(): View | null {
   const [camera, report] = [store.camera.value, store.report.value];
   if (!camera || !report?.volume || camera.size[0] < 2 || camera.size[1] < 2) {
@@ -109,7 +108,6 @@ function wantedView(): View | null {
 /** Maximum intensity projection of the whole scan: a slab of 1000 mm. */
 const PROJECTED: Settings = { slab: [1000, 'max'], silhouettes: false };
 
-/** Canvases transferred to the GPU. */
 const handedOver = new WeakSet<HTMLCanvasElement>();
 
 function showFrame(canvas: HTMLCanvasElement | null, { drawn, stage, view, wanted, isLast }: Shown): void {
@@ -158,7 +156,6 @@ const KEY_STEP = 24;
 
 /** Arrow keys rotate, with Shift they pan; + and - zoom. */
 function pressed(event: KeyboardEvent): void {
-  // Focused points handle their own keys.
   if (event.target !== event.currentTarget) {
     return;
   }

@@ -72,7 +72,6 @@ function Curve({ vessel, projection, isPicked, hasFar }: CurveProps) {
   );
 }
 
-/** The live path; dashed and straight if none was found. */
 function LivePaths({ projection }: OverProps) {
   if (tool.value === 'look') {
     return null;
@@ -99,7 +98,6 @@ function LivePaths({ projection }: OverProps) {
   );
 }
 
-/** A curve with a dark edge for contrast. */
 function Cased({ kind, d }: { readonly kind: string; readonly d: string }) {
   return (
     <>

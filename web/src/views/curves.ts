@@ -34,15 +34,12 @@ export function pathData(points: readonly Vector[], projection: Projection, whic
   return path;
 }
 
-/** A hit on a vessel. */
 export interface Hit {
   readonly vessel: DocumentVessel;
-  /** Index of the point on its line. */
   readonly number: number;
   readonly point: Vector;
 }
 
-/** Whether a pixel hits a point. */
 export function isAt(projection: Projection, point: Vector, [x, y]: Pair): boolean {
   const [column, row] = projection.pixel(point);
   return Math.hypot(column - x, row - y) <= REACH;

@@ -42,7 +42,6 @@ export class FrameLoop {
   /** The next frame at rest is the first of a device and includes shader compilation. */
   private isFirst = false;
   private factor = 1;
-  /** How often in a row the view yielded. */
   private gaveWay = 0;
   private timer = 0;
 
@@ -63,7 +62,6 @@ export class FrameLoop {
     this.next();
   }
 
-  /** Redraws after a change of device. */
   again(): void {
     if (this.isBusy) {
       this.isOutdated = true;
@@ -127,7 +125,6 @@ export class FrameLoop {
     return isOutdated;
   }
 
-  /** The view at the resolution and samples of a stage. */
   private atStage(view: View, stage: Stage): View {
     if (stage === 'moving') {
       const settings = { ...view.settings, context_preview: true, samples: 1 };
@@ -149,7 +146,6 @@ export class FrameLoop {
     this.factor = Math.min(1, Math.max(COARSEST, used / 2, Math.min(ideal, used * 1.25)));
   }
 
-  /** The stage that follows. */
   private stageAfter(view: View, stage: Stage, milliseconds: number): Stage {
     const isSlow = milliseconds > SAMPLED_WITHIN;
     if (this.wanted !== view) {
@@ -175,7 +171,6 @@ export class FrameLoop {
   /** After a view was stopped by a newer one, or for an answer. */
   private tryAgain(stage: Stage): void {
     if (stage === 'moving') {
-      // It took too long: halve the resolution.
       this.factor = Math.max(COARSEST, this.factor / 2);
     }
     if (this.stage === 'moving') {

@@ -3,7 +3,6 @@ import type { Pair } from '../core/messages';
 
 export interface Disc {
   readonly at: Pair;
-  /** CSS pixels. */
   readonly radius: number;
 }
 
@@ -37,7 +36,6 @@ function circle({ at: [x, y], radius }: Disc): string {
   return `M${told(x - radius, y)}${arc}${told(x + radius, y)}${arc}${told(x - radius, y)}Z`;
 }
 
-/** Quad between the diameters of two discs. */
 function quad(from: Disc, to: Disc): string {
   const way = [to.at[0] - from.at[0], to.at[1] - from.at[1]] as const;
   const length = Math.hypot(...way);

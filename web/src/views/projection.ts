@@ -5,7 +5,6 @@ import { pixelOn, pointOn, voxelSide } from '../core/planes';
 import { add, cross, dot, negate, scale, subtract } from '../core/vectors';
 
 export interface Projection {
-  /** CSS pixels. */
   readonly size: Pair;
   /** mm per CSS pixel. */
   readonly spacing: number;
@@ -37,7 +36,6 @@ export function ofPlane(plane: Plane, volume: VolumeReport): Projection {
   };
 }
 
-/** The turning view, which shows all depths. */
 export function ofCamera(camera: Camera, volume: VolumeReport): Projection {
   const [right, down] = [rightOf(camera), negate(camera.up)];
   const onPlane = (pixel: Pair): Vector => {

@@ -17,10 +17,8 @@ import { tool } from '../state/tool';
 import { curveAt, isAt } from './curves';
 import type { Projection } from './projection';
 
-/** Bindings in addition to those of the view. */
 export const toolRows = (): Where | null => (isTracing() ? 'tracing' : null);
 
-/** A view for setting points. */
 export interface Pointed {
   readonly name: ViewName;
   readonly projection: Projection;
@@ -28,7 +26,6 @@ export interface Pointed {
   place(at: Pair): Promise<Pick> | Vector;
 }
 
-/** Applies a click to the active tool. Returns whether it did anything. */
 export function clickWithTool(view: Pointed, action: Action, at: Pair): boolean {
   switch (action) {
     case 'set point':
@@ -92,7 +89,6 @@ async function setThrough(view: Pointed, at: Pair): Promise<void> {
   }
 }
 
-/** Shows the value at a point, unless the cross-hair moved. */
 function tell(view: Pointed, point: Vector, pick: Pick): void {
   if (crossHair.value?.point === point) {
     placeCrossHair(pick, view.name);
@@ -123,7 +119,6 @@ function addOnCurve({ projection }: Pointed, at: Pair): void {
   }
 }
 
-/** Selects a doubtful branch. */
 function chooseDoubtful({ projection }: Pointed, at: Pair): boolean {
   const hit = curveAt(projection, at);
   chosenDoubt.value = hit?.vessel.doubt ? hit.vessel.id : null;

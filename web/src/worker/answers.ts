@@ -31,18 +31,15 @@ const EDITS: Partial<Record<Edit['kind'], string>> = {
   find_vessels: 'Finding vessels',
 };
 
-/** Progress label; null for quick questions. */
 function wordsOf<N extends Question>(name: N, message: Message<N>): string | null {
   const edit = name === 'edit' ? (message as Message<'edit'>).edit : null;
   return (edit && EDITS[edit.kind]) ?? TURNS[name].words;
 }
 
-/** Answers a question that needs no study. */
 export function askAtOnce<N extends Question>(name: N, message: Message<N>): Answer<N> {
   return answer(Engine.ask_at_once(name, JSON.stringify(message)));
 }
 
-/** Whether a question can be answered during other work. */
 export const isAtOnce = (name: Question): boolean => TURNS[name].when === 'at once';
 
 /** Rejects long work cancelled before it began. */

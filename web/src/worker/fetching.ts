@@ -12,7 +12,6 @@ import type { Means } from './replacing';
 export type Told = (progress: Progress) => void;
 
 const MAGIC = 'LCVOLUME';
-/** Longest accepted header (bytes). */
 const LONGEST_HEADER = 16 << 20;
 
 interface Addresses {
@@ -26,13 +25,11 @@ interface Header {
   readonly world_from_index: readonly (readonly number[])[];
   readonly notes?: readonly string[];
   readonly name?: string;
-  /** Whether the file states spacing and orientation. */
   readonly states_spacing?: boolean;
   readonly states_orientation?: boolean;
   readonly has_study?: boolean;
 }
 
-/** Details of a study that the engine does not hold. */
 export interface Fetched {
   readonly notes: readonly string[];
   readonly name: string;
@@ -99,7 +96,6 @@ async function fetchVolume(means: Means, address: string, told: Told): Promise<F
   return { notes: header.notes ?? [], name: header.name ?? '', states, study };
 }
 
-/** The start of a response, and the rest of it. */
 interface Begun {
   readonly start: Uint8Array;
   readonly bytes: ByteReader;
@@ -158,7 +154,6 @@ async function readHeader(bytes: ByteReader, start: Uint8Array, address: string)
   return checkedHeader(new TextDecoder().decode(await bytes.take(length)));
 }
 
-/** Parses a JSON header; the engine validates its numbers. */
 function checkedHeader(text: string): Header {
   const read = parsed(text);
   const isWhole =

@@ -16,10 +16,8 @@ import { Queue } from './queue';
 import { type Means, Replacing } from './replacing';
 import { startThreads } from './threads';
 
-/** Note on a volume loaded at half resolution. */
 const COARSER = 'only every second voxel along each axis was loaded; measurements are less accurate';
 
-/** Data of the open study. */
 interface Loaded {
   readonly report: Report;
   readonly doubt: PlaceDoubt | null;
@@ -87,12 +85,10 @@ export class EngineHost {
     await lost;
   }
 
-  /** Memory of the module (bytes). */
   memory(): Promise<number> {
     return this.run(memorySize);
   }
 
-  /** Renders to this canvas from now on. */
   drawOn(canvas: OffscreenCanvas): Promise<void> {
     return this.run(() => this.ready().draw_on(canvas));
   }
@@ -104,7 +100,6 @@ export class EngineHost {
     });
   }
 
-  /** Opens a volume and centerlines of the same origin. */
   openAddresses(
     volume: string | null,
     centerlines: string | null,
@@ -165,7 +160,6 @@ export class EngineHost {
     });
   }
 
-  /** Stops loading, tracing and running measurements. */
   cancel(): void {
     this.cancelled.abort();
     this.cancelled = new AbortController();

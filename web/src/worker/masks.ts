@@ -9,7 +9,6 @@ import { Steps } from '../io/steps';
 import type { Study } from '../io/study';
 import { ask, refuseStopped } from './answers';
 
-/** What accompanies a question, and its abort signal. */
 interface Asking {
   readonly beside: Beside;
   readonly signal: AbortSignal;
@@ -37,7 +36,6 @@ export async function askWithFiles<N extends Question>(
   }
 }
 
-/** Returns notes. */
 async function readMask(
   engine: Engine,
   files: readonly GivenFile[],
@@ -50,7 +48,6 @@ async function readMask(
   return notes;
 }
 
-/** Study interface for reading a mask. */
 class MaskStudy implements Study {
   constructor(private readonly engine: Engine) {}
 

@@ -2,7 +2,6 @@
 import { Failure } from '../core/failure';
 
 interface Narrowed {
-  /** Type in the module. */
   readonly dtype: string;
   readonly bytesPerVoxel: number;
   /** Converts bytes of whole voxels to `dtype`. */

@@ -7,7 +7,6 @@ import { ask, askAtOnce } from './answers';
 
 export class Replacing implements Study {
   hasBegun = false;
-  /** Why the coordinate system of the centerlines is doubtful. */
   doubt: PlaceDoubt | null = null;
 
   constructor(

@@ -12,7 +12,6 @@ const RATIO = 200;
 // The content security policy forbids blob workers, and this already is a worker.
 configure({ useWebWorkers: false });
 
-/** Sorted by name. */
 export async function membersOf(archive: Source): Promise<Source[]> {
   const entries = (await entriesOf(archive)).filter((entry): entry is FileEntry => !entry.directory);
   if (entries.some((entry) => entry.encrypted)) {

@@ -1,6 +1,5 @@
 /** Tags and value representations (PS3.6) of the attributes that the judge can ask for. */
 
-/** Value representation. */
 export type Vr =
   | 'CS'
   | 'DA'

@@ -6,7 +6,6 @@ import { decodeLossless } from './jpeg-lossless';
 /** Decodes a frame; throws if it is damaged. */
 export type Decode = (frame: Bytes) => Decoded;
 
-/** Interface of the Cornerstone packages. */
 interface Decoder {
   getEncodedBuffer(length: number): Uint8Array;
   getDecodedBuffer(): Uint8Array;
@@ -15,7 +14,6 @@ interface Decoder {
   delete(): void;
 }
 
-/** Suppresses the output of the libraries. */
 const SILENT = { print: () => {}, printErr: () => {} };
 
 type Glue = (options: { wasmBinary: ArrayBuffer } & typeof SILENT) => Promise<Record<string, unknown>>;

@@ -42,12 +42,10 @@ export function shapeOf({ header }: Image): Shape {
   };
 }
 
-/** Bytes of an uncompressed frame. */
 export function frameBytes({ rows, columns, bitsAllocated }: Shape): number {
   return (rows * columns * bitsAllocated) / 8;
 }
 
-/** Frames of one image; reads its file as seldom as possible. */
 export class Frames {
   private readonly shape: Shape;
   private content: Bytes | null = null;
@@ -60,7 +58,6 @@ export class Frames {
     }
   }
 
-  /** The encoded bytes of a frame. */
   frame(number: number): Promise<Bytes> {
     return NATIVE.includes(this.image.header.transfer_syntax) ? this.native(number) : this.compressed(number);
   }
@@ -133,7 +130,6 @@ interface Item {
   readonly bytes: Bytes;
 }
 
-/** Bytes of the items from a position on, without what follows. */
 async function itemBytes(source: Source, start: number): Promise<Bytes> {
   for (let window = FIRST_WINDOW; ; window *= 2) {
     const bytes = await source.slice(start, Math.min(start + window, source.size));
@@ -201,7 +197,6 @@ function joinedItems(items: readonly Item[]): Bytes {
   return whole;
 }
 
-/** Splits frames at JPEG end markers. */
 function byEndMarkers(items: readonly Item[]): Bytes[] {
   const frames: Bytes[] = [];
   let begun: Item[] = [];

@@ -16,7 +16,6 @@ const HEADS = [1 << 17, 1 << 23];
 export interface Image {
   readonly source: Source;
   readonly header: HeaderRecord;
-  /** Study Instance UID. */
   readonly study: string;
   readonly pixels: PixelElement | null;
   readonly isBig: boolean;

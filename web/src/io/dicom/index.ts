@@ -16,14 +16,12 @@ import type { Wanted } from './wanted';
 
 export { headOf } from './study';
 
-/** Files with a common name, and what to read from them. */
 export interface Series {
   readonly subject: string;
   readonly sources: readonly Source[];
   readonly wanted: Wanted;
 }
 
-/** Notes and study of a series. */
 export interface ReadSeries {
   readonly notes: readonly string[];
   readonly study: ReadScan | null;

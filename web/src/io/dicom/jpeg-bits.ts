@@ -7,7 +7,6 @@ const CODE_BITS = 16;
 
 export class DamagedScan extends Error {}
 
-/** Bits up to the next marker. */
 export class Bits {
   private held = 0;
   private count = 0;
@@ -31,7 +30,6 @@ export class Bits {
     }
   }
 
-  /** The next bits as a number, at most 16. */
   take(count: number): number {
     this.fill(count);
     const value = (this.held >>> (this.count - count)) & ((1 << count) - 1);
@@ -39,7 +37,6 @@ export class Bits {
     return value;
   }
 
-  /** Continues after a restart marker. */
   restart(): void {
     [this.held, this.count, this.missing] = [0, 0, 0];
     const isMarker = this.bytes[this.at] === 0xff && ((this.bytes[this.at + 1] ?? 0) & 0xf8) === 0xd0;

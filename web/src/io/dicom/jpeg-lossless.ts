@@ -3,7 +3,6 @@ import type { Bytes } from '../payload';
 import type { Decoded } from './decoded';
 import { Bits, Codes, DamagedScan } from './jpeg-bits';
 
-/** Parameters from the markers before the scan. */
 interface Scan {
   readonly columns: number;
   readonly rows: number;
@@ -18,7 +17,6 @@ interface Scan {
 
 const [FRAME, HUFFMAN, START, RESTARTS] = [0xc3, 0xc4, 0xda, 0xdd];
 
-/** Decodes a frame; throws if it is damaged or of another kind. */
 export function decodeLossless(frame: Bytes): Decoded {
   const scan = readMarkers(frame);
   const { columns, rows, precision } = scan;

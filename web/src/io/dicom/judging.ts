@@ -22,7 +22,6 @@ export interface Plan {
 export interface PlannedSlice {
   readonly file: number;
   readonly frame: number;
-  /** Index k of the slice. */
   readonly place: number;
   readonly slope: number;
   readonly intercept: number;
@@ -56,7 +55,6 @@ export function asked(judge: Judge): Asked {
   return JSON.parse(judge.dicom_attributes());
 }
 
-/** Files, what to read, and slices found to differ. */
 export interface Question {
   readonly subject: string;
   readonly files: readonly LookedInto[];
@@ -64,7 +62,6 @@ export interface Question {
   readonly unlike?: readonly Compared[];
 }
 
-/** Finds the one series to read, and how. */
 export function judged(judge: Judge, { subject, files, wanted, unlike = [] }: Question): Plan {
   const records = files.map((file) => file.record);
   const headers = { transfer_syntaxes: TRANSFER_SYNTAXES, files: records, unlike };

@@ -20,7 +20,6 @@ export interface PixelElement {
   readonly at: number;
 }
 
-/** Elements before the pixels. */
 export interface Parsed {
   readonly syntax: string;
   readonly bytes: Bytes;

@@ -10,7 +10,6 @@ import { unpackRle } from './rle';
 import { codestreamSize, jpegSize } from './stream-size';
 
 export const RLE = '1.2.840.10008.1.2.5';
-/** All supported transfer syntaxes. */
 export const TRANSFER_SYNTAXES: readonly string[] = [...NATIVE, RLE, ...Object.keys(CODECS)];
 
 /** Bytes always allowed per frame: an empty 2048 × 2048 frame compresses to a hundred bytes. */
@@ -22,7 +21,6 @@ const COMPRESSION_LIMIT = 10_000;
 export class PixelReader {
   private frames: Frames | null = null;
 
-  /** Values of a frame, one per pixel. */
   async read(image: Image, frame: number): Promise<Numbers> {
     if (this.frames?.image !== image) {
       this.frames = new Frames(image);

@@ -1,6 +1,5 @@
 /** Recognises DICOM by its first bytes, without a parser. */
 
-/** Start of the file meta information. */
 export const PREAMBLE = 132;
 
 /** Whether bytes begin a DICOM file: with a preamble, or with a bare identifying group. */

@@ -85,7 +85,6 @@ class Reader {
     return meta ? (textsOf(this.file, meta)[0] ?? '') : '';
   }
 
-  /** Value of an attribute; undefined if absent. */
   value(elements: Elements, keyword: string): Value | undefined {
     const known = attribute(keyword);
     const element = known ? elements[known.tag] : undefined;

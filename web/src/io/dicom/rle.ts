@@ -19,7 +19,6 @@ export function unpackRle(frame: Bytes, count: number, unit: number): Bytes | nu
     if (start < HEADER || next > frame.length || start > next) {
       return null;
     }
-    // The most significant plane comes first.
     const found = unpackSegment(frame.subarray(start, next), pixels, unit - 1 - segment, unit);
     if (found < count) {
       return null;

@@ -114,7 +114,6 @@ class Filler {
     this.sink.take_voxels(place * ni * nj * byteCount(this.kind), bytesOf(values));
   }
 
-  /** Interpolates the slices between the previous one and this one. */
   private fillUpTo(number: number, values: Numbers): void {
     for (;;) {
       const fill = this.plan.fills[this.nextFill];

@@ -8,7 +8,6 @@ export interface StreamSize {
   readonly bits: number;
 }
 
-/** Size in a JPEG 2000 codestream; null if none. */
 export function codestreamSize(frame: Bytes): StreamSize | null {
   const view = new DataView(frame.buffer, frame.byteOffset, frame.byteLength);
   for (let at = 0; at + 43 <= frame.length; at += 1) {
@@ -25,7 +24,6 @@ export function codestreamSize(frame: Bytes): StreamSize | null {
   return null;
 }
 
-/** Size in a JPEG or JPEG-LS frame; null if none. */
 export function jpegSize(frame: Bytes): StreamSize | null {
   const view = new DataView(frame.buffer, frame.byteOffset, frame.byteLength);
   let at = 2;

@@ -5,12 +5,10 @@ import { shapeOf } from './frames';
 import type { Image, LookedInto } from './headers';
 import { PixelReader } from './pixels';
 
-/** Longer side (pixels). */
 const SIDE = 64;
 /** Share of values at each end that is clipped to black or white. */
 const ENDS = 0.02;
 
-/** Adds thumbnails to a failure that asks for a series. */
 export async function withThumbnails(failure: unknown, files: readonly LookedInto[]): Promise<unknown> {
   if (!(failure instanceof Failure) || failure.series.length === 0) {
     return failure;
@@ -50,7 +48,6 @@ function placeOf({ header: { attributes } }: Image): number {
   return Number.isFinite(place) ? place : Number(attributes.InstanceNumber ?? 0);
 }
 
-/** Greyscale by nearest neighbour. */
 export function pictureOf(values: Numbers, [columns, rows]: readonly [number, number]): Thumbnail {
   const step = Math.max(columns, rows) / SIDE;
   const [width, height] = [Math.max(1, Math.round(columns / step)), Math.max(1, Math.round(rows / step))];

@@ -52,7 +52,6 @@ export function textsOf(file: Parsed, element: Element, decoder = new TextDecode
   return text.split('\\').map((one) => one.replace(/[\0 ]+$/, ''));
 }
 
-/** Value of an element with the value representation `vr`. */
 export function valueIn(file: Parsed, element: Element, vr: string, decoder: TextDecoder): Value {
   if (vr === 'SQ') {
     return element.items?.length ?? (element.length === 0 ? 0 : true);

@@ -1,7 +1,6 @@
 /** What to read from DICOM files. */
 
 export interface Wanted {
-  /** Number or UID of a series. */
   readonly series: string | null;
   /** Value of the attribute that distinguishes the phases. */
   readonly phase: string | null;
