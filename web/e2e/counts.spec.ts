@@ -3,7 +3,7 @@ import { readFileSync } from 'node:fs';
 import { expect, type Locator, test } from '@playwright/test';
 import { button, countInput, rows, untraced } from './controls';
 
-const MOST = 20;
+const MAX_ACTIONS = 20;
 
 async function slide(slider: Locator, part: number): Promise<void> {
   // The range is known once the lengths are.
@@ -58,7 +58,7 @@ test('from a scan without vessels to a clean tree and a saved finding in at most
   expect(readFileSync(await download.path(), 'utf-8')).toMatch(/ of the diameter \(NASCET\)|No percentage: /);
   const { clicks, keys } = await counted();
   expect(clicks + keys).toBeGreaterThan(8);
-  expect(clicks + keys).toBeLessThanOrEqual(MOST);
+  expect(clicks + keys).toBeLessThanOrEqual(MAX_ACTIONS);
   await viewer.screenshot('count-report');
   viewer.expectNoFault();
   await viewer.close();

@@ -7,7 +7,7 @@ const SITE = process.env.LUMENCUT_DOCS_SITE ?? '';
 const PAGES = ['index', 'gallery', 'from-scan-to-report', 'how-to', 'api/pictures', 'METHOD', 'comparison'];
 const at = (name: string) => pathToFileURL(join(SITE, `${name}.html`)).href;
 
-function watched(page: Page): string[] {
+function recordFaults(page: Page): string[] {
   const faults: string[] = [];
   page.on('request', (request) => {
     if (!/^(file|data|blob):/.test(request.url())) faults.push(`asked ${request.url()}`);
@@ -24,7 +24,7 @@ for (const [width, height] of [
 ] as const) {
   test(`pages fit into ${width} × ${height}, whole and by themselves`, async ({ page }) => {
     await page.setViewportSize({ width, height });
-    const faults = watched(page);
+    const faults = recordFaults(page);
     for (const name of PAGES) {
       await page.goto(at(name));
       await expect(page.locator('h1')).toBeVisible();
@@ -43,7 +43,7 @@ for (const [width, height] of [
 }
 
 test('a word is found, without a server', async ({ page }) => {
-  const faults = watched(page);
+  const faults = recordFaults(page);
   await page.goto(at('index'));
   await page.keyboard.press('/');
   await page.keyboard.type('untangled', { delay: 20 });

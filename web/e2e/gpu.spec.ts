@@ -72,7 +72,7 @@ test('every shader compiles in the browser', async ({ browser }) => {
 });
 
 /** Few enough pixels for supersampling by a software GPU. */
-const FEW = [160, 120] as const;
+const SMALL_VIEW = [160, 120] as const;
 
 /** The supersampled view, equal on every device. */
 async function complete(viewer: Viewer): Promise<Pixels> {
@@ -90,7 +90,7 @@ async function crashGpu(browser: Browser): Promise<void> {
 test('the GPU draws; lost, it comes back; lost again, the CPU shows the same', async ({ browser }) => {
   test.setTimeout(120_000);
   const viewer = await Viewer.open(browser, `?phantom=stenosis&device=any${ONE}`);
-  await viewer.pin(FEW);
+  await viewer.pin(SMALL_VIEW);
   await viewer.rest();
   await expect(viewer.device).toContainText('GPU');
   await viewer.drag([0.5, 0.4], [30, 20]);
@@ -135,7 +135,7 @@ async function tracedOn(browser: Browser, device: 'any' | 'cpu'): Promise<[Pixel
   await viewer.press('v');
   await button(viewer, 'Delete all').click();
   await expect(viewer.pane('straightened')).toContainText('once there is one');
-  await viewer.pin(FEW);
+  await viewer.pin(SMALL_VIEW);
   await viewer.drag([0.3, 0.4], [25, 15]);
   const before = await complete(viewer);
   await startTracing(viewer);

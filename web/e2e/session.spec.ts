@@ -29,7 +29,7 @@ test.describe.configure({ mode: 'serial' });
 
 let viewer: Viewer;
 let session: Buffer;
-let before: Awaited<ReturnType<typeof told>>;
+let before: Awaited<ReturnType<typeof pageState>>;
 let picture: Awaited<ReturnType<Viewer['pixels']>>;
 
 const started = (browser: Browser, query = '?device=cpu') =>
@@ -38,7 +38,7 @@ const fileNow = (bytes = session) => fileOf('lumencut-session.mrk.json', bytes);
 
 const blur = () => viewer.page.getByRole('region', { name: 'Blur of the scan' });
 
-async function told() {
+async function pageState() {
   const { page } = viewer;
   const all = (selector: string, property: 'value' | 'checked' | 'textContent' | 'ariaPressed') =>
     page
@@ -99,7 +99,7 @@ async function expectAllBack(): Promise<void> {
   await expect(rows(viewer)).toHaveCount(2);
   await expect(stenosis(viewer)).toHaveText(before.stenosis ?? '', { timeout: 30_000 });
   await viewer.rest();
-  await expect.poll(told).toEqual(before);
+  await expect.poll(pageState).toEqual(before);
   expect(difference(await viewer.picture(), picture, OTHER_DEVICE)).toBeNull();
   const again = await saved(viewer, SESSION);
   expect(JSON.parse(again.toString('utf-8'))).toEqual(JSON.parse(session.toString('utf-8')));
@@ -112,7 +112,7 @@ test.beforeAll(async ({ browser }) => {
   await work();
   picture = await viewer.picture();
   session = await saved(viewer, SESSION);
-  before = await told();
+  before = await pageState();
   await viewer.screenshot('session-saved');
 });
 test.afterEach(() => viewer.expectNoFault());

@@ -1,7 +1,7 @@
 /** Profile axes, curves and flags, with the horizontal vessel on the same axis. */
 import { describe, expect, test } from 'vitest';
 import { axisAlong, chartLayout, LEFT, RIGHT } from '../src/measure/chart-layout';
-import { bandPath, counted, linePath, lonely, spreadOf, stretches, topOf } from '../src/measure/curves';
+import { bandPath, counted, isolated, linePath, spreadOf, stretches, topOf } from '../src/measure/curves';
 import { flagsIn, runs } from '../src/measure/flags';
 import { lyingBox, lyingIn, lyingPicture } from '../src/measure/lying';
 import { pixelAt, ticks, valueAt } from '../src/measure/scale';
@@ -59,7 +59,7 @@ describe('curves', () => {
   });
 
   test('sections that stand alone are dots', () => {
-    expect(lonely([1, null, 2, null, null])).toEqual([0, 2]);
+    expect(isolated([1, null, 2, null, null])).toEqual([0, 2]);
     expect(linePath(...axes, places, [1, null, 2, null, null])).toBe('');
   });
 

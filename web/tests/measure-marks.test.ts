@@ -6,13 +6,13 @@ import {
   comparedIn,
   moved,
   NOTHING_SUGGESTED,
-  type Place,
   placeAfter,
   placesOf,
   referenceSlots,
   removed,
   type Suggested,
   stretchAround,
+  type VesselPlace,
   withDiameter,
   withReference,
   withStretch,
@@ -29,9 +29,9 @@ const SUGGESTED: Suggested = [
   { at: 45, diameter: 8 },
 ];
 const found = (given: ReturnType<typeof marks>, suggested = SUGGESTED) => placesOf(profile, given, suggested);
-const short = (places: readonly Place[]) =>
+const short = (places: readonly VesselPlace[]) =>
   places.map(({ kind, slot, at, isSuggestion }) => `${kind} ${slot} ${at}${isSuggestion ? '?' : ''}`);
-function place(given: ReturnType<typeof marks>, kind: string, slot = 0): Place {
+function place(given: ReturnType<typeof marks>, kind: string, slot = 0): VesselPlace {
   const one = found(given).find((each) => each.kind === kind && each.slot === slot);
   if (!one) {
     throw new Error(`no ${kind} ${slot}`);

@@ -10,8 +10,8 @@ import { setPoint } from '../src/edit/pointing';
 import { toPick } from '../src/edit/shown';
 import { EMPTY } from '../src/state/document';
 import { begin, document_ } from '../src/state/history';
+import { message } from '../src/state/message';
 import * as store from '../src/state/store';
-import { told } from '../src/state/telling';
 import { tool } from '../src/state/tool';
 import { FakeTracing, withLines } from './fake-tracing';
 
@@ -40,7 +40,7 @@ afterEach(() => {
   store.camera.value = null;
   toPick.value = null;
   first.value = null;
-  told.value = null;
+  message.value = null;
 });
 
 test('where the reader did not put the cross-hair a click says where a tree begins', async () => {
@@ -71,7 +71,7 @@ test('clicks while vessels are looked for are no points of others, and the page 
   tool.value = 'trace';
   await setPoint(tracing, CHOSEN);
   expect(first.value).toBeNull();
-  expect(told.value).toContain('No point was set');
+  expect(message.value).toContain('No point was set');
   open();
   await finding;
   expect(searches.value).toBe(0);

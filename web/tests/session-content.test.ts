@@ -1,7 +1,7 @@
 /** Round trip of a document through a session file. */
 import { describe, expect, test } from 'vitest';
 import type { Report } from '../src/core/messages';
-import { cameraOf, contentOf, documentOf, type Looked } from '../src/session/content';
+import { cameraOf, contentOf, type DisplayState, documentOf } from '../src/session/content';
 import { type Document, NO_MARKS } from '../src/state/document';
 
 const GRID = [
@@ -54,7 +54,7 @@ const DOCUMENT: Document = {
   rulers: [{ from: [0, 0, 0], to: [3, 4, 0] }],
   isOneMillimetre: false,
 };
-const LOOKED: Looked = {
+const LOOKED: DisplayState = {
   camera: {
     center: [0, 0, 0],
     direction: [0, 1, 0],

@@ -7,7 +7,7 @@ import { answerDoubt, countedDoubts, placeOfDoubt, reasonOf, showDoubt, stepDoub
 import { isListOpen } from '../src/edit/list-open';
 import { chosenDoubt } from '../src/edit/mode';
 import { tree } from '../src/edit/shown';
-import { apart, followFacts, keepPart, marked, reachOf, removeMarked } from '../src/edit/tidying';
+import { followFacts, keepPart, marked, reachOf, removeMarked, unconnected } from '../src/edit/tidying';
 import { isTreeShown, listedVessels } from '../src/edit/vessel-order';
 import { EMPTY } from '../src/state/document';
 import { begin, document_, undo } from '../src/state/history';
@@ -83,7 +83,7 @@ beforeEach(async () => {
   tree.value = SURE;
   isListOpen.value = true;
   end = followFacts(engine);
-  await vi.waitFor(() => expect(apart.value.length).toBe(0));
+  await vi.waitFor(() => expect(unconnected.value.length).toBe(0));
   await Promise.resolve();
 });
 
@@ -126,11 +126,11 @@ test('a slider of limits reaches to what most vessels lie below, and no farther 
 });
 
 test('only what hangs together with the picked vessel is kept; doubtful branches stay to be judged', async () => {
-  expect(apart.value, 'none is picked').toEqual([]);
+  expect(unconnected.value, 'none is picked').toEqual([]);
   pickedVessel.value = 3;
-  expect(apart.value).toEqual([1, 2, 3, 5]);
+  expect(unconnected.value).toEqual([1, 2, 3, 5]);
   pickedVessel.value = 1;
-  expect(apart.value).toEqual([4, 5]);
+  expect(unconnected.value).toEqual([4, 5]);
   await keepPart(engine);
   expect(ids()).toEqual([1, 2, 3, 6, 7, 8]);
 });

@@ -1,6 +1,6 @@
 /** Typed calls to the worker; their errors are `Failure`s. */
 import { proxy, type Remote, transfer, wrap } from 'comlink';
-import type { Answer, Asked, Beside, Message, Question, Told } from '../core/asked';
+import type { Answer, Asked, Beside, Message, OnProgress, Question } from '../core/asked';
 import { Failure } from '../core/failure';
 import { type PlaceDoubt, TURNS } from '../core/generated/questions';
 import type { Drawn, GivenFile, Report, SeriesWish, Started, States, View } from '../core/messages';
@@ -45,8 +45,14 @@ export class EngineClient implements Asked {
   }
 
   /** Answers a question of the table; answers the user waits for come before the current view. */
-  ask<N extends Question>(name: N, message: Message<N>, { told, ...files }: Beside = {}): Promise<Answer<N>> {
-    const answer = this.host.ask(name, message, files, told ? proxy(told) : null) as Promise<Answer<N>>;
+  ask<N extends Question>(
+    name: N,
+    message: Message<N>,
+    { onProgress, ...files }: Beside = {},
+  ): Promise<Answer<N>> {
+    const answer = this.host.ask(name, message, files, onProgress ? proxy(onProgress) : null) as Promise<
+      Answer<N>
+    >;
     return TURNS[name].when === 'first' ? this.first(answer) : heard(answer);
   }
 
@@ -87,12 +93,16 @@ export class EngineClient implements Asked {
     return this.first(this.host.openPhantom(name, wish));
   }
 
-  openAddresses({ volume, centerlines }: Addresses, wish: SeriesWish, told: Told): Promise<Opened> {
-    return this.first(this.host.openAddresses(volume, centerlines, wish, proxy(told)));
+  openAddresses(
+    { volume, centerlines }: Addresses,
+    wish: SeriesWish,
+    onProgress: OnProgress,
+  ): Promise<Opened> {
+    return this.first(this.host.openAddresses(volume, centerlines, wish, proxy(onProgress)));
   }
 
-  openFiles(files: readonly GivenFile[], wish: SeriesWish, told: Told): Promise<Opened> {
-    return this.first(this.host.openFiles(files, wish, proxy(told)));
+  openFiles(files: readonly GivenFile[], wish: SeriesWish, onProgress: OnProgress): Promise<Opened> {
+    return this.first(this.host.openFiles(files, wish, proxy(onProgress)));
   }
 
   dicomHead(file: GivenFile): Promise<Uint8Array<ArrayBuffer>> {

@@ -6,10 +6,10 @@ export type Question = keyof Questions;
 export type Message<N extends Question> = Questions[N]['message'];
 export type Answer<N extends Question> = Questions[N]['answer'];
 
-export type Told = (progress: Progress) => void;
+export type OnProgress = (progress: Progress) => void;
 
 export interface Beside {
-  readonly told?: Told;
+  readonly onProgress?: OnProgress;
   readonly bytes?: Uint8Array;
   /** Files of a mask; the worker reads them before the edit. */
   readonly mask?: readonly GivenFile[];

@@ -3,8 +3,8 @@ import type { Asked } from '../core/asked';
 import type { DocumentVessel, Edit, Edited, GivenFile, LineFacts, Vector } from '../core/messages';
 import { flyToAnswer } from '../state/flight';
 import { document_ } from '../state/history';
+import { showFailure } from '../state/message';
 import { camera, notes } from '../state/store';
-import { tellFailure } from '../state/telling';
 import { answered, commit, isDone } from './committing';
 import { openList } from './list-open';
 import { maskOf, namedBySegment } from './segmentation';
@@ -42,7 +42,7 @@ async function showMain(engine: Asked): Promise<void> {
       await flyToAnswer(engine, engine.ask('best_view', { camera: camera.value, line: vessel.line }));
     }
   } catch (error) {
-    tellFailure(error);
+    showFailure(error);
   }
 }
 
@@ -62,11 +62,11 @@ export const addMask = (engine: Asked, mask: readonly GivenFile[]): Promise<bool
 
 export async function addSegmentation(engine: Asked, file: GivenFile): Promise<boolean> {
   try {
-    const { mask, names, notes: told } = await maskOf(file);
-    notes.value = [...new Set([...notes.value, ...told])];
+    const { mask, names, notes: maskNotes } = await maskOf(file);
+    notes.value = [...new Set([...notes.value, ...maskNotes])];
     return await addMany(engine, { kind: 'add_mask' }, mask, (vessel) => namedBySegment(vessel, names));
   } catch (error) {
-    tellFailure(error);
+    showFailure(error);
     return false;
   }
 }

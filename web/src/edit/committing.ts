@@ -8,7 +8,7 @@ import { afterEdit } from '../state/changes';
 import type { Document } from '../state/document';
 import { change, document_ } from '../state/history';
 import { problem, progress } from '../state/store';
-import { hear } from './telling';
+import { storeSummary } from './traced-summary';
 
 /** A rejected edit; `bridge` retries it with gaps bridged. */
 export interface Refusal {
@@ -44,7 +44,7 @@ export function dropEdits(): void {
 }
 
 /** Runs after all previous edits, and returns the words and the document of one undo step. */
-type Work<T> = (told: (progress: Progress) => void) => Promise<Step<T>> | Step<T>;
+type Work<T> = (onProgress: (progress: Progress) => void) => Promise<Step<T>> | Step<T>;
 
 interface Step<T> {
   readonly words: string;
@@ -73,9 +73,9 @@ function inTurn<T>(work: Work<T>, bridge: (() => void) | null): Promise<T | null
 
 async function doEdit<T>(work: Work<T>, own: number, bridge: (() => void) | null): Promise<T | null> {
   forgetRefusal();
-  const tell = teller(own);
+  const display = progressDisplay(own);
   try {
-    const step = await work(tell.told);
+    const step = await work(display.onProgress);
     if (own !== generation) {
       answered.value = step.answer ?? answered.value;
       return null;
@@ -88,7 +88,7 @@ async function doEdit<T>(work: Work<T>, own: number, bridge: (() => void) | null
     }
     return null;
   } finally {
-    tell.end();
+    display.end();
   }
 }
 
@@ -104,11 +104,11 @@ function take({ words, after, answer, also }: Step<unknown>): void {
 function refuse(failure: Failure, bridge: (() => void) | null): void {
   generation += 1;
   if (failure.kind !== 'interrupted') {
-    tellRefusal(failure, isGap(failure) ? bridge : null);
+    showRefusal(failure, isGap(failure) ? bridge : null);
   }
 }
 
-export function tellRefusal(failure: Failure, bridge: (() => void) | null = null): void {
+export function showRefusal(failure: Failure, bridge: (() => void) | null = null): void {
   refusal.value = { failure, bridge };
   problem.value = failure;
   if (failure.place) {
@@ -128,10 +128,10 @@ export function forgetRefusal(): void {
 }
 
 let shownProgress: Progress | null = null;
-const isOurs = (told: Progress | null): boolean => told !== null && told === shownProgress;
+const isOurs = (now: Progress | null): boolean => now !== null && now === shownProgress;
 
 /** Shows progress after a delay, even without further reports. */
-function teller(own: number): { told: (progress: Progress) => void; end: () => void } {
+function progressDisplay(own: number): { onProgress: (progress: Progress) => void; end: () => void } {
   let newest: Progress | null = null;
   let isDue = false;
   const show = () => {
@@ -145,8 +145,8 @@ function teller(own: number): { told: (progress: Progress) => void; end: () => v
     show();
   };
   const timer = setTimeout(begin, SHOWN_AFTER);
-  const told = (heard: Progress) => {
-    newest = heard;
+  const onProgress = (report: Progress) => {
+    newest = report;
     show();
   };
   // Reports may arrive late by another channel; ignore them.
@@ -154,7 +154,7 @@ function teller(own: number): { told: (progress: Progress) => void; end: () => v
     clearTimeout(timer);
     isDue = false;
   };
-  return { told, end };
+  return { onProgress, end };
 }
 
 export function commitPlain(words: string, edit: (document: Document) => Document): Promise<boolean> {
@@ -173,15 +173,19 @@ interface Beside {
 export function commit(engine: Asked, edit: Edit, beside: Beside = {}): Promise<AfterEdit | null> {
   const { mask, then, renamed = (vessel) => vessel, bridging = false } = beside;
   const files = mask && { mask };
-  const work: Work<AfterEdit> = async (told) => {
+  const work: Work<AfterEdit> = async (onProgress) => {
     const ask = ({ vessels, stoppers, bridge }: Document) =>
-      engine.ask('edit', { document: { vessels, stoppers, bridge }, edit, bridging }, { told, ...files });
+      engine.ask(
+        'edit',
+        { document: { vessels, stoppers, bridge }, edit, bridging },
+        { onProgress, ...files },
+      );
     const answer = await latest(ask);
     // The engine shows its own names, so renamed vessels must be shown again.
     const edited = withNames(answer.edited, renamed);
     const after = afterEdit(document_.value, edited);
     const also = () => {
-      hear(edited);
+      storeSummary(edited);
       then?.(edited);
     };
     return { words: edited.words, after, result: answer, answer, also };
@@ -192,10 +196,10 @@ export function commit(engine: Asked, edit: Edit, beside: Beside = {}): Promise<
 }
 
 function counted<T>(work: Work<T>): Work<T> {
-  return async (told) => {
+  return async (onProgress) => {
     searches.value += 1;
     try {
-      return await work(told);
+      return await work(onProgress);
     } finally {
       searches.value -= 1;
     }
@@ -209,12 +213,12 @@ function withNames(edited: Edited, renamed: (vessel: DocumentVessel) => Document
 }
 
 function askedAbout<T>(work: Work<T>): Work<T> {
-  return async (told) => {
+  return async (onProgress) => {
     const timer = setTimeout(() => {
       isLong.value = true;
     }, ASKED_AFTER);
     try {
-      return await work(told);
+      return await work(onProgress);
     } finally {
       clearTimeout(timer);
       isLong.value = false;

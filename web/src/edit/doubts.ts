@@ -5,8 +5,8 @@ import { placeCrossHair } from '../link/cross-hair';
 import { doubtful, vesselOf } from '../state/changes';
 import { flyToAnswer } from '../state/flight';
 import { document_ } from '../state/history';
+import { showFailure } from '../state/message';
 import { camera, started } from '../state/store';
-import { tellFailure } from '../state/telling';
 import { accept, leaveOut } from './branches';
 import { contents } from './lines';
 import { chosenDoubt } from './mode';
@@ -43,7 +43,7 @@ export async function showDoubt(engine: Asked, vessel: DocumentVessel): Promise<
       await flyToAnswer(engine, viewOf(engine, camera.value, vessel.line));
     }
   } catch (error) {
-    tellFailure(error);
+    showFailure(error);
   }
 }
 

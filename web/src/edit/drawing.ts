@@ -53,7 +53,7 @@ export const anchor = computed<Vector | null>(
 export const isDrawing = computed(() => anchor.value !== null);
 
 /** The pointer counts as on the point within this distance (mm). */
-const SAME = 0.05;
+const SAME_POINT_MM = 0.05;
 
 type Leg = readonly [from: Vector, to: Vector];
 
@@ -66,7 +66,9 @@ function legs(): readonly Leg[] {
     return beside.filter((click) => click !== undefined).map((click) => [click, moved.point] as const);
   }
   const [from, to] = [anchor.value, candidate.value ?? target.value];
-  return tool.value === 'trace' && from && to && length(subtract(to, from)) > SAME ? [[from, to]] : [];
+  return tool.value === 'trace' && from && to && length(subtract(to, from)) > SAME_POINT_MM
+    ? [[from, to]]
+    : [];
 }
 
 /** Retries for a resting pointer: the engine searches for a limited time and continues when asked again. */

@@ -5,17 +5,17 @@ import { Failure } from '../core/failure';
 import type { AfterEdit, Pick, Vector } from '../core/messages';
 import { length, subtract } from '../core/vectors';
 import { document_ } from '../state/history';
+import { showMessage } from '../state/message';
 import { crossHair } from '../state/store';
-import { tell } from '../state/telling';
 import { active, tool } from '../state/tool';
 import { addBranches } from './branches';
 import { addClick, beginVessel, begunId, removeClick } from './clicks';
-import { forgetRefusal, refusal, searches, tellRefusal } from './committing';
+import { forgetRefusal, refusal, searches, showRefusal } from './committing';
 import { anchor, candidate, coming, drawing, drawn, first, forgetDrawing, isDrawing } from './drawing';
 import { addStopper } from './stoppers';
 import { checked, only, whole } from './whole-shown';
 
-const SAME = 0.05;
+const SAME_POINT_MM = 0.05;
 
 let beginning: Promise<AfterEdit | null> | null = null;
 
@@ -23,7 +23,7 @@ let beginning: Promise<AfterEdit | null> | null = null;
 export async function setPoint(engine: Asked, point: Vector): Promise<Pick | null> {
   candidate.value = null;
   if (searches.value > 0) {
-    tell('No point was set: the search for vessels is still running. Press Escape to stop it.');
+    showMessage('No point was set: the search for vessels is still running. Press Escape to stop it.');
     return null;
   }
   if (tool.value === 'stopper') {
@@ -90,13 +90,13 @@ async function begin(engine: Asked, clicks: readonly [Vector, Vector]): Promise<
 /** Checks a first point and previews its whole vessel. Removes the point if no vessel can begin there. */
 async function checkFirst(engine: Asked, point: Vector): Promise<Pick | null> {
   try {
-    const told = await engine.ask('first_click', { click: point, vessels: document_.value.vessels });
-    whole.value = first.value === point && only.value === point ? told.whole : whole.value;
-    return told.pick;
+    const answer = await engine.ask('first_click', { click: point, vessels: document_.value.vessels });
+    whole.value = first.value === point && only.value === point ? answer.whole : whole.value;
+    return answer.pick;
   } catch (error) {
     if (first.value === point) {
       first.value = null;
-      tellRefusal(Failure.of(error));
+      showRefusal(Failure.of(error));
     }
     return null;
   }
@@ -104,7 +104,7 @@ async function checkFirst(engine: Asked, point: Vector): Promise<Pick | null> {
 
 function isBlamed(point: Vector | null): boolean {
   const place = refusal.value?.failure.place;
-  return Boolean(point && place && length(subtract(place, point)) < SAME);
+  return Boolean(point && place && length(subtract(place, point)) < SAME_POINT_MM);
 }
 
 /** Confirms the point from a projection. Returns whether there was one. */
@@ -132,7 +132,7 @@ export function enter(engine: Asked): void {
 
 export function isAtCrossHair(place: Vector): boolean {
   const point = crossHair.value?.point;
-  return point !== undefined && length(subtract(place, point)) < SAME;
+  return point !== undefined && length(subtract(place, point)) < SAME_POINT_MM;
 }
 
 /** Ends the vessel; points still being traced are added to it. */

@@ -85,7 +85,7 @@ export function followDocument(engine: Asked): () => void {
     } else if (answer && answer !== heard) {
       untracked(() => {
         const study = store.report.value?.volume;
-        takeUp(engine, answer.report, document).catch((error) => tellOf(study, error));
+        takeUp(engine, answer.report, document).catch((error) => reportError(study, error));
       });
     }
     heard = answer;
@@ -102,7 +102,7 @@ async function takeUp(engine: Asked, report: Report, document: Document): Promis
   }
 }
 
-function tellOf(study: Report['volume'] | undefined, error: unknown): void {
+function reportError(study: Report['volume'] | undefined, error: unknown): void {
   if (study === store.report.value?.volume) {
     store.problem.value = Failure.of(error);
   }
@@ -135,7 +135,7 @@ async function showLatest(engine: Asked): Promise<void> {
       study = store.report.value?.volume;
     }
   } catch (error) {
-    tellOf(study, error);
+    reportError(study, error);
   } finally {
     // Cleared without a pause, so that no change can slip in after the last check.
     showing = null;

@@ -37,8 +37,8 @@ export function followFacts(engine: Asked): () => void {
 
 async function ask(engine: Asked, lines: readonly LineId[]): Promise<void> {
   try {
-    const told = lines.length > 0 ? await engine.ask('line_facts', { lines }) : [];
-    facts.value = new Map(told.map((one) => [one.line, one]));
+    const found = lines.length > 0 ? await engine.ask('line_facts', { lines }) : [];
+    facts.value = new Map(found.map((one) => [one.line, one]));
   } catch (error) {
     // A study closed meanwhile has no lines.
     if (lines.every((line) => sure.value.some((vessel) => vessel.line === line))) {
@@ -48,13 +48,13 @@ async function ask(engine: Asked, lines: readonly LineId[]): Promise<void> {
 }
 
 /** Share of the values that a limit slider covers, so that none removes everything. */
-const MOST = 0.95;
+const SLIDER_SHARE = 0.95;
 
-/** Range of a limit slider: `MOST` of the values but at most `usual`, for precision; the median if that is larger. */
+/** Range of a limit slider: `SLIDER_SHARE` of the values but at most `usual`, for precision; the median if that is larger. */
 export function reachOf(values: readonly number[], usual: number): number {
   const ordered = [...values].sort((a, b) => a - b);
   const below = (part: number) => ordered[Math.round(part * (ordered.length - 1))] ?? 0;
-  return Math.min(below(MOST), Math.max(usual, below(0.5)));
+  return Math.min(below(SLIDER_SHARE), Math.max(usual, below(0.5)));
 }
 
 function isMarked(vessel: DocumentVessel): boolean {
@@ -66,7 +66,7 @@ export const marked = computed<ReadonlySet<number>>(
   () => new Set(sure.value.filter(isMarked).map((vessel) => vessel.id)),
 );
 
-export const apart = computed<readonly number[]>(() => {
+export const unconnected = computed<readonly number[]>(() => {
   const picked = sure.value.find((vessel) => vessel.id === pickedId());
   const part = picked && factsOf(picked)?.part;
   return part === undefined
@@ -82,4 +82,4 @@ export async function removeMarked(engine: Asked): Promise<boolean> {
   return isDone;
 }
 
-export const keepPart = (engine: Asked): Promise<boolean> => remove(engine, apart.value);
+export const keepPart = (engine: Asked): Promise<boolean> => remove(engine, unconnected.value);

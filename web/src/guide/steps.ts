@@ -18,7 +18,7 @@ export interface GuideStep {
 }
 
 /** Smallest turn that counts (cosine of 20°). */
-const TURNED = Math.cos(Math.PI / 9);
+const COS_MIN_TURN = Math.cos(Math.PI / 9);
 
 /** Current step, counted from 0; null without a tour. */
 export const guideStep = signal<number | null>(null);
@@ -57,7 +57,9 @@ export const STEPS: readonly GuideStep[] = [
     ],
     isDone: () => {
       const camera = store.camera.value;
-      return camera !== null && directionAtFirst !== null && dot(camera.direction, directionAtFirst) < TURNED;
+      return (
+        camera !== null && directionAtFirst !== null && dot(camera.direction, directionAtFirst) < COS_MIN_TURN
+      );
     },
   },
   {

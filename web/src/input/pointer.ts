@@ -9,8 +9,7 @@ const ZOOM_PER_WHEEL = 0.0016;
 const MOST_WHEEL = 120;
 /** Pixels per wheel line, in browsers that report lines. */
 const LINE = 40;
-/** Slices per step with Shift. */
-const MANY = 10;
+const SLICES_WITH_SHIFT = 10;
 /** Maximum time (ms) and distance (pixels) of a double click. */
 export const DOUBLE_WITHIN = 350;
 export const DOUBLE_NEAR = 6;
@@ -34,7 +33,7 @@ export interface Handlers {
   putBack(): void;
 }
 
-type Place = [number, number];
+type Pixel = [number, number];
 
 export function listen(element: HTMLElement, where: Where, handlers: Handlers): () => void {
   const gestures = new Pointers(element, where, handlers);
@@ -61,14 +60,14 @@ function modifierOf(event: MouseEvent): Modifier {
 }
 
 class Pointers {
-  private readonly held = new Map<number, Place>();
-  private start: Place = [0, 0];
+  private readonly held = new Map<number, Pixel>();
+  private start: Pixel = [0, 0];
   private action: Action | null = null;
   private clickAction: Action | null = null;
   private isDragging = false;
   private spread = 0;
   private readonly steps = new Steps();
-  private lastClick = { time: Number.NEGATIVE_INFINITY, at: [0, 0] as Place };
+  private lastClick = { time: Number.NEGATIVE_INFINITY, at: [0, 0] as Pixel };
 
   constructor(
     private readonly element: HTMLElement,
@@ -76,7 +75,7 @@ class Pointers {
     private readonly handlers: Handlers,
   ) {}
 
-  private placeOf(event: MouseEvent): Place {
+  private placeOf(event: MouseEvent): Pixel {
     const box = this.element.getBoundingClientRect();
     return [event.clientX - box.left, event.clientY - box.top];
   }
@@ -133,7 +132,7 @@ class Pointers {
       this.handlers.hover(at, event.shiftKey);
       return;
     }
-    const by: Place = [at[0] - before[0], at[1] - before[1]];
+    const by: Pixel = [at[0] - before[0], at[1] - before[1]];
     if (this.held.size > 1) {
       this.held.set(event.pointerId, at);
       this.moveTwo(by);
@@ -151,7 +150,7 @@ class Pointers {
     this.dragged(by, at);
   }
 
-  private moveTwo(by: Place): void {
+  private moveTwo(by: Pixel): void {
     const middle = this.middle();
     const spread = this.distance();
     if (this.spread > 0 && spread > 0) {
@@ -161,12 +160,12 @@ class Pointers {
     this.handlers.drag('pan', [by[0] / 2, by[1] / 2], middle);
   }
 
-  private middle(): Place {
+  private middle(): Pixel {
     const [a, b] = [...this.held.values()];
     return a && b ? [(a[0] + b[0]) / 2, (a[1] + b[1]) / 2] : this.start;
   }
 
-  private dragged(by: Place, at: Place): void {
+  private dragged(by: Pixel, at: Pixel): void {
     if (this.action === 'scroll') {
       this.scrollBy(this.steps.ofPixels(by[1] * 4));
     } else if (this.action) {
@@ -190,7 +189,7 @@ class Pointers {
     }
   }
 
-  private click(at: Place, { timeStamp: time, button }: PointerEvent): void {
+  private click(at: Pixel, { timeStamp: time, button }: PointerEvent): void {
     const last = this.lastClick;
     const isNear = Math.hypot(at[0] - last.at[0], at[1] - last.at[1]) <= DOUBLE_NEAR;
     if (time - last.time < DOUBLE_WITHIN && isNear && button === 0) {
@@ -242,7 +241,7 @@ class Pointers {
       const bounded = Math.max(-MOST_WHEEL, Math.min(MOST_WHEEL, pixels));
       this.handlers.zoom(Math.exp(-bounded * ZOOM_PER_WHEEL), this.placeOf(event));
     } else if (action === 'scroll' || action === 'scroll by ten') {
-      this.scrollBy(this.steps.ofWheel(event) * (action === 'scroll' ? 1 : MANY));
+      this.scrollBy(this.steps.ofWheel(event) * (action === 'scroll' ? 1 : SLICES_WITH_SHIFT));
     }
   }
 

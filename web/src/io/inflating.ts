@@ -44,11 +44,11 @@ export class Part {
     this.stream.output = new Uint8Array(limit);
     this.stream.next_out = 0;
     this.stream.avail_out = limit;
-    const told = zlibInflate(this.stream, Z_NO_FLUSH);
-    if (told !== Z_OK && told !== Z_STREAM_END && told !== Z_BUF_ERROR) {
+    const status = zlibInflate(this.stream, Z_NO_FLUSH);
+    if (status !== Z_OK && status !== Z_STREAM_END && status !== Z_BUF_ERROR) {
       throw damaged(this.subject, 'a compressed stream that is damaged', 'a whole one');
     }
-    this.hasEnded = told === Z_STREAM_END;
+    this.hasEnded = status === Z_STREAM_END;
     return this.stream.output.subarray(0, this.stream.next_out);
   }
 }

@@ -2,23 +2,22 @@
 import { Failure } from '../core/failure';
 import type { Progress } from '../core/messages';
 
-export type Told = (progress: Progress) => void;
+export type OnProgress = (progress: Progress) => void;
 
-/** Longest computation without checking for messages (ms). */
-const LISTENING = 30;
+const LISTEN_AFTER_MS = 30;
 
 export class Steps {
   private heard = performance.now();
 
   constructor(
-    private readonly told: Told,
+    private readonly onProgress: OnProgress,
     readonly signal: AbortSignal,
   ) {}
 
   /** Reports progress at intervals; throws after a stop. */
   async step(words: string, done: number, total: number | null): Promise<void> {
-    if (performance.now() - this.heard >= LISTENING) {
-      this.told({ words, done, total });
+    if (performance.now() - this.heard >= LISTEN_AFTER_MS) {
+      this.onProgress({ words, done, total });
       await new Promise((listened) => setTimeout(listened, 0));
       this.heard = performance.now();
     }

@@ -19,7 +19,7 @@ export interface Study extends Sink {
   sideNotes?(text: string): readonly string[];
 }
 
-export interface Means {
+export interface LoadContext {
   readonly study: Study;
   readonly loadJudge: () => Promise<Judge>;
   readonly steps: Steps;
@@ -57,18 +57,18 @@ export async function openFiles(
   sources: readonly Source[],
   beside: Beside,
   wanted: Wanted,
-  means: Means,
+  context: LoadContext,
 ): Promise<Opened> {
-  const sorted = await sort(sources, means.steps);
+  const sorted = await sort(sources, context.steps);
   requireOne(sorted);
-  const volume = await openVolume(sorted, sources, { beside, wanted, ...means });
+  const volume = await openVolume(sorted, sources, { beside, wanted, ...context });
   const [lines] = sorted.lines;
-  const notes = lines ? await openLines(lines.source, means) : [];
+  const notes = lines ? await openLines(lines.source, context) : [];
   return { volume, notes: [...(volume?.notes ?? []), ...notes] };
 }
 
 /** Adds centerlines. Returns notes. */
-export async function openLines(source: Source, { study, steps }: Means): Promise<readonly string[]> {
+export async function openLines(source: Source, { study, steps }: LoadContext): Promise<readonly string[]> {
   const found = await known(source);
   if (['nifti', 'nrrd', 'metaimage', 'dicom', 'zip'].includes(found.kind)) {
     const mend = 'trace a mask with `lumencut trace` and open the result';
@@ -133,7 +133,7 @@ function unknown(others: readonly Known[]): Error {
   return formatFailure(first.source.path, `${first.words}${hasMore}`, `${VOLUMES}, or ${LINES}`, mend);
 }
 
-interface Asked extends Means {
+interface Asked extends LoadContext {
   readonly beside: Beside;
   readonly wanted: Wanted;
 }

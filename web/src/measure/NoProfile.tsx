@@ -14,7 +14,7 @@ export function NoProfile({ size }: { readonly size: Pair }) {
 
 function Why() {
   const failure = currentFailure.value;
-  const told = store.progress.value;
+  const progress = store.progress.value;
   if (failure) {
     return (
       <p>
@@ -28,7 +28,7 @@ function Why() {
     return <p>No scan is open to measure in.</p>;
   }
   if (beingMeasured.value !== null) {
-    const share = told?.total ? ` ${((100 * told.done) / told.total).toFixed(0)} %` : '';
+    const share = progress?.total ? ` ${((100 * progress.done) / progress.total).toFixed(0)} %` : '';
     return <p>{`Measuring…${share} Press Escape to stop.`}</p>;
   }
   return stopped.value === null ? null : (

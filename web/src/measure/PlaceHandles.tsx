@@ -3,7 +3,7 @@ import type { Pair, ReportPlace } from '../core/messages';
 import { Handle } from '../pane/Handle';
 import { currentPlaces } from './current';
 import { beginMove, confirm, endMove, isCrossed, move, putBack, remove } from './editing';
-import type { Kind, Place } from './marks';
+import type { Kind, VesselPlace } from './marks';
 import { mm, placeName } from './words';
 
 /** Colour of a place in a report; the names come from the engine. */
@@ -24,13 +24,13 @@ const STEP = 0.5;
 interface PlaceHandlesProps {
   readonly view: string;
   /** Null if the place is not visible. */
-  pixelAt(at: number, place: Place): Pair | null;
+  pixelAt(at: number, place: VesselPlace): Pair | null;
   /** Arc length at a pixel; `before` is the previous one. */
   atOf(pixel: Pair, before: number): number;
 }
 
 /** Handles in a stable order: a reference dragged past the stenosis keeps its handle, so the drag continues. */
-function grips(): { readonly key: string; readonly place: Place }[] {
+function grips(): { readonly key: string; readonly place: VesselPlace }[] {
   return currentPlaces.value
     .map((place) => {
       const isSwapped = place.kind === 'reference' && isCrossed.value;

@@ -41,12 +41,13 @@ function Bar({ turn }: { readonly turn: PlaceTurn }) {
         Done
       </button>
       <p role="status" title="Diameter halfway between lumen and surroundings, for orientation only">
-        <b>{`this cut: ${told(cut)}`}</b>
+        <b>{`this cut: ${diameterText(cut)}`}</b>
         {turn.least !== null &&
-          ` · smallest so far ${told(turn.least)} · largest so far ${told(turn.largest)}`}
+          ` · smallest so far ${diameterText(turn.least)} · largest so far ${diameterText(turn.largest)}`}
       </p>
     </section>
   );
 }
 
-const told = (diameter: number | null): string => (diameter === null ? 'wall not visible' : mm(diameter, 1));
+const diameterText = (diameter: number | null): string =>
+  diameter === null ? 'wall not visible' : mm(diameter, 1);

@@ -9,10 +9,10 @@ import * as store from '../state/store';
 import { currentMarks, currentPlaces, currentVessel } from './current';
 import { confirm, remove } from './editing';
 import { meanings } from './flags';
-import type { Kind, Place } from './marks';
+import type { Kind, VesselPlace } from './marks';
 import { COLORS } from './PlaceHandles';
 import { sectionNumbers } from './sections';
-import { area, doubtWords, mm, NOTHING, placeName, spread, told } from './words';
+import { area, doubtWords, mm, NOTHING, placeName, spread, withKnownUnits } from './words';
 
 /** Kinds with a diameter; stretches are listed in their own part. */
 const LISTED: readonly Kind[] = ['place', 'reference', 'diameter'];
@@ -53,7 +53,7 @@ function NotMeasured({ profile }: { readonly profile: Profile }) {
     <>
       {profile.not_measured.map(({ cut_mm: at, words }) => (
         <p key={at} class="refused" data-testid="not-measured">
-          {told(words)}{' '}
+          {withKnownUnits(words)}{' '}
           {id !== undefined && (
             <button type="button" class="small" onClick={() => void cut(engine, id, at)}>
               Cut here
@@ -66,7 +66,9 @@ function NotMeasured({ profile }: { readonly profile: Profile }) {
 }
 
 function NotSuggested({ reasons }: { readonly reasons: readonly string[] }) {
-  return reasons.length > 0 ? <p data-testid="not-suggested">{reasons.map(told).join(' ')}</p> : null;
+  return reasons.length > 0 ? (
+    <p data-testid="not-suggested">{reasons.map(withKnownUnits).join(' ')}</p>
+  ) : null;
 }
 
 function TurnButton() {
@@ -84,7 +86,7 @@ function TurnButton() {
   );
 }
 
-function PlaceRow({ place, profile }: { readonly place: Place; readonly profile: Profile }) {
+function PlaceRow({ place, profile }: { readonly place: VesselPlace; readonly profile: Profile }) {
   const section = sectionNumbers(profile, place.at);
   const { diameter, uncertainty, shortest, longest, area: size, flags } = section;
   const doubts = doubtWords(section).join(', ');

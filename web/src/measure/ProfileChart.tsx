@@ -1,7 +1,7 @@
 /** Chart of the diameter by arc length. */
 import type { Profile } from '../core/messages';
 import type { ChartLayout } from './chart-layout';
-import { bandPath, counted, DEVIATIONS, linePath, lonely, spreadOf } from './curves';
+import { bandPath, counted, DEVIATIONS, isolated, linePath, spreadOf } from './curves';
 import { flagsIn, runs } from './flags';
 import type { Kind } from './marks';
 import { pixelAt, ticks } from './scale';
@@ -95,7 +95,7 @@ function Curves({ profile, layout, hasUnits }: ProfileChartProps) {
       <path d={bandPath(x, y, at, range)} fill={COLORS.line} fill-opacity="0.16" class="range" />
       <path d={bandPath(x, y, at, spreadOf(profile))} fill={COLORS.line} fill-opacity="0.4" class="band" />
       <path d={linePath(x, y, at, width)} fill="none" stroke={COLORS.line} stroke-width="1.6" class="width" />
-      {lonely(width).map((n) => (
+      {isolated(width).map((n) => (
         <circle
           key={n}
           cx={pixelAt(x, at[n] ?? 0)}

@@ -17,10 +17,9 @@ import { SectionTools, TOOLS } from './SectionTools';
 import { type Axis, pixelAt, valueAt } from './scale';
 import { fittingSide, sectionNumbers, UNKNOWN_SIDE } from './sections';
 
-/** Largest share of the height for the vessel. */
-const PART = 0.4;
+const VESSEL_HEIGHT_SHARE = 0.4;
 /** Distance of the handles from the edge, clear of the lumen. */
-const GRIP = 9;
+const HANDLE_INSET_PX = 9;
 
 export function ProfilePane() {
   const pane = useRef<HTMLDivElement>(null);
@@ -45,7 +44,7 @@ function ProfileContent({ size }: { readonly size: Pair }) {
   }
   const x = axisAlong(vessel.length, size[0]);
   const lying = lyingIn(x, {
-    height: PART * size[1],
+    height: VESSEL_HEIGHT_SHARE * size[1],
     density: Math.min(window.devicePixelRatio || 1, 2),
     fitting: profile ? fittingSide(profile) : UNKNOWN_SIDE,
   });
@@ -109,7 +108,8 @@ function Chart({ profile, size, x, lying }: ChartProps) {
 const isStretch = (kind: string): boolean => kind === 'stretch' || kind === 'secondStretch';
 
 /** Places have handles at the upper edge, stretches at the lower. */
-const gripOf = (kind: string, height: number): number => (isStretch(kind) ? height - GRIP : GRIP);
+const gripOf = (kind: string, height: number): number =>
+  isStretch(kind) ? height - HANDLE_INSET_PX : HANDLE_INSET_PX;
 
 interface PlaceLinesProps {
   readonly x: Axis;

@@ -14,7 +14,7 @@ import { beingMeasured, forgetProfiles, measure, profiles, stopped } from '../st
 import { rulerLength } from '../state/rulers';
 import * as store from '../state/store';
 import { type Answers, answers, currentMarks, currentProfile, currentVessel, NO_ANSWERS } from './current';
-import { listedFindings, markedVessel, stated, toldFindings } from './findings';
+import { findingSentences, listedFindings, markedVessel, stated } from './findings';
 import { comparedIn, mainPlace, NOTHING_SUGGESTED, placesOf, type Suggested } from './marks';
 
 /** Keeps profile and answers of the picked vessel up to date; used once, by the layout. */
@@ -41,7 +41,7 @@ export function useMeasuring(): void {
     }
   });
   useSignalEffect(arrive);
-  useSignalEffect(() => tellFindings(latestFindings.current));
+  useSignalEffect(() => askForSentences(latestFindings.current));
   useSignalEffect(() => {
     const [vessel, profile, marks] = [currentVessel.value, currentProfile.value, currentMarks.value];
     if (vessel?.line !== answered.current) {
@@ -72,7 +72,7 @@ function wantedLines(): readonly LineId[] {
   return vessel && store.layout.value === 'measure' ? [vessel.line] : [];
 }
 
-function tellFindings(latest: Latest): void {
+function askForSentences(latest: Latest): void {
   if (store.layout.value !== 'report') {
     return;
   }
@@ -82,7 +82,8 @@ function tellFindings(latest: Latest): void {
     stated: stated(),
   };
   latest.run(async () => {
-    toldFindings.value = (await engine.ask('findings', message).catch(unlessGone)) ?? toldFindings.value;
+    findingSentences.value =
+      (await engine.ask('findings', message).catch(unlessGone)) ?? findingSentences.value;
   });
 }
 

@@ -10,9 +10,9 @@ import {
   type ComparedPlaces,
   comparedIn,
   NOTHING_SUGGESTED,
-  type Place,
   placesOf,
   type Suggested,
+  type VesselPlace,
 } from './marks';
 import { marksOf } from './vessels';
 
@@ -76,7 +76,7 @@ export const NO_ANSWERS: Answers = {
 export const answers = signal<Answers>(NO_ANSWERS);
 
 /** Marked and suggested places; empty before the vessel is measured. */
-export const currentPlaces = computed<readonly Place[]>(() => {
+export const currentPlaces = computed<readonly VesselPlace[]>(() => {
   const [profile, marks] = [currentProfile.value, currentMarks.value];
   return profile && marks ? placesOf(profile, marks, answers.value.suggested) : [];
 });

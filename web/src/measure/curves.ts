@@ -4,8 +4,7 @@ import { type Axis, pixelAt } from './scale';
 
 /** Half width of the band in standard deviations. */
 export const DEVIATIONS = 2;
-/** Headroom above the largest valid diameter. */
-const ROOM = 1.12;
+const AXIS_HEADROOM = 1.12;
 
 /** Values of valid sections; others become null. */
 export function counted({ counts }: Profile, values: readonly (number | null)[]): (number | null)[] {
@@ -33,7 +32,7 @@ export function topOf(profile: Profile): number {
   const some = (values: readonly (number | null)[]) => values.filter((value) => value !== null);
   const wide = some(counted(profile, profile.diameter_max));
   const all = wide.length > 0 ? wide : some(profile.diameter_max);
-  return all.length > 0 ? ROOM * Math.max(...all) : 1;
+  return all.length > 0 ? AXIS_HEADROOM * Math.max(...all) : 1;
 }
 
 /** A line through the values, interrupted where they are missing. */
@@ -66,7 +65,7 @@ export function bandPath(
     .join('');
 }
 
-export const lonely = (values: readonly (number | null)[]): number[] =>
+export const isolated = (values: readonly (number | null)[]): number[] =>
   stretches(values).flatMap((run) => (run.length === 1 ? run : []));
 
 function pointOf(x: Axis, y: Axis, at = 0, value: number | null = 0): string {

@@ -9,10 +9,10 @@ import { answers, comparedPlaces, currentMarks, currentProfile, currentVessel } 
 import {
   allConfirmed,
   moved,
-  type Place,
   placeAfter,
   removed,
   taken,
+  type VesselPlace,
   withDiameter,
   withReference,
   withStretch,
@@ -22,7 +22,7 @@ import { withMarks } from './vessels';
 import { placeName } from './words';
 
 interface Drag {
-  readonly place: Place;
+  readonly place: VesselPlace;
   readonly marks: VesselMarks;
   readonly document: Document;
   readonly wasCrossed: boolean;
@@ -46,7 +46,7 @@ export function changeMarks(words: string, how: (marks: VesselMarks) => VesselMa
   }
 }
 
-export function beginMove(place: Place): void {
+export function beginMove(place: VesselPlace): void {
   const marks = currentMarks.value;
   drag = marks && { place, marks, document: document_.value, wasCrossed: isCrossed.value };
 }
@@ -119,7 +119,7 @@ export function endLength(): void {
   }
 }
 
-export function confirm(place: Place): void {
+export function confirm(place: VesselPlace): void {
   if (place.isSuggestion) {
     changeMarks(`take the ${placeName({ ...place, isSuggestion: false })}`, (marks) => taken(marks, place));
   }
@@ -138,6 +138,6 @@ export function confirmAll(): void {
   }
 }
 
-export function remove(place: Place): void {
+export function remove(place: VesselPlace): void {
   changeMarks(`remove the ${placeName(place)}`, (marks) => removed(marks, place));
 }

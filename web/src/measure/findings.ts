@@ -55,11 +55,11 @@ export function leaveOut(line: LineId, isOut: boolean): void {
 }
 
 /** Null until the engine has answered. */
-export const toldFindings = signal<Findings | null>(null);
+export const findingSentences = signal<Findings | null>(null);
 
 export function forgetFindings(): void {
   leftOut.value = new Set();
-  toldFindings.value = null;
+  findingSentences.value = null;
 }
 
 /** Whether the scan states spacing and orientation. */

@@ -2,22 +2,20 @@
 import { useRef } from 'preact/hooks';
 import { currentPlaces } from './current';
 import { beginMove, endMove, move, putBack } from './editing';
-import type { Place } from './marks';
+import type { VesselPlace } from './marks';
 import { type Axis, pixelAt, valueAt } from './scale';
 
-/** Largest distance from a line at which a drag may begin (CSS pixels). */
-export const HIT = 22;
-/** Movement up to this is a click (CSS pixels). */
-const STILL = 4;
+export const GRAB_DISTANCE_PX = 22;
+const CLICK_MOVE_PX = 4;
 
-export function nearestLine(places: readonly Place[], x: Axis, column: number): Place | null {
-  const away = (place: Place) => Math.abs(pixelAt(x, place.at) - column);
+export function nearestLine(places: readonly VesselPlace[], x: Axis, column: number): VesselPlace | null {
+  const away = (place: VesselPlace) => Math.abs(pixelAt(x, place.at) - column);
   const [nearest] = [...places].sort((a, b) => away(a) - away(b));
-  return nearest && away(nearest) <= HIT ? nearest : null;
+  return nearest && away(nearest) <= GRAB_DISTANCE_PX ? nearest : null;
 }
 
 interface Grip {
-  readonly place: Place;
+  readonly place: VesselPlace;
   /** Column of the pointer at the start, and of the line. */
   readonly from: number;
   readonly beside: number;
@@ -52,7 +50,7 @@ export function useLineGrips(x: Axis | null) {
         return;
       }
       const column = columnOf(event);
-      if (!held.isMoving && Math.abs(column - held.from) > STILL) {
+      if (!held.isMoving && Math.abs(column - held.from) > CLICK_MOVE_PX) {
         held.isMoving = true;
         beginMove(held.place);
       }

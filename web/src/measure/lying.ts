@@ -5,7 +5,7 @@ import type { Axis } from './scale';
 /** Narrowest and widest strip (mm). */
 const WIDTHS: Pair = [12, 90];
 /** Smallest visible share of the fitting width. */
-const LEAST = 0.6;
+const MIN_FITTING_SHARE = 0.6;
 const FINEST = 0.05;
 
 export interface Lying {
@@ -28,7 +28,7 @@ export interface Room {
 
 export function lyingIn(x: Axis, { height: most, density, fitting }: Room): Lying {
   const side = (x.high - x.low) / (x.end - x.start);
-  const wished = Math.max(LEAST * fitting, Math.min(fitting, most * side));
+  const wished = Math.max(MIN_FITTING_SHARE * fitting, Math.min(fitting, most * side));
   const width = Math.min(Math.max(wished, WIDTHS[0]), WIDTHS[1]);
   const height = Math.min(most, width / side);
   return {

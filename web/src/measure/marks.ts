@@ -6,7 +6,7 @@ import { lengthOf } from './sections';
 /** `place` is the stenosis; `diameter` is a noted diameter. */
 export type Kind = 'place' | 'reference' | 'stretch' | 'secondStretch' | 'diameter';
 
-export interface Place {
+export interface VesselPlace {
   readonly kind: Kind;
   /** Slot 0 lies before slot 1; noted diameters are numbered in order of entry. */
   readonly slot: number;
@@ -20,7 +20,7 @@ export interface Place {
 export type Suggested = readonly [Spot | null, Spot | null];
 export const NOTHING_SUGGESTED: Suggested = [null, null];
 
-export function mainPlace(profile: Profile, marks: VesselMarks): Place | null {
+export function mainPlace(profile: Profile, marks: VesselMarks): VesselPlace | null {
   const at = marks.at ?? profile.narrowest?.at ?? null;
   return at === null ? null : { kind: 'place', slot: 0, at, isSuggestion: marks.at === null };
 }
@@ -33,27 +33,27 @@ export function referenceSlots({ references }: VesselMarks, main: number): [numb
   return second !== undefined ? [first, second] : first < main ? [first, null] : [null, first];
 }
 
-export function placesOf(profile: Profile, marks: VesselMarks, suggested: Suggested): Place[] {
+export function placesOf(profile: Profile, marks: VesselMarks, suggested: Suggested): VesselPlace[] {
   const main = mainPlace(profile, marks);
   const references = main
     ? shownReferences(marks, main.at, suggested)
-    : marks.references.map((at, slot): Place => ({ kind: 'reference', slot, at, isSuggestion: false }));
+    : marks.references.map((at, slot): VesselPlace => ({ kind: 'reference', slot, at, isSuggestion: false }));
   return [...(main ? [main] : []), ...references, ...stretchEnds(marks), ...noted(marks)];
 }
 
 export interface ComparedPlaces {
   readonly at: number;
-  readonly references: readonly Place[];
+  readonly references: readonly VesselPlace[];
 }
 
 /** Null without a stenosis. */
-export function comparedIn(places: readonly Place[]): ComparedPlaces | null {
+export function comparedIn(places: readonly VesselPlace[]): ComparedPlaces | null {
   const main = places.find(({ kind }) => kind === 'place');
   return main ? { at: main.at, references: places.filter(({ kind }) => kind === 'reference') } : null;
 }
 
-function shownReferences(marks: VesselMarks, main: number, suggested: Suggested): Place[] {
-  const places: Place[] = [];
+function shownReferences(marks: VesselMarks, main: number, suggested: Suggested): VesselPlace[] {
+  const places: VesselPlace[] = [];
   referenceSlots(marks, main).forEach((at, n) => {
     const slot = n;
     const offered = suggested[n]?.at ?? null;
@@ -66,17 +66,17 @@ function shownReferences(marks: VesselMarks, main: number, suggested: Suggested)
   return places;
 }
 
-const noted = ({ diameters }: VesselMarks): Place[] =>
+const noted = ({ diameters }: VesselMarks): VesselPlace[] =>
   diameters.map((at, slot) => ({ kind: 'diameter', slot, at, isSuggestion: false }));
 
-function stretchEnds(marks: VesselMarks): Place[] {
+function stretchEnds(marks: VesselMarks): VesselPlace[] {
   return (['stretch', 'secondStretch'] as const).flatMap((kind) =>
     (marks[kind] ?? []).map((at, n) => ({ kind, slot: n, at, isSuggestion: false })),
   );
 }
 
 /** Moves a place; a moved suggestion becomes a mark. In a drag, pass marks and place from its start. */
-export function moved(profile: Profile, marks: VesselMarks, place: Place, to: number): VesselMarks {
+export function moved(profile: Profile, marks: VesselMarks, place: VesselPlace, to: number): VesselMarks {
   const at = within(to, [0, lengthOf(profile)]);
   if (place.kind === 'place') {
     // The stenosis may pass its references; the engine then reports why it cannot grade.
@@ -104,14 +104,19 @@ function movedReferences(profile: Profile, marks: VesselMarks, slot: number, at:
   const slots = referenceSlots(marks, main);
   const [before, other] = [slots[slot] ?? null, slots[1 - slot] ?? null];
   // Two references loaded on one side move freely.
-  const isAstray = before !== null && (slot === 0 ? before > main : before < main);
+  const areOnOneSide = before !== null && (slot === 0 ? before > main : before < main);
   const side: Pair = slot === 0 ? [0, main] : [main, lengthOf(profile)];
-  const now = other === null || isAstray ? at : within(at, side);
+  const now = other === null || areOnOneSide ? at : within(at, side);
   return [now, ...(other === null ? [] : [other])].sort((a, b) => a - b);
 }
 
 /** Position of a place after a move, which may be limited or on the other side. */
-export function placeAfter(profile: Profile, marks: VesselMarks, place: Place, after: VesselMarks): Place {
+export function placeAfter(
+  profile: Profile,
+  marks: VesselMarks,
+  place: VesselPlace,
+  after: VesselMarks,
+): VesselPlace {
   const { kind, slot } = place;
   if (kind === 'place') {
     return { ...place, at: after.at ?? place.at, isSuggestion: false };
@@ -130,7 +135,7 @@ export function placeAfter(profile: Profile, marks: VesselMarks, place: Place, a
 }
 
 /** Removes a place; a stretch goes as a whole, suggestions stay. */
-export function removed(marks: VesselMarks, place: Place): VesselMarks {
+export function removed(marks: VesselMarks, place: VesselPlace): VesselMarks {
   if (place.isSuggestion) {
     return marks;
   }
@@ -170,7 +175,7 @@ export function withStretch(profile: Profile, marks: VesselMarks, one: number, o
 }
 
 /** Turns a suggestion into a mark at its exact position. */
-export function taken(marks: VesselMarks, { kind, at }: Place): VesselMarks {
+export function taken(marks: VesselMarks, { kind, at }: VesselPlace): VesselMarks {
   return kind === 'place'
     ? { ...marks, at }
     : { ...marks, references: [...marks.references, at].sort((a, b) => a - b) };

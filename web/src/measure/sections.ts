@@ -34,7 +34,7 @@ export interface SectionNumbers {
 }
 
 /** Picture side as a multiple of the lumen, its limits, and its value for an unmeasured vessel (mm). */
-const ROOM = 2.5;
+const SIDE_PER_DIAMETER = 2.5;
 const SIZES: Pair = [12, 120];
 export const UNKNOWN_SIDE = 30;
 
@@ -43,7 +43,9 @@ export function fittingSide({ counts, diameter_max: longest }: Profile): number 
   const counted = all.filter((section) => section.counts);
   const wide = (counted.length > 0 ? counted : all).map(({ value }) => value).sort((a, b) => a - b);
   const most = wide[Math.floor(0.9 * (wide.length - 1))];
-  return most === undefined ? UNKNOWN_SIDE : Math.min(Math.max(Math.ceil(ROOM * most), SIZES[0]), SIZES[1]);
+  return most === undefined
+    ? UNKNOWN_SIDE
+    : Math.min(Math.max(Math.ceil(SIDE_PER_DIAMETER * most), SIZES[0]), SIZES[1]);
 }
 
 export function sectionNumbers(profile: Profile, at: number): SectionNumbers {
@@ -78,7 +80,7 @@ export function centerAt({ arc_length: places, center }: Profile, at: number): V
 }
 
 /** Sections within this distance of the nearest are equally near (pixels). */
-const AS_NEAR = 6;
+const EQUALLY_NEAR_PX = 6;
 
 /** The section seen nearest to a pixel; where the vessel overlaps itself, the one closest to `before` (mm). */
 export function seenNearest(
@@ -91,7 +93,7 @@ export function seenNearest(
     const [x, y] = seen(point);
     return Math.hypot(x - pixel[0], y - pixel[1]);
   });
-  const limit = Math.min(...away) + AS_NEAR;
+  const limit = Math.min(...away) + EQUALLY_NEAR_PX;
   let best = before;
   let least = Number.POSITIVE_INFINITY;
   profile.arc_length.forEach((place, n) => {
@@ -100,7 +102,7 @@ export function seenNearest(
     if (distance > limit) {
       return;
     }
-    const cost = distance + 0.5 * Math.max(Math.abs(place - before) - 2 * AS_NEAR, 0);
+    const cost = distance + 0.5 * Math.max(Math.abs(place - before) - 2 * EQUALLY_NEAR_PX, 0);
     if (cost < least) {
       [least, best] = [cost, place];
     }

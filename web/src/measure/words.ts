@@ -1,7 +1,7 @@
 /** Measurements as text, without units if the voxel spacing is unknown. */
 import type { Stenosis } from '../core/messages';
 import { hasMillimetres } from '../state/millimetres';
-import type { Place } from './marks';
+import type { VesselPlace } from './marks';
 import type { SectionNumbers } from './sections';
 
 export const NOTHING = '–';
@@ -29,17 +29,17 @@ export function area(value: number | null): string {
 }
 
 /** Engine text, without units if lengths have none. */
-export function told(words: string): string {
+export function withKnownUnits(words: string): string {
   return hasMillimetres.value ? words : words.replaceAll(' mm²', '').replaceAll(' mm', '');
 }
 
-export const stenosisWords = (stenosis: Stenosis): string => told(stenosis.words);
+export const stenosisWords = (stenosis: Stenosis): string => withKnownUnits(stenosis.words);
 
 /** Why there is no percentage; null means that the engine has not answered yet. */
 export const notGradedWords = ({ notGraded }: { readonly notGraded: string | null }): string =>
-  notGraded === null ? 'Grading…' : `No percentage: ${told(notGraded)}`;
+  notGraded === null ? 'Grading…' : `No percentage: ${withKnownUnits(notGraded)}`;
 
-export function placeName({ kind, slot, isSuggestion, isBefore }: Place): string {
+export function placeName({ kind, slot, isSuggestion, isBefore }: VesselPlace): string {
   const end = slot === 0 ? 'start' : 'end';
   const names = {
     place: isSuggestion ? 'narrowest place' : 'marked place',
@@ -53,7 +53,7 @@ export function placeName({ kind, slot, isSuggestion, isBefore }: Place): string
 
 /** Flags, and the uncertainty due to calcium or metal. */
 export const doubtWords = ({ flags, bounds }: SectionNumbers): readonly string[] =>
-  bounds === null ? flags : [...flags, told(bounds)];
+  bounds === null ? flags : [...flags, withKnownUnits(bounds)];
 
 export function sectionWords(section: SectionNumbers): string {
   const { at, diameter, uncertainty, shortest, longest, counts } = section;

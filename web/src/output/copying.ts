@@ -1,16 +1,16 @@
 /** Copies sentences and pictures to the clipboard. */
 import { Failure } from '../core/failure';
-import { tell } from '../state/telling';
+import { showMessage } from '../state/message';
 
 export async function copyWords(words: string): Promise<void> {
   await copied(() => navigator.clipboard.writeText(words));
-  tell('The sentence is copied');
+  showMessage('The sentence is copied');
 }
 
 /** The picture may still be pending, as the clipboard API allows. */
 export async function copyPicture(picture: Promise<Blob>): Promise<void> {
   await copied(() => navigator.clipboard.write([new ClipboardItem({ 'image/png': picture })]));
-  tell('The picture is copied');
+  showMessage('The picture is copied');
 }
 
 async function copied(copy: () => Promise<void>): Promise<void> {

@@ -13,7 +13,7 @@ import { fittingSize } from './wrapping';
 const COLUMNS = 3;
 const WIDTH = COLUMNS * SIDE;
 /** Greatest height of the vessel, and line height of text (pixels). */
-const HIGHEST = 260;
+const MAX_VESSEL_HEIGHT = 260;
 const LINE = 36;
 
 export async function keyImage(finding: Finding): Promise<HTMLCanvasElement> {
@@ -21,7 +21,7 @@ export async function keyImage(finding: Finding): Promise<HTMLCanvasElement> {
   const plan = await engine.ask('report_plan', markedVessel(finding));
   const places = plan.places.filter((place) => !place.is_suggestion);
   const strip = await straightenedCanvas(finding.vessel, plan);
-  const scale = Math.min(WIDTH / strip.width, HIGHEST / strip.height);
+  const scale = Math.min(WIDTH / strip.width, MAX_VESSEL_HEIGHT / strip.height);
   const [width, height] = [strip.width * scale, strip.height * scale];
   const rows = Math.ceil(places.length / COLUMNS);
   const [canvas, context] = canvasOf(WIDTH, Math.ceil(LINE + height + rows * (SIDE + LINE)));
@@ -35,8 +35,8 @@ export async function keyImage(finding: Finding): Promise<HTMLCanvasElement> {
   for (const [number, place] of places.entries()) {
     const pair = await sectionPair({ ...finding, side: plan.side }, profile, place.at);
     const [x, y] = [(number % COLUMNS) * SIDE, LINE + height + Math.floor(number / COLUMNS) * (SIDE + LINE)];
-    const told = `${place.name} ${diameterAt(profile, place.at)}`;
-    words(context, told, [x + 8, y + LINE - 11], colorOfPlace(place), SIDE - 16);
+    const label = `${place.name} ${diameterAt(profile, place.at)}`;
+    words(context, label, [x + 8, y + LINE - 11], colorOfPlace(place), SIDE - 16);
     context.drawImage(pair, 0, 0, SIDE, SIDE, x, y + LINE, SIDE, SIDE);
   }
   return canvas;

@@ -5,11 +5,11 @@ import type { GivenFile } from '../core/messages';
 import { inBase64, made, placeOf } from '../core/server';
 import { type Finding, markedVessel } from '../measure/findings';
 import { settingOf } from '../state/actions';
+import { showMessage } from '../state/message';
 import { isMillimetreAssumed } from '../state/millimetres';
 import { profileOfLine } from '../state/profiles';
 import { reformationKind } from '../state/reformation';
 import * as store from '../state/store';
-import { tell } from '../state/telling';
 import { fileName } from './file-names';
 import { keyImage } from './key-image';
 import { drawnPane } from './pane-picture';
@@ -55,7 +55,7 @@ export async function askForPacs(): Promise<void> {
 }
 
 export async function savePacs(study: PacsStudy): Promise<void> {
-  tell('Making the DICOM objects …');
+  showMessage('Making the DICOM objects …');
   const response = await made('objects', SUBJECT, await requestOf(study));
   const scan = study === 'anonymous' ? null : store.studyName.value;
   saveAs(await response.blob(), fileName({ scan, content: 'pacs', ending: 'zip' }), 'Nothing was sent');

@@ -5,8 +5,8 @@ import { rightOf } from '../core/camera';
 import { Failure } from '../core/failure';
 import type { Camera, PictureLabels } from '../core/messages';
 import { negate } from '../core/vectors';
+import { showMessage } from '../state/message';
 import * as store from '../state/store';
-import { tell } from '../state/telling';
 import { sideOf } from './file-names';
 import { studyFileName } from './study-file-names';
 
@@ -103,6 +103,6 @@ export function saveAs(blob: Blob, name: string, remark = ''): void {
   link.href = URL.createObjectURL(blob);
   link.download = name;
   link.click();
-  tell(`Saved as ${name}${remark ? `. ${remark}` : ''}`);
+  showMessage(`Saved as ${name}${remark ? `. ${remark}` : ''}`);
   window.setTimeout(() => URL.revokeObjectURL(link.href), 1000);
 }

@@ -33,7 +33,7 @@ async function saveTurn(album: Album, ending: string): Promise<void> {
       store.progress.value = { words: 'Turntable', done: n, total: FRAMES };
       const turned = turnedAbout(camera, camera.center, [0, 0, 1], (2 * Math.PI * n) / FRAMES);
       store.camera.value = turned;
-      await settled(turned);
+      await untilComplete(turned);
       await album.add(await composed('labels'));
       if (store.progress.value === null) {
         return;
@@ -96,9 +96,9 @@ class Film implements Album {
   }
 }
 
-function settled(camera: Camera): Promise<void> {
+function untilComplete(camera: Camera): Promise<void> {
   return new Promise((resolve) => {
-    const stop = store.settled.subscribe((shown) => {
+    const stop = store.completeCamera.subscribe((shown) => {
       if (shown === camera) {
         queueMicrotask(() => stop());
         resolve();

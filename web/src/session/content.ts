@@ -13,7 +13,7 @@ import type {
 import type { SavedMarks, SavedScan, SavedView } from '../core/session-file';
 import type { Document, VesselMarks } from '../state/document';
 
-export interface Looked {
+export interface DisplayState {
   readonly camera: Camera;
   readonly method: string;
   readonly settings: Settings;
@@ -27,7 +27,7 @@ export interface Looked {
 export function contentOf(
   document: Document,
   report: Report,
-  looked: Looked | null,
+  displayState: DisplayState | null,
   fwhm: number | null = null,
 ): SessionContent {
   const isSure = (vessel: DocumentVessel) => vessel.doubt === null;
@@ -50,7 +50,7 @@ export function contentOf(
       bridge: document.bridge,
       rulers: document.rulers,
       fwhm_mm: fwhm,
-      view: looked && viewOf(looked, sure),
+      view: displayState && viewOf(displayState, sure),
       one_millimetre_assumed: document.isOneMillimetre,
     },
   };
@@ -61,8 +61,8 @@ function scanOf(report: Report): SavedScan | null {
   return volume && { size: volume.size, world_from_index: volume.world_from_index };
 }
 
-function viewOf(looked: Looked, vessels: readonly DocumentVessel[]): SavedView {
-  const { camera, method, settings, layout, crossHair, picked } = looked;
+function viewOf(displayState: DisplayState, vessels: readonly DocumentVessel[]): SavedView {
+  const { camera, method, settings, layout, crossHair, picked } = displayState;
   const { center, direction, up } = camera;
   const number = picked ? vessels.findIndex((vessel) => vessel.id === picked.id) : -1;
   return {

@@ -1,15 +1,15 @@
 /** Keeps the session over a reload of the tab, if the user allows it: no pixels, and only until the tab closes. */
 import { effect, signal } from '@preact/signals';
 import { document_, saved } from '../state/history';
+import { showFailure } from '../state/message';
 import { hasVolume } from '../state/store';
-import { tellFailure } from '../state/telling';
 
 /** Storage keys of the session and of the permission. */
 const SESSION = 'lumencut-session';
 const ALLOWED = 'lumencut-keeps-session';
 
 /** Delay after a change (ms), so that rapid changes write nothing. */
-const AFTER = 1000;
+const SAVE_DELAY_MS = 1000;
 
 export const isKeeping = signal(false);
 
@@ -36,8 +36,8 @@ export function followKeeping(tab: Kept, write: () => Promise<string>): () => vo
       timer = setTimeout(() => {
         write()
           .then((text) => tab.setItem(SESSION, text))
-          .catch(tellFailure);
-      }, AFTER);
+          .catch(showFailure);
+      }, SAVE_DELAY_MS);
     }
     tab[isOn ? 'setItem' : 'removeItem'](ALLOWED, 'yes');
   });

@@ -14,7 +14,7 @@ import type { Document } from '../state/document';
 import { document_ } from '../state/history';
 import { giveFwhm, givenFwhm } from '../state/profiles';
 import * as store from '../state/store';
-import { cameraOf, contentOf, documentOf, type Looked } from './content';
+import { cameraOf, contentOf, type DisplayState, documentOf } from './content';
 import { handedOver } from './handing-over';
 
 /** Bytes that contain the session field, which precedes the curves. */
@@ -32,7 +32,7 @@ export async function savedSession(): Promise<Bytes> {
     throw new Failure('session', 'session', 'no scan', 'an open scan');
   }
   const written = async (asked: Asked, document: Document) => {
-    const content = contentOf(document, report, looked(), givenFwhm.value);
+    const content = contentOf(document, report, displayState(), givenFwhm.value);
     return (await asked.ask('write_session', content)).bytes;
   };
   try {
@@ -58,7 +58,7 @@ async function byAnother<T>(work: (other: Asked) => Promise<T>): Promise<T> {
   }
 }
 
-function looked(): Looked | null {
+function displayState(): DisplayState | null {
   const camera = store.camera.value;
   const id = pickedId();
   return (

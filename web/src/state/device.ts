@@ -5,7 +5,7 @@ import { Failure } from '../core/failure';
 import * as store from './store';
 
 /** A GPU that fails twice within this time is replaced by the CPU (ms). */
-const SOON = 20_000;
+const GIVE_UP_WITHIN_MS = 20_000;
 let lastLoss = Number.NEGATIVE_INFINITY;
 let isChanging = false;
 /** The requested device, used again after a loss. */
@@ -30,7 +30,7 @@ export async function start(device: string): Promise<void> {
 export function recover(error: unknown): void {
   const failure = Failure.of(error);
   if (failure.kind === 'device' && store.started.value?.isGpu) {
-    const isAgain = performance.now() - lastLoss < SOON;
+    const isAgain = performance.now() - lastLoss < GIVE_UP_WITHIN_MS;
     lastLoss = performance.now();
     void change(isAgain ? 'cpu' : wanted, failure);
   } else if (failure.kind !== 'interrupted' && store.report.value) {

@@ -3,8 +3,8 @@ import { signal } from '@preact/signals';
 import type { Asked } from '../core/asked';
 import { resized } from '../core/camera';
 import type { Camera } from '../core/messages';
+import { showFailure } from './message';
 import * as store from './store';
-import { tellFailure } from './telling';
 
 /** Duration (ms). */
 const FLIGHT = 400;
@@ -39,7 +39,7 @@ async function fly(engine: Asked, number: number, from: Camera, to: Camera): Pro
     if (number === flights) {
       destination.value = null;
     }
-    tellFailure(error);
+    showFailure(error);
   }
 }
 
@@ -77,6 +77,6 @@ export async function flyToAnswer(engine: Asked, view: Promise<Camera>): Promise
   try {
     flyTo(engine, await view);
   } catch (error) {
-    tellFailure(error);
+    showFailure(error);
   }
 }

@@ -5,8 +5,8 @@ import { resized, turnedAbout } from '../core/camera';
 import type { Camera, LineId, Vector } from '../core/messages';
 import { length, subtract, turned } from '../core/vectors';
 import { destination, flyTo } from './flight';
+import { showFailure } from './message';
 import * as store from './store';
-import { tellFailure } from './telling';
 import { tool } from './tool';
 
 export interface PlaceTurn {
@@ -26,7 +26,7 @@ export interface PlaceTurn {
 
 export const placeTurn = signal<PlaceTurn | null>(null);
 
-const SAME = 1e-6;
+const AXIS_TOLERANCE = 1e-6;
 
 export async function togglePlaceTurn(engine: Asked): Promise<void> {
   const [vessel, line, camera] = [store.pickedVessel.value, store.pickedLine(), store.camera.value];
@@ -45,7 +45,7 @@ export async function togglePlaceTurn(engine: Asked): Promise<void> {
       begin(engine, { line, at, first, diameters });
     }
   } catch (error) {
-    tellFailure(error);
+    showFailure(error);
   }
 }
 
@@ -135,7 +135,7 @@ function isOf({ first, angle }: PlaceTurn, seen: Camera): boolean {
   return near(seen.direction, direction) && near(seen.up, first.up);
 }
 
-const near = (a: Vector, b: Vector): boolean => length(subtract(a, b)) < SAME;
+const near = (a: Vector, b: Vector): boolean => length(subtract(a, b)) < AXIS_TOLERANCE;
 
 /** Wraps to -180 to 179 degrees. */
 const withinCircle = (degrees: number): number => ((((degrees + 180) % 360) + 360) % 360) - 180;

@@ -51,9 +51,9 @@ export async function profileOfLine(engine: Asked, line: LineId): Promise<Profil
 
 async function profileOf(engine: Asked, line: LineId, question: number): Promise<Measured | null> {
   try {
-    tell(question, null);
+    showProgress(question, null);
     const profile = await engine.ask('profile', { line, fwhm: givenFwhm.value });
-    tell(question, 1);
+    showProgress(question, 1);
     return { profile };
   } catch (error) {
     const failure = Failure.of(error);
@@ -62,7 +62,7 @@ async function profileOf(engine: Asked, line: LineId, question: number): Promise
 }
 
 /** Shows progress; without a total the duration is unknown. */
-function tell(question: number, total: number | null): void {
+function showProgress(question: number, total: number | null): void {
   if (question === asked) {
     store.progress.value = { words: 'measuring the vessel', done: total ?? 0, total };
   }

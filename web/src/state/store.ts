@@ -83,7 +83,7 @@ export const maximised = signal<ViewName | null>(null);
 export const resets = signal(0);
 export const isHelpOpen = signal(false);
 /** The camera whose complete picture is displayed. */
-export const settled = signal<Camera | null>(null);
+export const completeCamera = signal<Camera | null>(null);
 export const frameTime = signal<number | null>(null);
 
 export const hasVolume = computed(() => Boolean(report.value?.volume));

@@ -8,7 +8,7 @@ export const thinnerThan = signal(0);
 /** Whether the user wants a tree; null by default. */
 export const treeChosen = signal<boolean | null>(null);
 
-export const lit = signal<number | null>(null);
+export const highlighted = signal<number | null>(null);
 
 export function markNone(): void {
   shorterThan.value = 0;

@@ -23,8 +23,8 @@ export function openFiles(
   let isAgain = false;
   return openWith(first, (wish) => {
     const load = async () => {
-      const opened = await engine.openFiles(files, wish, (told) => {
-        store.progress.value = told;
+      const opened = await engine.openFiles(files, wish, (progress) => {
+        store.progress.value = progress;
       });
       const isVolume = opened.name !== undefined;
       // Lines that are read again replace the previous ones.

@@ -79,8 +79,8 @@ export function openAddresses(
 ): Promise<void> {
   return openWith({}, (wish) => {
     const load = () =>
-      engine.openAddresses({ volume, centerlines }, wish, (told) => {
-        store.progress.value = told;
+      engine.openAddresses({ volume, centerlines }, wish, (progress) => {
+        store.progress.value = progress;
       });
     return open(engine, load, '');
   });

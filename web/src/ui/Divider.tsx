@@ -1,8 +1,7 @@
 /** Divider between panes, moved by dragging or arrow keys. */
 import type { Signal } from '@preact/signals';
 
-/** Smallest share of the layout per side. */
-const LEAST = 0.12;
+const MIN_SHARE = 0.12;
 
 interface DividerProps {
   readonly words: string;
@@ -14,7 +13,7 @@ interface DividerProps {
 
 export function Divider({ words, between, place }: DividerProps) {
   const set = (value: number) => {
-    place.value = Math.min(Math.max(value, LEAST), 1 - LEAST);
+    place.value = Math.min(Math.max(value, MIN_SHARE), 1 - MIN_SHARE);
   };
   const move = (event: PointerEvent) => {
     const layout = (event.currentTarget as HTMLElement).parentElement;

@@ -5,11 +5,11 @@ import type { Sentence } from '../core/messages';
 import { moveTo } from '../link/along';
 import {
   type Finding,
+  findingSentences,
   hiddenFindings,
   leaveOut,
   leftOut,
   listedFindings,
-  toldFindings,
 } from '../measure/findings';
 import { mm, unitless } from '../measure/words';
 import { attempt } from '../output/attempt';
@@ -24,7 +24,7 @@ import { ScanNamed } from './ScanNamed';
 
 export function FindingsPanel() {
   const findings = listedFindings.value;
-  const distances = toldFindings.value?.distances ?? [];
+  const distances = findingSentences.value?.distances ?? [];
   return (
     <div class="numbers-panel findings" data-testid="findings">
       {findings.length === 0 && distances.length === 0 ? <Nothing /> : <Head count={findings.length} />}
@@ -80,7 +80,7 @@ function Head({ count }: { readonly count: number }) {
 function FindingPart({ finding }: { readonly finding: Finding }) {
   const { line, vessel, length } = finding;
   const name = finding.name || `vessel ${vessel + 1}`;
-  const sentences = toldFindings.value?.vessels.find((one) => one.line === line)?.sentences;
+  const sentences = findingSentences.value?.vessels.find((one) => one.line === line)?.sentences;
   const words = (sentences ?? []).map((sentence) => sentence.words).join(' ');
   return (
     <section aria-label={`Finding on ${name}`}>

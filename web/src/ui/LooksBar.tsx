@@ -18,8 +18,7 @@ import {
 } from '../state/looks';
 import { hasTree, hasVolume, started } from '../state/store';
 
-/** Largest margin of the slider (mm). */
-const WIDEST = 30;
+const MAX_MARGIN_MM = 30;
 const LINES: readonly (readonly [Lines, string])[] = [
   ['none', 'No lines'],
   ['near', 'Lines near'],
@@ -105,7 +104,7 @@ function Reach() {
       <input
         type="range"
         min="0"
-        max={WIDEST}
+        max={MAX_MARGIN_MM}
         step="0.5"
         value={margin}
         onInput={(event) => setSetting('focus', [Number(event.currentTarget.value), fade ?? 0])}

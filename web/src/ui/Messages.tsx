@@ -6,8 +6,8 @@ import { findAndList } from '../edit/branches';
 import { isLong, refusal } from '../edit/committing';
 import { performAny } from '../edit/performing';
 import { saveSession } from '../output/session';
+import { message, showFailure } from '../state/message';
 import { problem, progress } from '../state/store';
-import { tellFailure, told } from '../state/telling';
 import { Mends } from './Mends';
 
 export function Messages() {
@@ -15,9 +15,9 @@ export function Messages() {
     <div class="messages">
       {progress.value && <Loading />}
       {problem.value && <Problem />}
-      {told.value && (
+      {message.value && (
         <div class="message told" role="status" data-testid="told">
-          {told.value}
+          {message.value}
         </div>
       )}
     </div>
@@ -25,15 +25,15 @@ export function Messages() {
 }
 
 function Loading() {
-  const told = progress.value;
-  if (!told) {
+  const shown = progress.value;
+  if (!shown) {
     return null;
   }
-  const share = told.total ? told.done / told.total : null;
+  const share = shown.total ? shown.done / shown.total : null;
   return (
     <div class="message" role="status">
-      <span>{share === null ? `${told.words} …` : `${told.words}: ${(100 * share).toFixed(0)} %`}</span>
-      <progress aria-label={told.words} {...(share === null ? {} : { value: share })} />
+      <span>{share === null ? `${shown.words} …` : `${shown.words}: ${(100 * share).toFixed(0)} %`}</span>
+      <progress aria-label={shown.words} {...(share === null ? {} : { value: share })} />
       {isLong.value && <LongWork />}
       <button type="button" onClick={() => performAny(engine, 'cancel')}>
         {isLong.value ? 'Stop' : 'Cancel'}
@@ -76,7 +76,7 @@ function Problem() {
       <Bridging failure={failure} />
       {failure.isMendedBy('doubtful') && <DoubtfulOnes />}
       {failure.kind === CRASH && (
-        <button type="button" onClick={() => void saveSession().catch(tellFailure)}>
+        <button type="button" onClick={() => void saveSession().catch(showFailure)}>
           Save the session
         </button>
       )}

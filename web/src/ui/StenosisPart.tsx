@@ -3,7 +3,7 @@ import type { StenosisMethod, Territory } from '../core/messages';
 import { STENOSIS_METHODS } from '../core/method-names';
 import { answers, currentMarks, currentPlaces } from '../measure/current';
 import { changeMarks, confirmAll } from '../measure/editing';
-import { notGradedWords, stenosisWords, told } from '../measure/words';
+import { notGradedWords, stenosisWords, withKnownUnits } from '../measure/words';
 import { attempt } from '../output/attempt';
 import { saveReport } from '../output/report';
 import type { VesselMarks } from '../state/document';
@@ -83,7 +83,7 @@ function Result({ marks }: { readonly marks: VesselMarks }) {
     return (
       <div role="status" data-testid="stenosis">
         <p class="graded">{stenosisWords(stenosis)}</p>
-        {stenosis.group && <p>{`Severity category: ${told(stenosis.group)}`}</p>}
+        {stenosis.group && <p>{`Severity category: ${withKnownUnits(stenosis.group)}`}</p>}
       </div>
     );
   }

@@ -1,7 +1,7 @@
 /** Cleaning up: limits mark short or thin vessels; buttons remove them, or everything unconnected. */
 import type { Signal } from '@preact/signals';
 import { engine } from '../client/shared';
-import { apart, factsOf, keepPart, marked, reachOf, removeMarked, sure } from '../edit/tidying';
+import { factsOf, keepPart, marked, reachOf, removeMarked, sure, unconnected } from '../edit/tidying';
 import { hasMillimetres } from '../state/millimetres';
 import { shorterThan, thinnerThan } from '../state/tidy';
 
@@ -30,12 +30,12 @@ export function TidyPart() {
         </button>
         <button
           type="button"
-          disabled={apart.value.length === 0}
+          disabled={unconnected.value.length === 0}
           title="Removes all vessels that are not connected to the picked one"
           onClick={() => void keepPart(engine)}
         >
-          {apart.value.length > 0
-            ? `Keep only this tree (removes ${apart.value.length})`
+          {unconnected.value.length > 0
+            ? `Keep only this tree (removes ${unconnected.value.length})`
             : 'Keep only this tree'}
         </button>
       </div>

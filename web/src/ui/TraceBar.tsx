@@ -9,7 +9,7 @@ import { chosenDoubt, isTracing } from '../edit/mode';
 import { performAny } from '../edit/performing';
 import { acceptCandidate, endVessel } from '../edit/pointing';
 import { STOPPER } from '../edit/stoppers';
-import { told } from '../edit/telling';
+import { tracedSummary } from '../edit/traced-summary';
 import { takeWhole } from '../edit/whole';
 import { only, whole } from '../edit/whole-shown';
 import { nameOf, vesselOf } from '../state/changes';
@@ -17,7 +17,7 @@ import { document_ } from '../state/history';
 import { hasVolume, report } from '../state/store';
 import { type Tool, tool } from '../state/tool';
 import { OpenMore } from './OpenButtons';
-import { ToldVessel } from './ToldVessel';
+import { TracedSummary } from './TracedSummary';
 
 export function TraceBar() {
   const doubt = vesselOf(document_.value, chosenDoubt.value);
@@ -81,11 +81,12 @@ function Hint() {
     tool.value = wanted;
   };
   // Not while a point waits or is being traced.
-  const isTold = waiting.value === 0 && !candidate.value && (!isDrawing.value || drawn.value !== null);
+  const isSummaryShown =
+    waiting.value === 0 && !candidate.value && (!isDrawing.value || drawn.value !== null);
   return (
     <div class="trace-bar" role="status">
-      {isTold && <ToldVessel />}
-      {!(isTold && told.value?.doubts.length) && <span>{hintWords()}</span>}
+      {isSummaryShown && <TracedSummary />}
+      {!(isSummaryShown && tracedSummary.value?.doubts.length) && <span>{hintWords()}</span>}
       {candidate.value && (
         <button type="button" onClick={() => acceptCandidate(engine)}>
           Set the point here

@@ -27,7 +27,7 @@ export function VesselList() {
   return (
     <aside class="vessels" aria-label="List of vessels">
       <Closing />
-      <Means />
+      <AddButtons />
       <DoubtfulPart vessels={doubtful(document_.value)} />
       <TidyPart />
       {document_.value.vessels.length === 0 ? <p class="notice">No vessels yet.</p> : null}
@@ -96,7 +96,7 @@ function Closing() {
   );
 }
 
-function Means() {
+function AddButtons() {
   return (
     <div class="buttons">
       <button

@@ -14,7 +14,7 @@ import { document_ } from '../state/history';
 import { hasMillimetres } from '../state/millimetres';
 import { PALETTE } from '../state/palette';
 import { pickedPlace, report } from '../state/store';
-import { lit } from '../state/tidy';
+import { highlighted } from '../state/tidy';
 import { active, tool } from '../state/tool';
 import { BestViewButton } from './BestViewButton';
 
@@ -28,8 +28,7 @@ interface RowProps {
 const DEEPEST = 4;
 const INDENT = 7;
 
-/** From this diameter on (mm) the list drops decimals. */
-const WIDE = 9.95;
+const NO_DECIMALS_FROM_MM = 9.95;
 
 export function VesselRow({ vessel, depth }: RowProps & { readonly depth: number }) {
   const isPicked = vessel.id === pickedId();
@@ -73,7 +72,7 @@ export function VesselRow({ vessel, depth }: RowProps & { readonly depth: number
       >
         {vessel.isHidden ? '◌' : '◉'}
       </button>
-      {isPicked && !vessel.isHidden ? <Means vessel={vessel} /> : null}
+      {isPicked && !vessel.isHidden ? <VesselActions vessel={vessel} /> : null}
     </li>
   );
 }
@@ -83,10 +82,10 @@ const rowClass = (isPicked: boolean, isMarked: boolean): string =>
 
 export const lighting = ({ id }: DocumentVessel) => ({
   onPointerEnter: () => {
-    lit.value = id;
+    highlighted.value = id;
   },
   onPointerLeave: () => {
-    lit.value = lit.value === id ? null : lit.value;
+    highlighted.value = highlighted.value === id ? null : highlighted.value;
   },
 });
 
@@ -142,7 +141,7 @@ function sizeText(vessel: DocumentVessel): string {
   const { calibre = null, length } = factsOf(vessel) ?? {};
   return calibre === null || length === undefined
     ? lengthText(vessel)
-    : `${calibre.toFixed(calibre < WIDE ? 1 : 0)} × ${length.toFixed(0)}`;
+    : `${calibre.toFixed(calibre < NO_DECIMALS_FROM_MM ? 1 : 0)} × ${length.toFixed(0)}`;
 }
 
 function calibreWords(vessel: DocumentVessel): string {
@@ -172,7 +171,7 @@ function ColorChoice({ vessel }: RowProps) {
   );
 }
 
-function Means({ vessel }: RowProps) {
+function VesselActions({ vessel }: RowProps) {
   const { id } = vessel;
   const others = document_.value.vessels.filter((one) => one.id !== id && one.doubt === null);
   const goOn = () => {

@@ -6,8 +6,7 @@ import { dot, length } from '../core/vectors';
 import { destination } from '../state/flight';
 import * as store from '../state/store';
 
-/** Delay before the address changes (ms). */
-const QUIET = 250;
+const WRITE_DELAY_MS = 250;
 const METHODS: readonly Method[] = VIEW_METHODS.map(([name]) => name);
 
 export interface ViewState {
@@ -208,7 +207,7 @@ export function followView(): void {
       timer = window.setTimeout(() => {
         history.replaceState(null, '', `#${fragmentOf(state)}`);
         dataset.address = 'written';
-      }, QUIET);
+      }, WRITE_DELAY_MS);
     }
   });
 }

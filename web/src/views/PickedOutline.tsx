@@ -12,8 +12,7 @@ import type { Projection } from './projection';
 /** Distance of the outline from the wall (CSS pixels). */
 const GAP = 2;
 const WIDTH = 2;
-/** Radius of a vessel without known radius (mm). */
-const UNKNOWN = 1;
+const DEFAULT_RADIUS_MM = 1;
 
 export function PickedOutline({ projection }: { readonly projection: Projection }) {
   const vessel = tree.value[pickedVessel.value ?? -1];
@@ -42,7 +41,7 @@ export function PickedOutline({ projection }: { readonly projection: Projection 
 function discsOf({ points, radius }: LineContent, projection: Projection): readonly Disc[] {
   return points.map((point, n) => ({
     at: projection.pixel(point),
-    radius: (radius?.[n] ?? UNKNOWN) / projection.spacing,
+    radius: (radius?.[n] ?? DEFAULT_RADIUS_MM) / projection.spacing,
   }));
 }
 

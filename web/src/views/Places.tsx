@@ -13,13 +13,13 @@ export function Places({ projection }: { readonly projection: Projection }) {
   const weakest = refused && refused === problem.value ? refused.place : null;
   return (
     <>
-      {first.value && <Place kind="first" point={first.value} projection={projection} />}
+      {first.value && <PointMarker kind="first" point={first.value} projection={projection} />}
       {coming.value.map(({ point }) => (
-        <Place key={point.join()} kind="coming" point={point} projection={projection} />
+        <PointMarker key={point.join()} kind="coming" point={point} projection={projection} />
       ))}
-      {candidate.value && <Place kind="candidate" point={candidate.value} projection={projection} />}
+      {candidate.value && <PointMarker kind="candidate" point={candidate.value} projection={projection} />}
       {weakest && (
-        <Place
+        <PointMarker
           kind="weakest"
           point={weakest}
           projection={projection}
@@ -36,14 +36,14 @@ function wordsOf(failure: Failure): string {
   return value === null ? words : `${words}: ${Number.isInteger(value) ? value : value.toFixed(1)}`;
 }
 
-interface PlaceProps {
+interface PointMarkerProps {
   readonly kind: string;
   readonly point: Vector;
   readonly projection: Projection;
   readonly words?: string;
 }
 
-function Place({ kind, point, projection, words }: PlaceProps) {
+function PointMarker({ kind, point, projection, words }: PointMarkerProps) {
   const [left, top] = projection.pixel(point);
   const isFar = !isNear(projection, point);
   return (

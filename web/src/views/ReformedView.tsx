@@ -105,7 +105,7 @@ const begin = (pane: Pair, picture: Pair): Pair => [
 /** View direction at rest: the reformation does not follow while the view turns. */
 function useSide(): Side | null {
   const kept = useRef<Side | null>(null);
-  const camera = store.settled.value ?? (kept.current ? null : store.camera.value);
+  const camera = store.completeCamera.value ?? (kept.current ? null : store.camera.value);
   if (camera) {
     kept.current = { direction: camera.direction, up: camera.up };
   }
@@ -123,8 +123,8 @@ function useHair(shown: ReformedPicture | null): Pair | null {
       return;
     }
     // The study may have been closed.
-    const told = (place: Pair | null) => isWanted && setHair(place);
-    void engine.ask('on_reformed', point).then(told, () => told(null));
+    const showHair = (place: Pair | null) => isWanted && setHair(place);
+    void engine.ask('on_reformed', point).then(showHair, () => showHair(null));
     return () => {
       isWanted = false;
     };

@@ -127,7 +127,7 @@ function showFrame(canvas: HTMLCanvasElement | null, { drawn, stage, view, wante
     canvas.dataset.last = String(isLast);
     canvas.dataset.pixels = view.camera.size.join('x');
   }
-  store.settled.value = stage === 'moving' ? null : wanted.camera;
+  store.completeCamera.value = stage === 'moving' ? null : wanted.camera;
 }
 
 function paint(canvas: HTMLCanvasElement, picture: Picture): void {

@@ -10,7 +10,7 @@ import { whole } from '../edit/whole-shown';
 import { document_ } from '../state/history';
 import { DOUBTFUL } from '../state/palette';
 import { pickedVessel } from '../state/store';
-import { lit } from '../state/tidy';
+import { highlighted } from '../state/tidy';
 import { tool } from '../state/tool';
 import { pathData } from './curves';
 import type { Projection } from './projection';
@@ -24,7 +24,7 @@ export function VesselCurves({ projection }: OverProps) {
   const picked = tree.value[pickedVessel.value ?? -1]?.id;
   // In a cut, curves would hide the vessels.
   const isSeen = (vessel: DocumentVessel) =>
-    vessel.id === lit.value ||
+    vessel.id === highlighted.value ||
     (!vessel.isHidden &&
       (isOn || !projection.isThrough || vessel.doubt !== null || marked.value.has(vessel.id)));
   return (
@@ -51,7 +51,7 @@ interface CurveProps extends OverProps {
 
 function Curve({ vessel, projection, isPicked, hasFar }: CurveProps) {
   const [isLit, isMarked] = [
-    vessel.id === lit.value || vessel.id === chosenDoubt.value,
+    vessel.id === highlighted.value || vessel.id === chosenDoubt.value,
     marked.value.has(vessel.id),
   ];
   const points = contents.value.get(vessel.line)?.points;

@@ -7,8 +7,7 @@ import type { Projection } from './projection';
 
 /** Points this close to a slice are drawn as in it (mm). */
 export const NEAR = 2;
-/** Hit distance (CSS pixels). */
-const REACH = 7;
+const HIT_DISTANCE_PX = 7;
 
 export const isNear = (projection: Projection, point: Vector): boolean =>
   projection.isThrough || Math.abs(projection.depth(point)) <= NEAR;
@@ -42,13 +41,13 @@ export interface Hit {
 
 export function isAt(projection: Projection, point: Vector, [x, y]: Pair): boolean {
   const [column, row] = projection.pixel(point);
-  return Math.hypot(column - x, row - y) <= REACH;
+  return Math.hypot(column - x, row - y) <= HIT_DISTANCE_PX;
 }
 
 /** The nearest curve at a pixel; in a slice only where it lies in it. */
 export function curveAt(projection: Projection, [x, y]: Pair): Hit | null {
   let best: Hit | null = null;
-  let least = REACH;
+  let least = HIT_DISTANCE_PX;
   for (const vessel of document_.value.vessels) {
     const points = vessel.isHidden ? [] : (contents.value.get(vessel.line)?.points ?? []);
     points.forEach((point, number) => {

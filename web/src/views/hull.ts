@@ -29,11 +29,11 @@ export function hullPath(discs: readonly Disc[], wider: number): string {
   return [...larger.map(circle), ...between].join('');
 }
 
-const told = (x: number, y: number): string => `${x.toFixed(1)} ${y.toFixed(1)}`;
+const coordinates = (x: number, y: number): string => `${x.toFixed(1)} ${y.toFixed(1)}`;
 
 function circle({ at: [x, y], radius }: Disc): string {
   const arc = `A${radius.toFixed(1)} ${radius.toFixed(1)} 0 1 1 `;
-  return `M${told(x - radius, y)}${arc}${told(x + radius, y)}${arc}${told(x - radius, y)}Z`;
+  return `M${coordinates(x - radius, y)}${arc}${coordinates(x + radius, y)}${arc}${coordinates(x - radius, y)}Z`;
 }
 
 function quad(from: Disc, to: Disc): string {
@@ -44,6 +44,6 @@ function quad(from: Disc, to: Disc): string {
   }
   const across = [-way[1] / length, way[0] / length] as const;
   const end = ({ at, radius }: Disc, side: number) =>
-    told(at[0] + side * radius * across[0], at[1] + side * radius * across[1]);
+    coordinates(at[0] + side * radius * across[0], at[1] + side * radius * across[1]);
   return `M${end(from, 1)}L${end(from, -1)}L${end(to, -1)}L${end(to, 1)}Z`;
 }

@@ -69,13 +69,13 @@ async function setAt(view: Pointed, at: Pair): Promise<void> {
 
 async function setHere(view: Pointed, point: Vector): Promise<void> {
   crossHair.value = { point, value: null, vessel: null, arcLength: null };
-  tell(view, point, (await setPoint(engine, point)) ?? (await engine.ask('at', point)));
+  showValue(view, point, (await setPoint(engine, point)) ?? (await engine.ask('at', point)));
 }
 
 /** In a projection a click takes the displayed lumen, or proposes the brightest point. */
 async function setThrough(view: Pointed, at: Pair): Promise<void> {
-  const isUnderPointer = looked?.view === view.name && isSame(looked.at, at);
-  await (isUnderPointer ? looked?.done : null);
+  const isUnderPointer = lastPointer?.view === view.name && isSame(lastPointer.at, at);
+  await (isUnderPointer ? lastPointer?.done : null);
   const shown = isUnderPointer ? meant.value : null;
   if (shown) {
     await setHere(view, shown.point);
@@ -89,7 +89,7 @@ async function setThrough(view: Pointed, at: Pair): Promise<void> {
   }
 }
 
-function tell(view: Pointed, point: Vector, pick: Pick): void {
+function showValue(view: Pointed, point: Vector, pick: Pick): void {
   if (crossHair.value?.point === point) {
     placeCrossHair(pick, view.name);
   }
@@ -128,7 +128,7 @@ function chooseDoubtful({ projection }: Pointed, at: Pair): boolean {
 const following = new Latest();
 
 /** Last pointer position, and its pending lookup. */
-let looked: { readonly view: ViewName; readonly at: Pair; readonly done: Promise<void> } | null = null;
+let lastPointer: { readonly view: ViewName; readonly at: Pair; readonly done: Promise<void> } | null = null;
 
 const isSame = (a: Pair, b: Pair): boolean => Math.hypot(a[0] - b[0], a[1] - b[1]) < 1;
 
@@ -144,7 +144,7 @@ export function followPointerAt(view: Pointed, at: Pair): void {
   const done = new Promise<void>((resolve) => {
     following.run(() => lookUnder(view, at).then(resolve, resolve));
   });
-  looked = { view: view.name, at, done };
+  lastPointer = { view: view.name, at, done };
 }
 
 async function lookUnder(view: Pointed, at: Pair): Promise<void> {
@@ -164,5 +164,5 @@ const placeOf = (place: Pick | Vector): Vector => ('point' in place ? place.poin
 /** The pointer left, or the content under it moved. */
 export function forgetPointer(): void {
   pointed.value = null;
-  looked = null;
+  lastPointer = null;
 }

@@ -1,6 +1,6 @@
 /** Questions from the worker to the engine: JSON both ways, with separate bytes. */
 import { transfer } from 'comlink';
-import type { Answer, Beside, Message, Question, Told } from '../core/asked';
+import type { Answer, Beside, Message, OnProgress, Question } from '../core/asked';
 import { Failure } from '../core/failure';
 import { TURNS } from '../core/generated/questions';
 import type { Bytes, Edit } from '../core/messages';
@@ -12,14 +12,14 @@ export function ask<N extends Question>(
   engine: Engine,
   name: N,
   message: Message<N>,
-  { bytes = NO_FILE, told }: Beside = {},
+  { bytes = NO_FILE, onProgress }: Beside = {},
 ): Answer<N> {
   const words = wordsOf(name, message);
   if (words) {
-    told?.({ words, done: 0, total: null });
+    onProgress?.({ words, done: 0, total: null });
   }
   return answer(
-    engine.ask(name, JSON.stringify(message), bytes, words && told ? hearing(words, told) : null),
+    engine.ask(name, JSON.stringify(message), bytes, words && onProgress ? hearing(words, onProgress) : null),
   );
 }
 
@@ -57,10 +57,10 @@ export function moved<T>(given: T): T {
 
 function answer<T>(given: readonly unknown[]): T {
   const [json, bytes] = given as [string, Bytes?];
-  const told = JSON.parse(json);
-  return bytes ? { ...told, bytes } : told;
+  const answer = JSON.parse(json);
+  return bytes ? { ...answer, bytes } : answer;
 }
 
-function hearing(words: string, told: Told): (share: number) => void {
-  return (share) => told({ words, done: Math.round(100 * share), total: 100 });
+function hearing(words: string, onProgress: OnProgress): (share: number) => void {
+  return (share) => onProgress({ words, done: Math.round(100 * share), total: 100 });
 }

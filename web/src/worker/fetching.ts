@@ -7,9 +7,9 @@ import { type Beside, BlobSource, fileName } from '../io/source';
 import type { Study } from '../io/study';
 import { ByteReader } from './byte-reader';
 import { narrowed } from './narrowed';
-import type { Means } from './replacing';
+import type { LoadContext } from './replacing';
 
-export type Told = (progress: Progress) => void;
+export type OnProgress = (progress: Progress) => void;
 
 const MAGIC = 'LCVOLUME';
 const LONGEST_HEADER = 16 << 20;
@@ -38,20 +38,24 @@ export interface Fetched {
 }
 
 /** Loads volume, then centerlines; returns notes and the volume's name. */
-export async function fetchStudy(means: Means, addresses: Addresses, told: Told): Promise<Fetched> {
+export async function fetchStudy(
+  context: LoadContext,
+  addresses: Addresses,
+  onProgress: OnProgress,
+): Promise<Fetched> {
   let fetched: Fetched = { notes: [], name: '', states: { spacing: true, orientation: true }, study: null };
   if (addresses.volume !== null) {
-    fetched = await fetchVolume(means, addresses.volume, told);
+    fetched = await fetchVolume(context, addresses.volume, onProgress);
   } else {
-    means.study.close();
+    context.study.close();
   }
   if (addresses.centerlines === null) {
     return fetched;
   }
-  told({ words: 'Centerlines', done: 0, total: null });
-  const lines = await fetchFile(await answered(addresses.centerlines, means.steps.signal));
+  onProgress({ words: 'Centerlines', done: 0, total: null });
+  const lines = await fetchFile(await answered(addresses.centerlines, context.steps.signal));
   const { openLines } = await import('../io/study');
-  return { ...fetched, notes: [...fetched.notes, ...(await openLines(lines, means))] };
+  return { ...fetched, notes: [...fetched.notes, ...(await openLines(lines, context))] };
 }
 
 async function answered(address: string, signal: AbortSignal): Promise<Response> {
@@ -72,8 +76,8 @@ async function answered(address: string, signal: AbortSignal): Promise<Response>
     : failure;
 }
 
-async function fetchVolume(means: Means, address: string, told: Told): Promise<Fetched> {
-  const { signal } = means.steps;
+async function fetchVolume(context: LoadContext, address: string, onProgress: OnProgress): Promise<Fetched> {
+  const { signal } = context.steps;
   const response = await answered(address, signal);
   if (!response.body) {
     throw new Failure('file', address, 'an answer without content', 'a volume');
@@ -81,10 +85,10 @@ async function fetchVolume(means: Means, address: string, told: Told): Promise<F
   const bytes = new ByteReader(response.body);
   const start = await bytes.take(MAGIC.length + 4);
   if (new TextDecoder().decode(start.subarray(0, MAGIC.length)) !== MAGIC) {
-    return fetchFormat(means, response, { start, bytes, told });
+    return fetchFormat(context, response, { start, bytes, onProgress });
   }
   const header = await readHeader(bytes, start, address);
-  const total = await readVoxels(means.study, bytes, header, told);
+  const total = await readVoxels(context.study, bytes, header, onProgress);
   if (bytes.count < total) {
     await refuseShort(address, signal, bytes.count, total);
   }
@@ -99,20 +103,20 @@ async function fetchVolume(means: Means, address: string, told: Told): Promise<F
 interface Begun {
   readonly start: Uint8Array;
   readonly bytes: ByteReader;
-  readonly told: Told;
+  readonly onProgress: OnProgress;
 }
 
 /** Reads a response as a file that could also be dropped. */
 async function fetchFormat(
-  means: Means,
+  context: LoadContext,
   response: Response,
-  { start, bytes, told }: Begun,
+  { start, bytes, onProgress }: Begun,
 ): Promise<Fetched> {
   const total = Number(response.headers.get('Content-Length')) || null;
   const parts: BlobPart[] = [start.slice()];
   for (let part = await bytes.takeWhole(1); part.length > 0; part = await bytes.takeWhole(1)) {
     parts.push(part.slice());
-    told({
+    onProgress({
       words: 'Fetching',
       done: bytes.count,
       total: total === null || bytes.count > total ? null : total,
@@ -123,9 +127,9 @@ async function fetchFormat(
   const { openFiles } = await import('../io/study');
   const { volume, notes } = await openFiles(
     sources,
-    besideOf(response.url, means.steps.signal),
+    besideOf(response.url, context.steps.signal),
     ALL_OF_IT,
-    means,
+    context,
   );
   if (!volume) {
     throw new Failure('format', name, 'centerlines', 'a volume', 'name them as centerlines');
@@ -178,7 +182,12 @@ function parsed(text: string): Header | null {
 }
 
 /** Streams the voxels to the engine; returns the expected number of bytes. */
-async function readVoxels(study: Study, bytes: ByteReader, header: Header, told: Told): Promise<number> {
+async function readVoxels(
+  study: Study,
+  bytes: ByteReader,
+  header: Header,
+  onProgress: OnProgress,
+): Promise<number> {
   const { dtype, narrow, bytesPerVoxel } = narrowed(header.dtype);
   const voxels = header.size[0] * header.size[1] * header.size[2];
   const total = bytes.count + voxels * bytesPerVoxel;
@@ -192,7 +201,7 @@ async function readVoxels(study: Study, bytes: ByteReader, header: Header, told:
     const stored = narrow(part);
     study.take_voxels(offset, stored);
     offset += stored.length;
-    told({ words: 'Volume', done: bytes.count, total });
+    onProgress({ words: 'Volume', done: bytes.count, total });
   }
 }
 

@@ -1,6 +1,6 @@
 /** The worker's interface for the page. Errors cross as the text of `Failure`. */
 import { transfer } from 'comlink';
-import type { Beside, Message, Question, Told } from '../core/asked';
+import type { Beside, Message, OnProgress, Question } from '../core/asked';
 import { CRASH, Failure } from '../core/failure';
 import type { PlaceDoubt } from '../core/generated/questions';
 import type { Drawn, GivenFile, Picture, Report, SeriesWish, Started, View } from '../core/messages';
@@ -13,7 +13,7 @@ import { ask, askAtOnce, isAtOnce, moved, refuseStopped } from './answers';
 import { type Fetched, fetchStudy } from './fetching';
 import { askWithFiles } from './masks';
 import { Queue } from './queue';
-import { type Means, Replacing } from './replacing';
+import { type LoadContext, Replacing } from './replacing';
 import { startThreads } from './threads';
 
 const COARSER = 'only every second voxel along each axis was loaded; measurements are less accurate';
@@ -31,14 +31,14 @@ export class EngineHost {
   private crash: Error | null = null;
 
   /** Answers a question; those that need no study bypass the queue. */
-  ask(name: Question, message: unknown, files: Beside, told: Told | null): unknown {
+  ask(name: Question, message: unknown, files: Beside, onProgress: OnProgress | null): unknown {
     const asked = message as Message<Question>;
     if (isAtOnce(name)) {
       this.ready();
       return askAtOnce(name, asked);
     }
     const { signal } = this.cancelled;
-    const beside = told ? { ...files, told } : files;
+    const beside = onProgress ? { ...files, onProgress } : files;
     return this.run(async () => {
       refuseStopped(name, signal);
       return moved(await askWithFiles(this.ready(), name, asked, { beside, signal }));
@@ -104,25 +104,30 @@ export class EngineHost {
     volume: string | null,
     centerlines: string | null,
     wish: SeriesWish,
-    told: Told,
+    onProgress: OnProgress,
   ): Promise<Fetched & Loaded> {
-    return this.load(told, (means) => fetchStudy(means, { volume, centerlines }, told), wish);
+    return this.load(onProgress, (context) => fetchStudy(context, { volume, centerlines }, onProgress), wish);
   }
 
   /** Opens files; the open study stays if they are rejected before it is replaced. */
   openFiles(
     files: readonly GivenFile[],
     wish: SeriesWish,
-    told: Told,
+    onProgress: OnProgress,
   ): Promise<Partial<Fetched> & Loaded & { notes: readonly string[] }> {
     const sources = files.map(({ path, file }) => new BlobSource(path, file));
     const { coordinates: _, unit: __, every_second: ___, reorder: ____, ...series } = wish;
-    const work = async (means: Means) => {
+    const work = async (context: LoadContext) => {
       const { openFiles } = await import('../io/study');
-      const { volume, notes } = await openFiles(sources, among(sources), { ...ALL_OF_IT, ...series }, means);
+      const { volume, notes } = await openFiles(
+        sources,
+        among(sources),
+        { ...ALL_OF_IT, ...series },
+        context,
+      );
       return volume ? { ...volume, notes } : { notes };
     };
-    return this.load(told, work, wish);
+    return this.load(onProgress, work, wish);
   }
 
   dicomHead({ path, file }: GivenFile): Promise<Uint8Array<ArrayBuffer>> {
@@ -134,8 +139,8 @@ export class EngineHost {
 
   /** Loads in steps until `cancel`; on failure nothing stays open if the old study is already gone. */
   private load<T extends { readonly notes: readonly string[] }>(
-    told: Told,
-    work: (means: Means) => Promise<T>,
+    onProgress: OnProgress,
+    work: (context: LoadContext) => Promise<T>,
     wish: SeriesWish,
   ): Promise<T & Loaded> {
     this.cancelled.abort();
@@ -145,7 +150,7 @@ export class EngineHost {
       const replacing = new Replacing(this.ready(), wish);
       const study = wish.every_second ? new EverySecond(replacing) : replacing;
       try {
-        const loaded = await work({ study, loadJudge, steps: new Steps(told, signal) });
+        const loaded = await work({ study, loadJudge, steps: new Steps(onProgress, signal) });
         const report = this.report();
         const ofVolume = replacing.hasBegun ? report.volume?.doubt : null;
         const every = [...loaded.notes, ofVolume, wish.every_second ? COARSER : null];
@@ -197,11 +202,11 @@ export class EngineHost {
   private run<T>(work: () => T | Promise<T>): Promise<T> {
     return this.queue.run(work).catch((error: unknown) => {
       const failure = Failure.of(error);
-      const told = new Error(failure.text);
+      const asText = new Error(failure.text);
       if (failure.kind === CRASH) {
-        this.crash = told;
+        this.crash = asText;
       }
-      throw told;
+      throw asText;
     });
   }
 }

@@ -21,12 +21,12 @@ export async function askWithFiles<N extends Question>(
   message: Message<N>,
   { beside, signal }: Asking,
 ): Promise<Answer<N>> {
-  const { mask, told = () => undefined } = beside;
+  const { mask, onProgress = () => undefined } = beside;
   if (!mask) {
     return ask(engine, name, message, beside);
   }
   try {
-    const notes = await readMask(engine, mask, new Steps(told, signal));
+    const notes = await readMask(engine, mask, new Steps(onProgress, signal));
     refuseStopped(name, signal);
     const answer = ask(engine, name, message, beside) as AfterEdit;
     const edited = { ...answer.edited, notes: [...notes, ...answer.edited.notes] };

@@ -2,7 +2,7 @@
 import type { PlaceDoubt } from '../core/generated/questions';
 import type { SeriesWish } from '../core/messages';
 import type { Engine } from '../core/module';
-import type { Study, Means as StudyMeans } from '../io/study';
+import type { Study, LoadContext as StudyMeans } from '../io/study';
 import { ask, askAtOnce } from './answers';
 
 export class Replacing implements Study {
@@ -39,6 +39,6 @@ export class Replacing implements Study {
   }
 }
 
-export interface Means extends StudyMeans {
+export interface LoadContext extends StudyMeans {
   readonly study: Study & { close(): void };
 }

@@ -2,13 +2,13 @@
 import { type Shared, useThreads } from '../core/module';
 
 /** More threads do not help, because memory bandwidth limits rendering. */
-const MOST = 16;
+const MAX_THREADS = 16;
 
 export const THREAD = 'thread';
 
 /** Starts one thread per logical core; returns their number. */
 export async function startThreads(shared: Shared): Promise<number> {
-  const count = Math.min(navigator.hardwareConcurrency || 1, MOST);
+  const count = Math.min(navigator.hardwareConcurrency || 1, MAX_THREADS);
   if (!self.crossOriginIsolated || count < 2) {
     return 1;
   }

@@ -1,12 +1,12 @@
 /** Compares the values of slices that a plan treats as copies; the judge sees headers only. */
 import type { Numbers } from '../numbers';
-import type { Image, LookedInto } from './headers';
+import type { ExaminedFile, Image } from './headers';
 import type { Compared, Plan, PlannedSlice } from './judging';
 import { PixelReader } from './pixels';
 import { inUnit } from './stack';
 
 /** Pairs with different values; byte-identical copies are not decoded. */
-export async function unlikePairs(plan: Plan, files: readonly LookedInto[]): Promise<Compared[]> {
+export async function unlikePairs(plan: Plan, files: readonly ExaminedFile[]): Promise<Compared[]> {
   const [kept, others] = [new Values(files), new Values(files)];
   const equal = new Map<string, boolean>();
   const unlike: Compared[] = [];
@@ -25,7 +25,7 @@ export async function unlikePairs(plan: Plan, files: readonly LookedInto[]): Pro
 class Values {
   private readonly reader = new PixelReader();
 
-  constructor(private readonly files: readonly LookedInto[]) {}
+  constructor(private readonly files: readonly ExaminedFile[]) {}
 
   image({ file }: PlannedSlice): Image {
     const image = this.files[file]?.image;

@@ -24,13 +24,13 @@ export interface Image {
   readonly extended: readonly (readonly [number, number])[] | null;
 }
 
-export interface LookedInto {
+export interface ExaminedFile {
   readonly source: Source;
   readonly image: Image | null;
   readonly record: { readonly name: string; readonly kind: string; readonly header?: HeaderRecord };
 }
 
-export async function lookInto(source: Source, recorder: Recorder): Promise<LookedInto> {
+export async function examine(source: Source, recorder: Recorder): Promise<ExaminedFile> {
   const name = printable(fileName(source.path));
   const head = await source.slice(0, HEADS[0] ?? 0);
   if (!isDicom(head)) {

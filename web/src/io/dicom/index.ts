@@ -6,7 +6,7 @@ import { inOrder, type Source } from '../source';
 import type { Steps } from '../steps';
 import type { Sink } from '../volume-file';
 import { unlikePairs } from './comparing';
-import { type LookedInto, lookInto } from './headers';
+import { type ExaminedFile, examine } from './headers';
 import { asked, judged, type Plan } from './judging';
 import { Recorder } from './records';
 import { loadStack } from './stack';
@@ -28,14 +28,14 @@ export interface ReadSeries {
 }
 
 export async function openDicom(series: Series, judge: Judge, sink: Sink, steps: Steps): Promise<ReadSeries> {
-  const files = await lookIntoAll(series.sources, judge, steps);
+  const files = await examineAll(series.sources, judge, steps);
   const plan = await planned(series, judge, files);
   await loadStack(series.subject, plan, files, sink, steps);
   return { notes: plan.notes, study: await studyOf(plan, files) };
 }
 
 /** The plan of the volume; a failure that asks for a series includes thumbnails. */
-async function planned(series: Series, judge: Judge, files: readonly LookedInto[]): Promise<Plan> {
+async function planned(series: Series, judge: Judge, files: readonly ExaminedFile[]): Promise<Plan> {
   try {
     const question = { ...series, files };
     const plan = judged(judge, question);
@@ -46,11 +46,11 @@ async function planned(series: Series, judge: Judge, files: readonly LookedInto[
   }
 }
 
-async function lookIntoAll(sources: readonly Source[], judge: Judge, steps: Steps): Promise<LookedInto[]> {
+async function examineAll(sources: readonly Source[], judge: Judge, steps: Steps): Promise<ExaminedFile[]> {
   const recorder = new Recorder(asked(judge));
-  const files: LookedInto[] = [];
+  const files: ExaminedFile[] = [];
   for (const source of inOrder(sources)) {
-    files.push(await lookInto(source, recorder));
+    files.push(await examine(source, recorder));
     await steps.step('Looking into files', files.length, sources.length);
   }
   return files;

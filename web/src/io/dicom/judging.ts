@@ -2,7 +2,7 @@
 import { Failure, type SeriesChoice } from '../../core/failure';
 import type { Judge } from '../../core/judge';
 import type { Mend } from '../../core/mends';
-import type { LookedInto } from './headers';
+import type { ExaminedFile } from './headers';
 import { TRANSFER_SYNTAXES } from './pixels';
 import type { Asked } from './records';
 import type { Wanted } from './wanted';
@@ -57,7 +57,7 @@ export function asked(judge: Judge): Asked {
 
 export interface Question {
   readonly subject: string;
-  readonly files: readonly LookedInto[];
+  readonly files: readonly ExaminedFile[];
   readonly wanted: Wanted;
   readonly unlike?: readonly Compared[];
 }

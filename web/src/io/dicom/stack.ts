@@ -13,7 +13,7 @@ import {
 import { isIntegral, isScaled, type Scaling, scaled } from '../rescale';
 import type { Steps } from '../steps';
 import { begin, type Sink } from '../volume-file';
-import type { LookedInto } from './headers';
+import type { ExaminedFile } from './headers';
 import type { Plan, PlannedSlice } from './judging';
 import { PixelReader } from './pixels';
 
@@ -29,7 +29,7 @@ interface Type {
 export async function loadStack(
   subject: string,
   plan: Plan,
-  files: readonly LookedInto[],
+  files: readonly ExaminedFile[],
   sink: Sink,
   steps: Steps,
 ): Promise<void> {
@@ -45,7 +45,7 @@ export async function loadStack(
   }
 }
 
-function isFloat({ file }: PlannedSlice, files: readonly LookedInto[]): boolean {
+function isFloat({ file }: PlannedSlice, files: readonly ExaminedFile[]): boolean {
   return files[file]?.image?.pixels?.keyword !== 'PixelData';
 }
 
@@ -58,7 +58,7 @@ class Filler {
 
   constructor(
     private readonly plan: Plan,
-    private readonly files: readonly LookedInto[],
+    private readonly files: readonly ExaminedFile[],
     private readonly sink: Sink,
     private readonly type: Type,
   ) {}

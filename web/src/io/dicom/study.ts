@@ -3,7 +3,7 @@ import type { ReadScan } from '../../core/scan-study';
 import type { Bytes } from '../payload';
 import type { Source } from '../source';
 import { formatFailure } from '../words';
-import { type LookedInto, pixelsOf } from './headers';
+import { type ExaminedFile, pixelsOf } from './headers';
 import type { Plan } from './judging';
 import { isDicom } from './recognising';
 
@@ -17,7 +17,7 @@ export async function headOf(source: Source): Promise<Bytes> {
   return source.slice(0, pixels && !isDeflated ? pixels.at : source.size);
 }
 
-export async function studyOf(plan: Plan, files: readonly LookedInto[]): Promise<ReadScan | null> {
+export async function studyOf(plan: Plan, files: readonly ExaminedFile[]): Promise<ReadScan | null> {
   const images = [...new Set(plan.slices.map(({ file }) => files[file]?.image))].filter((one) => !!one);
   const [first] = images;
   if (!first) {

@@ -2,14 +2,13 @@
 import { Failure, type SeriesChoice, type Thumbnail } from '../../core/failure';
 import type { Numbers } from '../numbers';
 import { shapeOf } from './frames';
-import type { Image, LookedInto } from './headers';
+import type { ExaminedFile, Image } from './headers';
 import { PixelReader } from './pixels';
 
 const SIDE = 64;
-/** Share of values at each end that is clipped to black or white. */
-const ENDS = 0.02;
+const CLIPPED_SHARE = 0.02;
 
-export async function withThumbnails(failure: unknown, files: readonly LookedInto[]): Promise<unknown> {
+export async function withThumbnails(failure: unknown, files: readonly ExaminedFile[]): Promise<unknown> {
   if (!(failure instanceof Failure) || failure.series.length === 0) {
     return failure;
   }
@@ -22,7 +21,7 @@ export async function withThumbnails(failure: unknown, files: readonly LookedInt
   return new Failure(kind, subject, found, expected, advice, { ...more, series });
 }
 
-function imagesOf({ uid }: SeriesChoice, files: readonly LookedInto[]): readonly Image[] {
+function imagesOf({ uid }: SeriesChoice, files: readonly ExaminedFile[]): readonly Image[] {
   return files.flatMap(({ image }) => (image?.header.attributes.SeriesInstanceUID === uid ? [image] : []));
 }
 
@@ -59,7 +58,7 @@ export function pictureOf(values: Numbers, [columns, rows]: readonly [number, nu
   const taken = Float64Array.from({ length: width * height }, (_, n) => at(n));
   const sorted = taken.toSorted();
   const end = (share: number) => sorted[Math.round(share * (sorted.length - 1))] ?? 0;
-  const [low, high] = [end(ENDS), end(1 - ENDS)];
+  const [low, high] = [end(CLIPPED_SHARE), end(1 - CLIPPED_SHARE)];
   const grey = taken.map((value) => (255 * (value - low)) / Math.max(high - low, 1e-9));
   return { width, height, grey: [...Uint8ClampedArray.from(grey)] };
 }

@@ -7,13 +7,13 @@ import { document_ } from '../state/history';
 const last = signal<{ readonly told: Told; readonly line: LineId | undefined } | null>(null);
 
 /** Null if nothing was traced, or the vessel has changed since. */
-export const told = computed<Told | null>(() => {
+export const tracedSummary = computed<Told | null>(() => {
   const of = last.value;
   const vessel = vesselOf(document_.value, of?.told.vessel ?? null);
   return of && vessel?.line === of.line ? of.told : null;
 });
 
-export function hear({ told, document }: Edited): void {
+export function storeSummary({ told, document }: Edited): void {
   const line = document.vessels.find((vessel) => vessel.id === told?.vessel)?.line;
   last.value = told && { told, line };
 }

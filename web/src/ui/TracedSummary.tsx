@@ -3,17 +3,17 @@ import { useSignal } from '@preact/signals';
 import { engine } from '../client/shared';
 import type { Told } from '../core/messages';
 import { tree } from '../edit/shown';
-import { told } from '../edit/telling';
+import { tracedSummary } from '../edit/traced-summary';
 import { cut } from '../edit/vessels';
 import { moveTo } from '../link/along';
 import { pickedVessel } from '../state/store';
 
-export function ToldVessel() {
-  return told.value && <ToldOf key={told.value.words} told={told.value} />;
+export function TracedSummary() {
+  return tracedSummary.value && <Summary key={tracedSummary.value.words} summary={tracedSummary.value} />;
 }
 
 /** Shows one doubt at a time, since the bar has two lines. */
-function ToldOf({ told: { vessel, words, doubts } }: { readonly told: Told }) {
+function Summary({ summary: { vessel, words, doubts } }: { readonly summary: Told }) {
   const number = useSignal(0);
   const doubt = doubts[number.value];
   const at = doubt?.at ?? null;

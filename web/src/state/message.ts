@@ -3,21 +3,21 @@ import { signal } from '@preact/signals';
 import { Failure } from '../core/failure';
 import { problem, report } from './store';
 
-const STAYS = 8000;
+const DISPLAY_MS = 8000;
 
-export const told = signal<string | null>(null);
+export const message = signal<string | null>(null);
 let timer = 0;
 
-export function tell(words: string): void {
+export function showMessage(words: string): void {
   window.clearTimeout(timer);
-  told.value = words;
+  message.value = words;
   timer = window.setTimeout(() => {
-    told.value = null;
-  }, STAYS);
+    message.value = null;
+  }, DISPLAY_MS);
 }
 
 /** Reports a failure, except interruptions and errors of a study closed meanwhile. */
-export function tellFailure(error: unknown): void {
+export function showFailure(error: unknown): void {
   const failure = Failure.of(error);
   if (failure.kind !== 'interrupted' && report.value) {
     problem.value = failure;
