@@ -20,13 +20,13 @@ export async function opened(phantom: string, scale = 1): Promise<Opened> {
   module.open_phantom(phantom, scale);
   let cancelled = new AbortController();
   const engine: Asked = {
-    ask: async (name, message, beside = {}) => {
+    ask: async (name, message, attachments = {}) => {
       const { signal } = cancelled;
       // As in the queue, work starts after its request returns.
       await Promise.resolve();
       try {
         refuseStopped(name, signal);
-        return await askWithFiles(module, name, message, { beside, signal });
+        return await askWithFiles(module, name, message, { attachments, signal });
       } catch (error) {
         throw Failure.of(error);
       }

@@ -1,6 +1,6 @@
 /** Typed calls to the worker; their errors are `Failure`s. */
 import { proxy, type Remote, transfer, wrap } from 'comlink';
-import type { Answer, Asked, Beside, Message, OnProgress, Question } from '../core/asked';
+import type { Answer, Asked, Attachments, Message, OnProgress, Question } from '../core/asked';
 import { Failure } from '../core/failure';
 import { type PlaceDoubt, TURNS } from '../core/generated/questions';
 import type { Drawn, GivenFile, Report, SeriesWish, Started, States, View } from '../core/messages';
@@ -48,16 +48,16 @@ export class EngineClient implements Asked {
   ask<N extends Question>(
     name: N,
     message: Message<N>,
-    { onProgress, ...files }: Beside = {},
+    { onProgress, ...files }: Attachments = {},
   ): Promise<Answer<N>> {
     const answer = this.host.ask(name, message, files, onProgress ? proxy(onProgress) : null) as Promise<
       Answer<N>
     >;
-    return TURNS[name].when === 'first' ? this.first(answer) : heard(answer);
+    return TURNS[name].when === 'first' ? this.first(answer) : typed(answer);
   }
 
   async start(device: string): Promise<Started> {
-    const started = await heard(this.host.start(device));
+    const started = await typed(this.host.start(device));
     this.stopByte = started.stop && new Uint8Array(started.stop.buffer, started.stop.address, 1);
     return started;
   }
@@ -74,19 +74,19 @@ export class EngineClient implements Asked {
   }
 
   changeDevice(device: string): Promise<{ device: string; isGpu: boolean }> {
-    return heard(this.host.changeDevice(device));
+    return typed(this.host.changeDevice(device));
   }
 
   loss(): Promise<void> {
-    return heard(this.host.loss());
+    return typed(this.host.loss());
   }
 
   memory(): Promise<number> {
-    return heard(this.host.memory());
+    return typed(this.host.memory());
   }
 
   drawOn(canvas: OffscreenCanvas): Promise<void> {
-    return heard(this.host.drawOn(transfer(canvas, [canvas])));
+    return typed(this.host.drawOn(transfer(canvas, [canvas])));
   }
 
   openPhantom(name: string, wish: SeriesWish = {}): Promise<Report> {
@@ -112,20 +112,20 @@ export class EngineClient implements Asked {
   /** Stops loading, tracing and measuring; running tracing and measuring stop only with shared memory. */
   cancel(): Promise<void> {
     this.say(STOP_LONG);
-    return heard(this.host.cancel());
+    return typed(this.host.cancel());
   }
 
   render(view: View): Promise<Drawn> {
     const isRefining = view.settings.context_preview !== true;
-    return this.precedence.view(isRefining, heard(this.host.render(view)));
+    return this.precedence.view(isRefining, typed(this.host.render(view)));
   }
 
   private first<T>(answer: Promise<T>): Promise<T> {
-    return this.precedence.first(heard(answer));
+    return this.precedence.first(typed(answer));
   }
 }
 
-async function heard<T>(answer: Promise<T>): Promise<T> {
+async function typed<T>(answer: Promise<T>): Promise<T> {
   try {
     return await answer;
   } catch (error) {

@@ -8,7 +8,7 @@ export type Answer<N extends Question> = Questions[N]['answer'];
 
 export type OnProgress = (progress: Progress) => void;
 
-export interface Beside {
+export interface Attachments {
   readonly onProgress?: OnProgress;
   readonly bytes?: Uint8Array;
   /** Files of a mask; the worker reads them before the edit. */
@@ -17,5 +17,5 @@ export interface Beside {
 
 export interface Asked {
   /** Answers a question of `generated/questions.ts`. Throws `Failure`. */
-  ask<N extends Question>(name: N, message: Message<N>, beside?: Beside): Promise<Answer<N>>;
+  ask<N extends Question>(name: N, message: Message<N>, attachments?: Attachments): Promise<Answer<N>>;
 }

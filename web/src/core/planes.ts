@@ -45,10 +45,10 @@ export function pointOn({ center, right, down, size, pixel_spacing }: Plane, [x,
 
 /** Column and row of a point, projected along the normal. */
 export function pixelOn({ center, right, down, size, pixel_spacing }: Plane, point: Vector): Pair {
-  const away = subtract(point, center);
+  const offset = subtract(point, center);
   return [
-    dot(away, right) / pixel_spacing + (size[0] - 1) / 2,
-    dot(away, down) / pixel_spacing + (size[1] - 1) / 2,
+    dot(offset, right) / pixel_spacing + (size[0] - 1) / 2,
+    dot(offset, down) / pixel_spacing + (size[1] - 1) / 2,
   ];
 }
 

@@ -161,7 +161,7 @@ export function commitPlain(words: string, edit: (document: Document) => Documen
   return isDone(inTurn(() => ({ words, after: edit(document_.value), result: words }), null));
 }
 
-interface Beside {
+interface EditOptions {
   readonly mask?: readonly GivenFile[];
   readonly renamed?: (vessel: DocumentVessel) => DocumentVessel;
   /** Called with the result when the document changes, also after a gap was bridged. */
@@ -170,8 +170,8 @@ interface Beside {
 }
 
 /** Sends an edit of the current document to the engine. Returns null if not done. Concurrent page changes stay. */
-export function commit(engine: Asked, edit: Edit, beside: Beside = {}): Promise<AfterEdit | null> {
-  const { mask, then, renamed = (vessel) => vessel, bridging = false } = beside;
+export function commit(engine: Asked, edit: Edit, options: EditOptions = {}): Promise<AfterEdit | null> {
+  const { mask, then, renamed = (vessel) => vessel, bridging = false } = options;
   const files = mask && { mask };
   const work: Work<AfterEdit> = async (onProgress) => {
     const ask = ({ vessels, stoppers, bridge }: Document) =>
@@ -190,7 +190,7 @@ export function commit(engine: Asked, edit: Edit, beside: Beside = {}): Promise<
     };
     return { words: edited.words, after, result: answer, answer, also };
   };
-  const again = () => void commit(engine, edit, { ...beside, bridging: true });
+  const again = () => void commit(engine, edit, { ...options, bridging: true });
   const found = SEARCHES.includes(edit.kind) ? counted(work) : work;
   return inTurn(edit.kind === 'add_branches' ? askedAbout(found) : found, again);
 }

@@ -74,21 +74,21 @@ export function showAgain(engine: Asked): Promise<void> {
 
 /** Displays the document's tree. Returns the function that ends it. */
 export function followDocument(engine: Asked): () => void {
-  let heard: AfterEdit | null = answered.peek();
+  let lastAnswer: AfterEdit | null = answered.peek();
   return effect(() => {
     const [document, answer] = [document_.value, answered.value];
-    if (answer && answer !== heard) {
+    if (answer && answer !== lastAnswer) {
       shownText = textOf(answer.edited.document.vessels);
     }
     if (textOf(document.vessels) !== shownText) {
       void show(engine);
-    } else if (answer && answer !== heard) {
+    } else if (answer && answer !== lastAnswer) {
       untracked(() => {
         const study = store.report.value?.volume;
         takeUp(engine, answer.report, document).catch((error) => reportError(study, error));
       });
     }
-    heard = answer;
+    lastAnswer = answer;
   });
 }
 

@@ -7,7 +7,7 @@ export type OnProgress = (progress: Progress) => void;
 const LISTEN_AFTER_MS = 30;
 
 export class Steps {
-  private heard = performance.now();
+  private lastReport = performance.now();
 
   constructor(
     private readonly onProgress: OnProgress,
@@ -16,10 +16,10 @@ export class Steps {
 
   /** Reports progress at intervals; throws after a stop. */
   async step(words: string, done: number, total: number | null): Promise<void> {
-    if (performance.now() - this.heard >= LISTEN_AFTER_MS) {
+    if (performance.now() - this.lastReport >= LISTEN_AFTER_MS) {
       this.onProgress({ words, done, total });
       await new Promise((listened) => setTimeout(listened, 0));
-      this.heard = performance.now();
+      this.lastReport = performance.now();
     }
     if (this.signal.aborted) {
       throw new Failure('interrupted', 'opening', 'a stop', 'the end of the file');

@@ -9,9 +9,9 @@ export const GRAB_DISTANCE_PX = 22;
 const CLICK_MOVE_PX = 4;
 
 export function nearestLine(places: readonly VesselPlace[], x: Axis, column: number): VesselPlace | null {
-  const away = (place: VesselPlace) => Math.abs(pixelAt(x, place.at) - column);
-  const [nearest] = [...places].sort((a, b) => away(a) - away(b));
-  return nearest && away(nearest) <= GRAB_DISTANCE_PX ? nearest : null;
+  const distance = (place: VesselPlace) => Math.abs(pixelAt(x, place.at) - column);
+  const [nearest] = [...places].sort((a, b) => distance(a) - distance(b));
+  return nearest && distance(nearest) <= GRAB_DISTANCE_PX ? nearest : null;
 }
 
 interface Grip {

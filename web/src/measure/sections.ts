@@ -89,16 +89,16 @@ export function seenNearest(
   pixel: Pair,
   before: number,
 ): number {
-  const away = profile.center.map((point) => {
+  const distances = profile.center.map((point) => {
     const [x, y] = seen(point);
     return Math.hypot(x - pixel[0], y - pixel[1]);
   });
-  const limit = Math.min(...away) + EQUALLY_NEAR_PX;
+  const limit = Math.min(...distances) + EQUALLY_NEAR_PX;
   let best = before;
   let least = Number.POSITIVE_INFINITY;
   profile.arc_length.forEach((place, n) => {
     // Among these, distance along the vessel decides.
-    const distance = away[n] ?? Number.POSITIVE_INFINITY;
+    const distance = distances[n] ?? Number.POSITIVE_INFINITY;
     if (distance > limit) {
       return;
     }

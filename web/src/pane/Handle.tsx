@@ -28,12 +28,12 @@ const ARROWS: Readonly<Record<string, Pair>> = {
 };
 
 function nearestHandle(x: number, y: number): Element | undefined {
-  const away = (handle: Element) => {
+  const distance = (handle: Element) => {
     const { left, right, top, bottom } = handle.getBoundingClientRect();
     return Math.hypot((left + right) / 2 - x, (top + bottom) / 2 - y);
   };
   const here = document.elementsFromPoint(x, y).filter((element) => element.matches('.overlay .handle'));
-  return here.sort((a, b) => away(a) - away(b))[0];
+  return here.sort((a, b) => distance(a) - distance(b))[0];
 }
 
 export function Handle(props: HandleProps) {

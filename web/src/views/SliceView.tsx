@@ -153,8 +153,8 @@ function scrollSlices(name: SliceName, steps: number): void {
   if (volume && hair) {
     const { right, down } = AXES[name];
     const normal = cross(right, down);
-    const away = name === 'coronal' ? 1 : -1;
-    const step = scale(normal, steps * away * sliceDistance(volume, name));
+    const sign = name === 'coronal' ? 1 : -1;
+    const step = scale(normal, steps * sign * sliceDistance(volume, name));
     moveTo(name, add(hair.point, step));
   }
 }

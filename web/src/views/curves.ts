@@ -47,14 +47,14 @@ export function isAt(projection: Projection, point: Vector, [x, y]: Pair): boole
 /** The nearest curve at a pixel; in a slice only where it lies in it. */
 export function curveAt(projection: Projection, [x, y]: Pair): Hit | null {
   let best: Hit | null = null;
-  let least = HIT_DISTANCE_PX;
+  let nearest = HIT_DISTANCE_PX;
   for (const vessel of document_.value.vessels) {
     const points = vessel.isHidden ? [] : (contents.value.get(vessel.line)?.points ?? []);
     points.forEach((point, number) => {
       const [column, row] = projection.pixel(point);
-      const away = Math.hypot(column - x, row - y);
-      if (away < least && isNear(projection, point)) {
-        least = away;
+      const distance = Math.hypot(column - x, row - y);
+      if (distance < nearest && isNear(projection, point)) {
+        nearest = distance;
         best = { vessel, number, point };
       }
     });

@@ -1,6 +1,6 @@
 /** Questions from the worker to the engine: JSON both ways, with separate bytes. */
 import { transfer } from 'comlink';
-import type { Answer, Beside, Message, OnProgress, Question } from '../core/asked';
+import type { Answer, Attachments, Message, OnProgress, Question } from '../core/asked';
 import { Failure } from '../core/failure';
 import { TURNS } from '../core/generated/questions';
 import type { Bytes, Edit } from '../core/messages';
@@ -12,7 +12,7 @@ export function ask<N extends Question>(
   engine: Engine,
   name: N,
   message: Message<N>,
-  { bytes = NO_FILE, onProgress }: Beside = {},
+  { bytes = NO_FILE, onProgress }: Attachments = {},
 ): Answer<N> {
   const words = wordsOf(name, message);
   if (words) {

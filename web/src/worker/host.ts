@@ -1,6 +1,6 @@
 /** The worker's interface for the page. Errors cross as the text of `Failure`. */
 import { transfer } from 'comlink';
-import type { Beside, Message, OnProgress, Question } from '../core/asked';
+import type { Attachments, Message, OnProgress, Question } from '../core/asked';
 import { CRASH, Failure } from '../core/failure';
 import type { PlaceDoubt } from '../core/generated/questions';
 import type { Drawn, GivenFile, Picture, Report, SeriesWish, Started, View } from '../core/messages';
@@ -31,17 +31,17 @@ export class EngineHost {
   private crash: Error | null = null;
 
   /** Answers a question; those that need no study bypass the queue. */
-  ask(name: Question, message: unknown, files: Beside, onProgress: OnProgress | null): unknown {
+  ask(name: Question, message: unknown, files: Attachments, onProgress: OnProgress | null): unknown {
     const asked = message as Message<Question>;
     if (isAtOnce(name)) {
       this.ready();
       return askAtOnce(name, asked);
     }
     const { signal } = this.cancelled;
-    const beside = onProgress ? { ...files, onProgress } : files;
+    const attachments = onProgress ? { ...files, onProgress } : files;
     return this.run(async () => {
       refuseStopped(name, signal);
-      return moved(await askWithFiles(this.ready(), name, asked, { beside, signal }));
+      return moved(await askWithFiles(this.ready(), name, asked, { attachments, signal }));
     });
   }
 

@@ -1,5 +1,5 @@
 /** Reads a vessel mask for the open scan, and traces it. */
-import type { Answer, Beside, Message, Question } from '../core/asked';
+import type { Answer, Attachments, Message, Question } from '../core/asked';
 import { Failure } from '../core/failure';
 import type { AfterEdit, GivenFile } from '../core/messages';
 import { type Engine, loadJudge } from '../core/module';
@@ -10,7 +10,7 @@ import type { Study } from '../io/study';
 import { ask, refuseStopped } from './answers';
 
 interface Asking {
-  readonly beside: Beside;
+  readonly attachments: Attachments;
   readonly signal: AbortSignal;
 }
 
@@ -19,16 +19,16 @@ export async function askWithFiles<N extends Question>(
   engine: Engine,
   name: N,
   message: Message<N>,
-  { beside, signal }: Asking,
+  { attachments, signal }: Asking,
 ): Promise<Answer<N>> {
-  const { mask, onProgress = () => undefined } = beside;
+  const { mask, onProgress = () => undefined } = attachments;
   if (!mask) {
-    return ask(engine, name, message, beside);
+    return ask(engine, name, message, attachments);
   }
   try {
     const notes = await readMask(engine, mask, new Steps(onProgress, signal));
     refuseStopped(name, signal);
-    const answer = ask(engine, name, message, beside) as AfterEdit;
+    const answer = ask(engine, name, message, attachments) as AfterEdit;
     const edited = { ...answer.edited, notes: [...notes, ...answer.edited.notes] };
     return { ...answer, edited } as AfterEdit as Answer<N>;
   } finally {
