@@ -35,7 +35,7 @@ test('findings of all vessels stand in one list, are copied, and are saved as on
   const viewer = await threeVessels(browser, WITH_CLIPBOARD);
   const before = await viewer.camera();
   await mode(viewer, 'Report').click();
-  await expect(panel(viewer)).toContainText('Nothing is marked yet.');
+  await expect(panel(viewer)).toContainText('Findings appear here once');
   await mode(viewer, 'Look').click();
   await mark(viewer, 0);
   await mark(viewer, 2);

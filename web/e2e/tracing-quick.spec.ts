@@ -18,7 +18,7 @@ const guide = (page: Page) => page.getByLabel('Guided tour');
 test('points that are set quickly become a vessel, though Done is pressed at once', async ({ browser }) => {
   const viewer = await guided(browser);
   const { page } = viewer;
-  await expect(guide(page)).toContainText('Press “Trace” first');
+  await expect(guide(page)).toContainText('Press “Trace” or');
   await expect(guide(page)).not.toContainText('coronal');
   const height = (await guide(page).boundingBox())?.height;
   await viewer.press('t');

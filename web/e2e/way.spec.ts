@@ -78,7 +78,7 @@ test('by keys alone, from the start page to the report', async ({ browser }) => 
   const { page } = viewer;
   const counted = await countInput(viewer);
   await expect(button(viewer, 'A tube with a stenosis of 50 %')).toBeEnabled();
-  await tabTo(viewer, 'A tube with a narrowing');
+  await tabTo(viewer, 'A tube with a stenosis');
   await viewer.press('Enter');
   await viewer.rest();
   await viewer.press('v');
