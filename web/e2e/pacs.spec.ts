@@ -180,7 +180,7 @@ test('a page of a server of files says what it needs', async ({ browser }) => {
   await viewer.rest();
   await menu(viewer).click();
   await button(viewer, 'For PACS (DICOM, zip)').click();
-  await expect(viewer.problem).toContainText('Open the scan by `lumencut view`');
+  await expect(viewer.problem).toContainText('Open the scan with `lumencut view`');
   viewer.expectNoFault();
   await viewer.close();
 });

@@ -13,7 +13,7 @@ export interface VesselPlace {
   readonly at: number;
   /** Suggested by Lumencut, not marked by the user. */
   readonly isSuggestion: boolean;
-  /** For references: upstream of the stenosis in arc length, even if both lie on one side. */
+  /** For references: whether it precedes the stenosis, even if both lie on one side. */
   readonly isBefore?: boolean;
 }
 
