@@ -1,17 +1,16 @@
 import { spawnSync } from 'node:child_process';
 import { defineConfig } from '@playwright/test';
 
-/** A port that nobody listens on; the processes of the tests inherit it. */
+/** A free port, passed on to the test processes. */
 function freePort(): string {
   const script =
     "const s=require('net').createServer().listen(0,'127.0.0.1',()=>{console.log(s.address().port);s.close()})";
   return spawnSync(process.execPath, ['-e', script], { encoding: 'utf-8' }).stdout.trim();
 }
 
-/** The built site of the documentation, for its own tests, which are left out where there is none. */
 const docs = process.env.LUMENCUT_DOCS_SITE;
 
-/** Tests that take long and seldom break: left out but of `npm run check-long`, which runs nothing else. */
+/** Slow tests that rarely fail: run only by `npm run check-long`. */
 const LONG = /@long/;
 const isLong = Boolean(process.env.LUMENCUT_LONG);
 
@@ -29,17 +28,17 @@ const launch = (args: string[]) => ({
   args,
 });
 
-/** The page in a browser, without WebGPU and with one in software; the tests of a file one after the other, none tried twice. */
+/** Two browsers, without WebGPU and with a software GPU; tests of a file run in sequence without retries. */
 export default defineConfig({
   testDir: 'e2e',
   ...(isLong ? { grep: LONG } : { grepInvert: LONG }),
   outputDir: 'test-results/files',
-  // Pages mostly wait for what moves: two of them keep two cores busy.
+  // Pages mostly wait for timers: two of them keep two cores busy.
   workers: 2,
   retries: 0,
   fullyParallel: false,
   forbidOnly: true,
-  // Patience for machines that are busy otherwise: a wait ends as soon as what it waits for is there.
+  // Generous, for busy machines; waits end as soon as possible.
   timeout: 120_000,
   globalTimeout: 1_800_000,
   expect: { timeout: 30_000 },

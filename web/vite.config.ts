@@ -1,12 +1,12 @@
 import { defineConfig } from 'vite';
 
-/** With these headers workers may share memory. */
+/** These headers allow shared memory between workers. */
 const ISOLATED = {
   'Cross-Origin-Opener-Policy': 'same-origin',
   'Cross-Origin-Embedder-Policy': 'require-corp',
 };
 
-/** The page has relative addresses only, so that it works under any path, and no part of it comes from elsewhere. */
+/** Relative addresses only: the page works under any path and loads nothing external. */
 export default defineConfig({
   base: './',
   build: {

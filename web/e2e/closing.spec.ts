@@ -1,4 +1,4 @@
-/** A scan is closed, and another one is opened. */
+/** Closing a scan and opening another. */
 import { expect, test } from '@playwright/test';
 import { SIZE } from './measured-tube';
 import { Viewer } from './page';
@@ -24,15 +24,15 @@ test('what was not saved is not closed unasked, and measuring does not go on in 
   await close.click();
   await question.getByRole('button', { name: 'Discard' }).click();
   await expect(page.getByRole('heading', { name: 'Lumencut' })).toBeVisible();
-  await page.getByRole('button', { name: 'A tube with a narrowing of 50 %' }).click();
+  await page.getByRole('button', { name: 'A tube with a stenosis of 50 %' }).click();
   await expect(page.locator('main.layout')).toHaveAttribute('data-layout', 'strip');
   await tube.rest();
   await expect(page.getByRole('alert')).toHaveCount(0);
-  // Nothing was done since: it closes at once, as it does where a tool is still in hand.
+  // Nothing has changed since: it closes without a question, even with a tool active.
   await tube.press('m', 't');
   await expect(page.locator('main.layout')).toHaveAttribute('data-layout', 'four');
   await close.click();
-  await page.getByRole('button', { name: 'A tube with a narrowing of 50 %' }).click();
+  await page.getByRole('button', { name: 'A tube with a stenosis of 50 %' }).click();
   await expect(page.locator('main.layout')).toHaveAttribute('data-layout', 'strip');
   await expect(page.getByRole('button', { name: 'Trace', exact: true })).toHaveAttribute(
     'aria-pressed',

@@ -1,4 +1,4 @@
-/** The contact sheet of a cohort of 2,000 studies: opened, filtered, ordered and rated in a browser, from its file. */
+/** Contact sheet of a cohort of 2,000 studies: opened, filtered, sorted and rated from a file. */
 import { spawnSync } from 'node:child_process';
 import { mkdtempSync, readFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
@@ -20,7 +20,6 @@ test.beforeAll(() => {
   address = pathToFileURL(join(folder, 'index.html')).href;
 });
 
-/** The ids of the tiles that are shown, in their order. */
 const ids = (page: Page) =>
   page
     .locator('li:not(.hidden)')
@@ -48,7 +47,7 @@ test('studies are filtered, ordered and rated, and the ratings outlive the page'
   await page.selectOption('#order', 'row');
   await page.fill('#search', 'p199');
   await page.locator('li:not(.hidden)').first().focus();
-  // The second tile has the focus when the first one is rated.
+  // Rating the first tile focuses the second.
   await page.keyboard.press('g');
   await page.keyboard.press('x');
   await page.keyboard.press('ArrowLeft');
@@ -88,7 +87,6 @@ test('a click selects a tile; Enter and a double click open its picture in a new
     await opened.close();
   }
   await expect(tile).toBeFocused();
-  // A study that failed has no picture to open.
   const failed = page.locator('li[data-id="p10"]');
   await failed.locator('a').dblclick();
   await expect(failed).toBeFocused();

@@ -1,4 +1,4 @@
-/** Compares pictures channel by channel. The numbers are those of the tests of the GPU (`tolerances.rs` of lumencut-scenes). */
+/** Compares pictures per channel, with the tolerances of the GPU tests (`tolerances.rs` of lumencut-scenes). */
 
 export interface Pixels {
   readonly width: number;
@@ -7,13 +7,13 @@ export interface Pixels {
   readonly bytes: Uint8Array;
 }
 
-/** How far apart channels may lie (steps of 255), and which share of all may lie further apart. */
+/** Allowed difference of channels (steps of 255), and the share that may exceed it. */
 export interface Tolerance {
   readonly apart: number;
   readonly share: number;
 }
 
-/** Two computations of the same code: rounding moves a channel by one step. */
+/** Same code: rounding moves a channel by one step. */
 export const SAME_CODE: readonly Tolerance[] = [{ apart: 1, share: 0 }];
 
 /** Another device: `COLOR` and `COLOR_LEAP`. */
@@ -22,10 +22,9 @@ export const OTHER_DEVICE: readonly Tolerance[] = [
   { apart: 4, share: 1e-4 },
 ];
 
-/** Another device, with a context around the vessels: `CONTEXT_OF_FRAME`. */
 export const OTHER_DEVICE_WITH_CONTEXT: readonly Tolerance[] = [{ apart: 4, share: 1e-3 }];
 
-/** What is wrong with a picture, in words; nothing where it is the same but for the tolerances. */
+/** Description of the difference; null within the tolerances. */
 export function difference(found: Pixels, expected: Pixels, tolerances: readonly Tolerance[]): string | null {
   if (found.width !== expected.width || found.height !== expected.height) {
     return `found ${found.width} × ${found.height} pixels; expected ${expected.width} × ${expected.height}`;
@@ -40,7 +39,6 @@ export function difference(found: Pixels, expected: Pixels, tolerances: readonly
     : null;
 }
 
-/** Whether a picture shows more than one colour. */
 export function isEmpty({ bytes }: Pixels): boolean {
   return bytes.every((value, n) => value === bytes[n % 4]);
 }

@@ -1,15 +1,13 @@
-/** What the tests of vessels, measurements and sessions do with the page, by mouse or by keys. */
+/** Shared actions of the tests on vessels, measurements and sessions. */
 import { readFileSync } from 'node:fs';
 import { type Browser, type BrowserContextOptions, expect, type Locator } from '@playwright/test';
 import { Viewer } from './page';
 
 export const rows = (viewer: Viewer): Locator => viewer.page.locator('aside > .vessel-rows > li');
 export const nameOf = (viewer: Viewer, n: number): Locator => rows(viewer).nth(n).locator('input.name');
-/** Lists the vessels as they came, also where they join. */
 export const listAsTheyCame = (viewer: Viewer): Promise<void> =>
   viewer.page.getByLabel(/^As a tree/).uncheck();
 
-/** Gives a vessel of the list another name, by keys. */
 export async function rename(viewer: Viewer, n: number, name: string): Promise<void> {
   await nameOf(viewer, n).press('F2');
   await nameOf(viewer, n).fill(name);
@@ -17,10 +15,9 @@ export async function rename(viewer: Viewer, n: number, name: string): Promise<v
 }
 export const button = (viewer: Viewer, words: string): Locator =>
   viewer.page.getByRole('button', { name: words, exact: true });
-/** The size of a window in which the list lies beside the views. */
+/** Window in which the list fits next to the views. */
 export const SIZE = { width: 1100, height: 720 };
 
-/** A phantom whose vessels were deleted. */
 export async function untraced(
   browser: Browser,
   phantom = 'y_junction',
@@ -36,27 +33,22 @@ export async function untraced(
   return viewer;
 }
 
-/** The tool of the toolbar: where there are no vessels a note offers it too. */
 const traceTool = (viewer: Viewer): Locator =>
   viewer.page.locator('header').getByRole('button', { name: 'Trace', exact: true });
-/** Takes up the tool, and waits until its slices can be clicked. */
 export async function startTracing(viewer: Viewer): Promise<void> {
   await traceTool(viewer).click();
   await expect(viewer.pane('coronal').locator('canvas[data-shown]')).toBeVisible();
 }
 
-/** A first click of a vessel was taken. */
 export const expectBegun = (viewer: Viewer): Promise<void> =>
   expect(viewer.page.locator('[data-place=first]')).toHaveCount(4);
 
 export const stenosis = (viewer: Viewer): Locator => viewer.page.getByTestId('stenosis');
-/** What the menu "Save" opens with. */
 export const menu = (viewer: Viewer): Locator => viewer.page.locator('summary', { hasText: 'Save' });
 
 export const REPORT = 'Report (HTML)';
 export const SESSION = 'Session (JSON)';
 
-/** A file of the page's own: its name, and its bytes. */
 export interface MadeFile {
   readonly name: string;
   readonly mimeType: string;
@@ -69,7 +61,7 @@ export const fileOf = (name: string, buffer: Buffer): MadeFile => ({
   buffer,
 });
 
-/** What is saved by a button of the menu "Save", which closes; the page says the name of the file. */
+/** Saves by a button of the menu, which closes; checks the reported name. */
 export async function saved(viewer: Viewer, words: string): Promise<Buffer> {
   const { page } = viewer;
   await menu(viewer).click();
@@ -79,7 +71,6 @@ export async function saved(viewer: Viewer, words: string): Promise<Buffer> {
   return readFileSync(await download.path());
 }
 
-/** Opens files by the input of the page. */
 export async function choose(viewer: Viewer, ...files: readonly MadeFile[]): Promise<void> {
   await viewer.page
     .locator('header input[type=file], main input[type=file]')
@@ -87,7 +78,6 @@ export async function choose(viewer: Viewer, ...files: readonly MadeFile[]): Pro
     .setInputFiles([...files]);
 }
 
-/** Drops files on the page. */
 export async function drop(viewer: Viewer, ...files: readonly MadeFile[]): Promise<void> {
   const given = files.map(({ name, buffer }) => [name, buffer.toString('base64')] as const);
   const transfer = await viewer.page.evaluateHandle((all) => {
@@ -100,7 +90,6 @@ export async function drop(viewer: Viewer, ...files: readonly MadeFile[]): Promi
   await viewer.page.dispatchEvent('body', 'drop', { dataTransfer: transfer });
 }
 
-/** Counts what the user does on the page from now on, as the page hears it: presses of the pointer, and keys. */
 export async function countInput(viewer: Viewer): Promise<() => Promise<{ clicks: number; keys: number }>> {
   await viewer.page.evaluate(() => {
     const counts = { clicks: 0, keys: 0 };
@@ -115,7 +104,7 @@ export async function countInput(viewer: Viewer): Promise<() => Promise<{ clicks
     viewer.page.evaluate(() => (window as unknown as { counted: { clicks: number; keys: number } }).counted);
 }
 
-/** Presses Tab until something of this name has the focus; `back` goes the other way. */
+/** Presses Tab until a control has the focus; `back` reverses. */
 export async function tabTo(viewer: Viewer, words: string | RegExp, back = false): Promise<void> {
   const wanted = new RegExp(words);
   const seen: string[] = [];
@@ -132,7 +121,6 @@ export async function tabTo(viewer: Viewer, words: string | RegExp, back = false
   throw new Error(`Tab never reached ${wanted}; it reached ${seen.join(' | ')}`);
 }
 
-/** The tracing is done, and the tree of it is shown. */
 export async function traced(viewer: Viewer, count: number): Promise<void> {
   await expect(rows(viewer)).toHaveCount(count, { timeout: 30_000 });
   await expect(viewer.page.locator('.trace-bar').getByText('Tracing …')).toHaveCount(0);

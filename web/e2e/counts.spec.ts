@@ -1,14 +1,12 @@
-/** How many actions it takes from a scan to a clean tree and to a finding that is measured and saved: each press and each key counts. */
+/** Number of user actions from a scan to a clean tree and a saved finding. */
 import { readFileSync } from 'node:fs';
 import { expect, type Locator, test } from '@playwright/test';
 import { button, countInput, rows, untraced } from './controls';
 
-/** More than so many actions are too many. */
-const MOST = 20;
+const MAX_ACTIONS = 20;
 
-/** Presses a slider at a part of its length. */
 async function slide(slider: Locator, part: number): Promise<void> {
-  // It reaches to most vessels, once the lengths are known.
+  // The range is known once the lengths are.
   await expect.poll(async () => Number(await slider.getAttribute('max'))).toBeGreaterThan(10);
   const width = (await slider.boundingBox())?.width ?? 0;
   await slider.click({ position: { x: part * width, y: 4 } });
@@ -23,13 +21,11 @@ test('from a scan without vessels to a clean tree and a saved finding in at most
   await expect(viewer.page.locator('aside.vessels')).toHaveCount(0);
   const counted = await countInput(viewer);
 
-  // Finding: one press, and the list of what was found.
   await button(viewer, 'Find all vessels').last().click();
   await viewer.press('v');
   await expect(viewer.page.locator('.doubtful-rows li').first()).toBeVisible({ timeout: 300_000 });
   const found = await rows(viewer).count();
 
-  // Cleaning: what is doubtful, what is short, and what hangs together with nothing.
   await button(viewer, 'Leave all out').click();
   await expect(viewer.page.locator('.doubtful-rows')).toHaveCount(0);
   await viewer.page.getByText('Clean up', { exact: true }).click();
@@ -39,7 +35,6 @@ test('from a scan without vessels to a clean tree and a saved finding in at most
   await expect(viewer.page.locator('.vessel-rows .marked')).toHaveCount(0);
   expect(await rows(viewer).count()).toBeLessThan(found);
 
-  // Measuring: a branch of the tree is picked, and a place and a reference are marked on it.
   await rows(viewer).nth(1).getByRole('radio').click();
   await viewer.press('m');
   await expect(button(viewer, 'Narrowest here')).toBeVisible({ timeout: 300_000 });
@@ -52,7 +47,6 @@ test('from a scan without vessels to a clean tree and a saved finding in at most
   await button(viewer, 'Reference here').click();
   await expect(viewer.page.getByTestId('row-place-0')).toContainText('marked place');
 
-  // The report: what was found, saved.
   await viewer.press('e');
   const finding = viewer.page.getByTestId('findings').locator('section[aria-label^="Finding on"]');
   await expect(finding).toHaveCount(1);
@@ -64,7 +58,7 @@ test('from a scan without vessels to a clean tree and a saved finding in at most
   expect(readFileSync(await download.path(), 'utf-8')).toMatch(/ of the diameter \(NASCET\)|No percentage: /);
   const { clicks, keys } = await counted();
   expect(clicks + keys).toBeGreaterThan(8);
-  expect(clicks + keys).toBeLessThanOrEqual(MOST);
+  expect(clicks + keys).toBeLessThanOrEqual(MAX_ACTIONS);
   await viewer.screenshot('count-report');
   viewer.expectNoFault();
   await viewer.close();

@@ -1,4 +1,4 @@
-/** A page whose engine has crashed says so, and the session can still be saved. */
+/** After a crash of the engine, the page reports it and can still save the session. */
 import { expect, test } from '@playwright/test';
 import { button, choose, fileOf, rows, SESSION, SIZE, saved, startTracing } from './controls';
 import { Viewer } from './page';
@@ -6,9 +6,9 @@ import { NARROWED, openScan, traceTube, tubes } from './scans';
 
 const SCAN = tubes('tubes.nrrd');
 
-/** Lets the next question fail as a module does that ends in the middle of its work. */
+/** Makes the next question fail like a crashed module. */
 async function crash(viewer: Viewer): Promise<void> {
-  // The first worker is the engine; those that it starts are threads, which wait and answer nothing.
+  // The first worker is the engine; the others are its threads.
   await viewer.page.workers()[0]?.evaluate(() => {
     const { stringify } = JSON;
     JSON.stringify = () => {
@@ -33,7 +33,7 @@ test('after a crash the message offers to save the session, which brings back wh
   await crash(viewer);
   await viewer.drag([0.3, 0.4], [60, 25]);
   const message = viewer.page.getByRole('alert');
-  await expect(message).toContainText('Found that it has stopped: unreachable; expected an answer.');
+  await expect(message).toContainText('Found a crash: unreachable; expected an answer.');
   const download = viewer.page.waitForEvent('download');
   await message.getByRole('button', { name: 'Save the session' }).click();
   const stream = await (await download).createReadStream();

@@ -1,10 +1,9 @@
-/** A made series of DICOM as files to choose: slices of 16 × 16 voxels every 2 mm, of a bright rod. */
+/** A synthetic DICOM series: slices of 16 × 16 voxels every 2 mm with a bright rod. */
 
 const SIDE = 16;
 const CT = '1.2.840.10008.5.1.4.1.1.2';
 const EXPLICIT = '1.2.840.10008.1.2.1';
 
-/** An element of a text or of a number of 16 bits, in explicit VR, little-endian. */
 function element(tag: number, vr: string, value: string | number): Buffer {
   const odd = typeof value === 'string' ? value.length % 2 : 0;
   const bytes =
@@ -19,7 +18,6 @@ function element(tag: number, vr: string, value: string | number): Buffer {
   return Buffer.concat([head, bytes]);
 }
 
-/** Which series slices belong to. */
 interface Of {
   readonly uid: string;
   readonly number: string;
@@ -39,7 +37,7 @@ function pixels(phase: number): Buffer {
   return Buffer.concat([head, Buffer.from(values.buffer)]);
 }
 
-/** One slice at this height (mm), in this phase where there are several. */
+/** One slice at a height (mm), in one of several phases. */
 function slice(height: number, [phase, phases]: readonly [number, number], of: Of): Buffer {
   const uid = `${of.uid}.${height}.${phase}`;
   const meta = Buffer.concat([
@@ -78,7 +76,7 @@ function slice(height: number, [phase, phases]: readonly [number, number], of: O
   ]);
 }
 
-/** Files of slices of a series at these heights (mm), in each of this number of phases, which differ by 100 in the rod. */
+/** Slices at these heights (mm) for each phase; phases differ by 100 in the rod. */
 export function series(heights: readonly number[], phases = 1, of = ONE) {
   return Array.from({ length: phases }, (_, phase) =>
     heights.map((height) => ({

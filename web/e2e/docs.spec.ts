@@ -1,4 +1,4 @@
-/** The built site of the documentation in a browser, from its files: nothing is asked of other hosts, and it is searched. */
+/** The documentation site in a browser, opened from files: no external requests, and a working search. */
 import { join } from 'node:path';
 import { pathToFileURL } from 'node:url';
 import { expect, type Page, test } from '@playwright/test';
@@ -7,8 +7,7 @@ const SITE = process.env.LUMENCUT_DOCS_SITE ?? '';
 const PAGES = ['index', 'gallery', 'start', 'python', 'api/pictures', 'method/cut-surface', 'comparison'];
 const at = (name: string) => pathToFileURL(join(SITE, `${name}.html`)).href;
 
-/** What a page asks of others, and what it complains of. */
-function watched(page: Page): string[] {
+function recordFaults(page: Page): string[] {
   const faults: string[] = [];
   page.on('request', (request) => {
     if (!/^(file|data|blob):/.test(request.url())) faults.push(`asked ${request.url()}`);
@@ -25,7 +24,7 @@ for (const [width, height] of [
 ] as const) {
   test(`pages fit into ${width} × ${height}, whole and by themselves`, async ({ page }) => {
     await page.setViewportSize({ width, height });
-    const faults = watched(page);
+    const faults = recordFaults(page);
     for (const name of PAGES) {
       await page.goto(at(name));
       await expect(page.locator('h1')).toBeVisible();
@@ -44,7 +43,7 @@ for (const [width, height] of [
 }
 
 test('a word is found, without a server', async ({ page }) => {
-  const faults = watched(page);
+  const faults = recordFaults(page);
   await page.goto(at('index'));
   await page.keyboard.press('/');
   await page.keyboard.type('untangled', { delay: 20 });

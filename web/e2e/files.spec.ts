@@ -1,9 +1,9 @@
-/** Files that are chosen: centerlines beside what is open, also where nothing tells their space. */
+/** Choosing files: centerlines for an open scan, also without a stated coordinate system. */
 import { expect, test } from '@playwright/test';
 import { button, choose, fileOf, rows, SESSION, saved } from './controls';
 import { Viewer } from './page';
 
-/** A line that lies in the phantom just as well where x and y are negated. */
+/** A line that fits the phantom even with x and y negated. */
 const AXIS = 'x,y,z,radius\n0,0,-8,1.5\n0,0,0,1.5\n0,0,8,1.5\n';
 
 test('centerlines whose space nothing tells are read as the user says', async ({ browser }) => {
@@ -37,7 +37,6 @@ test('centerlines whose space and unit nothing tells are read as the user says',
   await viewer.close();
 });
 
-/** A bright bar of a scan that does not say how far its voxels lie apart. */
 function bar(): { name: string; mimeType: string; buffer: Buffer } {
   const sizes = [12, 10, 30] as const;
   const values = new Int16Array(sizes[0] * sizes[1] * sizes[2]);
@@ -76,7 +75,7 @@ test('a scan that states no distances gets mm by consent alone, and undo takes t
   await expect(scale).toBeVisible();
   await expect(assume).toHaveCount(0);
   await expect(viewer.readOut).toContainText('10.0 mm');
-  // The press is that of the button, and puts no cross-hair behind it.
+  // The button handles the press; the cross-hair stays.
   expect(await viewer.hair('turning')).toEqual(hair);
   await viewer.screenshot('one-millimetre');
   await viewer.press('Control+z');

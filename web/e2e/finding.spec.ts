@@ -1,4 +1,4 @@
-/** All vessels of a scan are found from the page's offer, as one step. */
+/** Finding all vessels of a scan from the page's offer, as one undo step. */
 import { expect, test } from '@playwright/test';
 import { button, rows, untraced } from './controls';
 
@@ -11,7 +11,7 @@ test('a page without vessels offers to find all of them, in one step that can be
   const count = await rows(viewer).count();
   await expect(button(viewer, 'Find all vessels')).toHaveCount(1);
   await viewer.screenshot('find-vessels');
-  // What is told of them goes away by Escape and by a press elsewhere, and the vessels stay.
+  // The message closes by Escape and by a press elsewhere; the vessels stay.
   const notes = viewer.page.locator('footer summary');
   const note = viewer.page.locator('footer .menu-body li').first();
   for (const close of [() => viewer.press('Escape'), () => viewer.click([0.5, 0.1])]) {
@@ -73,7 +73,6 @@ test('a tree is cleaned in a few actions: short vessels by a slider, doubtful br
   const doubtful = viewer.page.locator('.doubtful-rows li');
   await expect(doubtful.first()).toBeVisible({ timeout: 90_000 });
   const [sure, unsure] = [await rows(viewer).count(), await doubtful.count()];
-  // After finding the list is a tree: the widest vessel stands first, and branches are indented under what they hang on.
   await expect(viewer.page.getByLabel('As a tree, the widest first')).toBeChecked();
   await expect(rows(viewer).first().locator('.length')).toHaveText(/^[\d.]+ × \d+$/);
   const calibres = (await rows(viewer).locator('.length').allTextContents()).map(Number.parseFloat);
@@ -94,7 +93,6 @@ test('a tree is cleaned in a few actions: short vessels by a slider, doubtful br
   await expect(rows(viewer)).toHaveCount(sure - short);
   await expect(marked).toHaveCount(0);
 
-  // The pointer over a row lights its vessel in the views.
   await rows(viewer).first().hover();
   await expect(viewer.pane().locator('.curve.lit')).toHaveCount(1);
 

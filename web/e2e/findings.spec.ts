@@ -1,4 +1,4 @@
-/** The mode "Report": the findings on all vessels, each with its sentence and its key image, to copy and to save. */
+/** Report mode: sentence and key image of each finding, to copy and to save. */
 import { readFileSync } from 'node:fs';
 import { type Browser, expect, type Locator, test } from '@playwright/test';
 import { button, rows, tabTo } from './controls';
@@ -6,7 +6,6 @@ import { Viewer } from './page';
 
 const SIZE = { width: 1280, height: 800 };
 
-/** A scan of three vessels, the list of which is open. */
 async function threeVessels(browser: Browser, options = {}): Promise<Viewer> {
   const viewer = await Viewer.open(browser, '?phantom=y_junction&device=cpu', { viewport: SIZE, ...options });
   await viewer.rest();
@@ -19,10 +18,8 @@ const findings = (viewer: Viewer): Locator => panel(viewer).locator('section[ari
 const mode = (viewer: Viewer, words: string): Locator =>
   viewer.page.locator('.modes').getByRole('button', { name: words });
 
-/** Marks a place on a vessel of the list, and a reference where none of a pair is wanted. */
 async function mark(viewer: Viewer, vessel: number): Promise<void> {
   await rows(viewer).nth(vessel).getByRole('radio').check();
-  // A hasty hand presses twice: the mode stays on.
   await mode(viewer, 'Measure').dblclick();
   await expect(viewer.page.getByTestId('row-place-0')).toBeVisible();
   await button(viewer, 'Narrowest here').click();
@@ -30,7 +27,6 @@ async function mark(viewer: Viewer, vessel: number): Promise<void> {
   await mode(viewer, 'Look').click();
 }
 
-/** What the page copies, where a browser is asked for it. */
 const WITH_CLIPBOARD = { permissions: ['clipboard-read', 'clipboard-write'], acceptDownloads: true };
 
 test('findings of all vessels stand in one list, are copied, and are saved as one report', async ({
@@ -39,7 +35,7 @@ test('findings of all vessels stand in one list, are copied, and are saved as on
   const viewer = await threeVessels(browser, WITH_CLIPBOARD);
   const before = await viewer.camera();
   await mode(viewer, 'Report').click();
-  await expect(panel(viewer)).toContainText('Nothing is marked yet.');
+  await expect(panel(viewer)).toContainText('Findings appear here once');
   await mode(viewer, 'Look').click();
   await mark(viewer, 0);
   await mark(viewer, 2);
@@ -75,7 +71,6 @@ test('findings of all vessels stand in one list, are copied, and are saved as on
   await first.getByLabel('in the report').uncheck();
   expect(await pages()).toBe(1);
 
-  // "Show" leads back to the place, and a finding that is undone is gone.
   await first.getByRole('button', { name: 'Show' }).click();
   await expect(rows(viewer).nth(0).getByRole('radio')).toBeChecked();
   await viewer.press('Control+z');
@@ -83,10 +78,10 @@ test('findings of all vessels stand in one list, are copied, and are saved as on
   await viewer.press('Control+y');
   await expect(findings(viewer)).toHaveCount(2);
 
-  // A vessel that is hidden has no pictures: its finding is told by its name.
+  // A hidden vessel has no pictures, so only its name is listed.
   await rows(viewer).nth(0).locator('.eye').click();
   await expect(findings(viewer)).toHaveCount(1);
-  await expect(panel(viewer)).toContainText('Hidden, and so not in the report:');
+  await expect(panel(viewer)).toContainText('Not in the report, because hidden:');
   viewer.expectNoFault();
   await viewer.close();
 });

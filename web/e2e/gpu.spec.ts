@@ -1,4 +1,4 @@
-/** WebGPU: every shader compiles, the view is drawn, and a lost device is no loss. */
+/** WebGPU: all shaders compile, the view is drawn, and a lost device is replaced. */
 import { readdirSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { type Browser, expect, test } from '@playwright/test';
@@ -8,11 +8,11 @@ import { Viewer, viewFragment } from './page';
 
 const CRATES = join(import.meta.dirname, '../../crates');
 const CORE = join(CRATES, 'lumencut-core/src');
-/** Each picture at rest has all samples, also on a machine so busy that the page would leave them out by itself. */
+/** Forces supersampling even on a busy machine. */
 const SAMPLED = { samples: 2 };
 const ONE = viewFragment({ layout: 'one', settings: SAMPLED });
 
-/** A room of the shaders after all that it imports, each of them once. */
+/** Shader source with its imports, each once. */
 function assembled(room: string, seen = new Set<string>()): string {
   if (seen.has(room)) {
     return '';
@@ -23,7 +23,6 @@ function assembled(room: string, seen = new Set<string>()): string {
   return [...imports, text].join('\n');
 }
 
-/** All shaders by their names. */
 function shaders(): (readonly [string, string])[] {
   const rooms = readdirSync(CORE, { recursive: true, encoding: 'utf-8' })
     .filter((name) => name.endsWith('.wgsl'))
@@ -65,26 +64,25 @@ test('every shader compiles in the browser', async ({ browser }) => {
     }
     return found;
   }, all);
-  // One that is broken on purpose shows that errors are seen.
+  // A deliberately broken one proves that errors are reported.
   expect(errors.filter((error) => !error.startsWith('broken:'))).toEqual([]);
   expect(errors).toHaveLength(1);
   viewer.expectNoFault();
   await viewer.close();
 });
 
-/** So few pixels that a GPU in software, too, has the time for all samples of each. */
-const FEW = [160, 120] as const;
+/** Few enough pixels for supersampling by a software GPU. */
+const SMALL_VIEW = [160, 120] as const;
 
-/** The view with all its samples, which is the same on every device. */
+/** The supersampled view, equal on every device. */
 async function complete(viewer: Viewer): Promise<Pixels> {
   await viewer.rest();
   return viewer.pixels();
 }
 
-/** Ends the process of the browser that computes on the GPU, as a driver does that fails. */
 async function crashGpu(browser: Browser): Promise<void> {
   const session = await browser.newBrowserCDPSession();
-  // The command is a part of the protocol that has no types.
+  // The protocol command has no type.
   await session.send('Browser.crashGpuProcess' as 'Browser.close');
   await session.detach();
 }
@@ -92,7 +90,7 @@ async function crashGpu(browser: Browser): Promise<void> {
 test('the GPU draws; lost, it comes back; lost again, the CPU shows the same', async ({ browser }) => {
   test.setTimeout(120_000);
   const viewer = await Viewer.open(browser, `?phantom=stenosis&device=any${ONE}`);
-  await viewer.pin(FEW);
+  await viewer.pin(SMALL_VIEW);
   await viewer.rest();
   await expect(viewer.device).toContainText('GPU');
   await viewer.drag([0.5, 0.4], [30, 20]);
@@ -100,14 +98,12 @@ test('the GPU draws; lost, it comes back; lost again, the CPU shows the same', a
   expect(isEmpty(first)).toBe(false);
   await viewer.screenshot('gpu');
 
-  // Nobody touches the page: it sees the loss by itself.
   await crashGpu(browser);
   await expect(viewer.page.getByText(/1 note/)).toBeVisible({ timeout: 30_000 });
   const second = await complete(viewer);
   await viewer.screenshot('gpu-back');
   expect(difference(second, first, OTHER_DEVICE_WITH_CONTEXT)).toBeNull();
   expect(await viewer.camera()).toEqual(camera);
-  // It is the GPU that drew it, and goes on to.
   await viewer.drag([0.5, 0.4], [-12, 8]);
   await viewer.rest();
   await expect(viewer.device).toContainText('GPU');
@@ -126,7 +122,7 @@ test('the GPU draws; lost, it comes back; lost again, the CPU shows the same', a
   await viewer.close();
 });
 
-/** What a device shows of a junction: without vessels, with one that two clicks traced, and after that was undone. */
+/** A junction without vessels, with one traced vessel, and after undo. */
 async function tracedOn(browser: Browser, device: 'any' | 'cpu'): Promise<[Pixels, Pixels, Pixels]> {
   const viewport = { width: 1100, height: 720 };
   const viewer = await Viewer.open(
@@ -139,7 +135,7 @@ async function tracedOn(browser: Browser, device: 'any' | 'cpu'): Promise<[Pixel
   await viewer.press('v');
   await button(viewer, 'Delete all').click();
   await expect(viewer.pane('straightened')).toContainText('once there is one');
-  await viewer.pin(FEW);
+  await viewer.pin(SMALL_VIEW);
   await viewer.drag([0.3, 0.4], [25, 15]);
   const before = await complete(viewer);
   await startTracing(viewer);
@@ -176,17 +172,16 @@ test('a vessel that two clicks trace is cut open on the GPU as on the CPU', { ta
   }
 });
 
-/** A margin within the lumen: half of the cut is left there, and fades outwards, so that a tube alone shows its context. */
+/** A margin smaller than the lumen, so that a single tube shows the fading context. */
 const FADING = viewFragment({
   layout: 'one',
   settings: { ...SAMPLED, focus: [-2, 4], context_shading: true },
 });
 
-/** What a device shows of a focus, in few pixels; on the CPU, which has the time, without the focus too. */
+/** A focus in few pixels; on the CPU also without focus. */
 async function focusedOn(browser: Browser, device: 'any' | 'cpu'): Promise<Pixels[]> {
   const viewer = await Viewer.open(browser, `?phantom=stenosis&device=${device}${FADING}`);
   await expect(viewer.pane()).toBeVisible({ timeout: 50_000 });
-  // The first picture of a GPU in software has the size of the window and the context: it takes long, more so beside other work.
   await expect(viewer.device).toContainText(device === 'any' ? 'GPU' : 'CPU', { timeout: 60_000 });
   await viewer.pin([64, 48]);
   const pictures = [await complete(viewer)];

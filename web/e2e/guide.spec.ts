@@ -1,10 +1,10 @@
-/** The guided try: it goes on by itself after each step that the user does, and can be left at any time. */
+/** The guided tour: it advances by itself and can be left at any time. */
 import { AxeBuilder } from '@axe-core/playwright';
 import { expect, test } from '@playwright/test';
 import { button, expectBegun, menu, REPORT, rows, startTracing, stenosis, traced } from './controls';
 import { Viewer } from './page';
 
-const START = 'Guided try in two minutes';
+const START = 'Guided tour in two minutes';
 let viewer: Viewer;
 
 test.beforeEach(async ({ browser }) => {
@@ -17,10 +17,9 @@ test.afterEach(async () => {
   await viewer.close();
 });
 
-const guide = () => viewer.page.getByRole('complementary', { name: 'Guided try' });
+const guide = () => viewer.page.getByRole('complementary', { name: 'Guided tour' });
 const expectStep = (title: string) => expect(guide().getByRole('heading')).toHaveText(title);
 
-/** What axe finds that is serious. */
 async function serious(): Promise<string[]> {
   const { violations } = await new AxeBuilder({ page: viewer.page }).analyze();
   return violations
@@ -49,8 +48,8 @@ test('each step that is done leads to the next one, up to the report', async () 
   await expectStep('3 of 5: Measure it');
   await button(viewer, 'Measure').click();
 
-  await expectStep('4 of 5: Grade the narrowing');
-  // Tracing is over, with what it had put aside.
+  await expectStep('4 of 5: Grade the stenosis');
+  // Tracing has ended and restored the layout.
   await expect(viewer.page.locator('.trace-bar')).toHaveCount(0);
   await expect(viewer.field('Context')).toHaveValue('mida');
   await expect(button(viewer, 'Confirm the suggested places')).toBeVisible({ timeout: 30_000 });
@@ -59,7 +58,7 @@ test('each step that is done leads to the next one, up to the report', async () 
   await button(viewer, 'Confirm the suggested places').click();
   await expect(stenosis(viewer)).toContainText(/5\d ± \d+ % of the diameter/);
 
-  await expectStep('5 of 5: Take it away');
+  await expectStep('5 of 5: Save it');
   await menu(viewer).click();
   await viewer.screenshot('guide-5');
   const [download] = await Promise.all([
@@ -80,14 +79,13 @@ test('it is left in the middle, and what was done stays', async () => {
   await expectStep('3 of 5: Measure it');
   await expect.poll(direction).not.toEqual(first);
   const turned = await direction();
-  await button(viewer, 'Leave the guided try').click();
+  await button(viewer, 'Leave the tour').click();
   await expect(guide()).toHaveCount(0);
   await viewer.rest();
   expect(await direction()).toEqual(turned);
   await viewer.press('m');
   await expect(viewer.page.locator('main')).toHaveAttribute('data-layout', 'measure');
   await expect(guide()).toHaveCount(0);
-  // It begins anew from the start page, and ends with its study.
   await button(viewer, 'Close the scan').click();
   await button(viewer, START).click();
   await expectStep('1 of 5: Trace the vessel');

@@ -1,4 +1,4 @@
-/** The list of vessels by hand: names, what is kept over a reload, centerlines in the menu "Save", and looks by region. */
+/** The vessel list: names, keeping over a reload, centerlines in the menu "Save", and region presets. */
 import { expect, test } from '@playwright/test';
 import { button, nameOf, rename, rows, SIZE } from './controls';
 import { Viewer } from './page';
@@ -22,7 +22,7 @@ test('a click on a name picks its vessel, a second one or F2 changes it, and ves
   await nameOf(viewer, 2).click();
   await expect(rows(viewer).nth(2).getByRole('radio')).toBeChecked();
   await expect(nameOf(viewer, 2)).toHaveAttribute('readonly');
-  // Keys still belong to the page: a name that is only picked is not typed into.
+  // A name that is not being edited does not capture keys.
   await viewer.press('m');
   await expect(viewer.page.locator('main.layout')).toHaveAttribute('data-layout', 'measure');
   await viewer.press('m');
@@ -54,11 +54,11 @@ test('the browser asks before an unsaved tree goes, and what the tab keeps on re
   const held = () => page.evaluate(() => Object.keys(sessionStorage));
   expect(await held()).toEqual([]);
   await page.locator('summary', { hasText: 'Save' }).click();
-  await page.getByLabel('Keep it in this tab over a reload').check();
+  await page.getByLabel('Keep the session when this tab reloads').check();
   await expect.poll(held).toContain('lumencut-session');
   await page.reload();
   expect(asked).toEqual(['beforeunload']);
-  await button(viewer, 'Go on with them').click();
+  await button(viewer, 'Continue with them').click();
   await expect(rows(viewer)).toHaveCount(2);
   viewer.expectNoFault();
   await viewer.close();

@@ -1,4 +1,4 @@
-/** Opening, cancelling and closing: whole streams, broken ones, slow ones, many one after the other. */
+/** Opening, cancelling and closing: complete, broken, slow and repeated streams. */
 import { spawnSync } from 'node:child_process';
 import { existsSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
@@ -10,7 +10,6 @@ import { CENTERLINE, header, VOLUME, voxels, WHOLE } from './streams';
 const ADDRESSES = '?volume=made/volume&centerlines=made/axis.vtk&device=cpu&test=1';
 const MEGABYTE = 1 << 20;
 
-/** What the addresses of the page answer. */
 async function serve(page: Page, volume: Buffer | number, axis = CENTERLINE): Promise<void> {
   await page.route('**/made/volume', (route) =>
     typeof volume === 'number' ? route.fulfill({ status: volume }) : route.fulfill({ body: volume }),
@@ -46,7 +45,7 @@ test.describe('streams', () => {
     await serve(viewer.page, WHOLE);
     await viewer.page.goto(`./${ADDRESSES}`);
     await viewer.rest();
-    // Beyond the volume the cut surface ends, and what is behind it comes into view.
+    // Outside of the volume the cut ends and reveals what is behind.
     await viewer.drag([0.5, 0.3], [50, 60]);
     await viewer.pane().focus();
     await viewer.press('-', '-', '-', '-', '-');
@@ -116,7 +115,7 @@ test.describe('streams', () => {
     await viewer.rest();
     await viewer.page.getByRole('button', { name: 'Close the scan' }).click();
     await expect(viewer.page.getByRole('heading', { name: 'Lumencut' })).toBeVisible();
-    await viewer.page.getByRole('button', { name: 'A tube with a narrowing of 50 %' }).click();
+    await viewer.page.getByRole('button', { name: 'A tube with a stenosis of 50 %' }).click();
     await viewer.rest();
     expect(isEmpty(await viewer.pixels())).toBe(false);
     viewer.expectNoFault();
@@ -139,7 +138,7 @@ test.describe('streams', () => {
     [
       'has an invalid header',
       header({}, 'LCVOLUME', '{"size":[1,'),
-      /header of the volumeFound a text that is no JSON; expected size, dtype/,
+      /header of the volumeFound a text that is not JSON; expected size, dtype/,
     ],
     [
       'has a header without a size',
@@ -151,7 +150,7 @@ test.describe('streams', () => {
       header({ ...VOLUME, size: [90_000, 90_000, 90_000] }),
       /Found .*; expected /,
     ],
-    ['is not there', 404, /Found an answer 404; expected a file\.Look at the program/],
+    ['is not there', 404, /Found HTTP status 404; expected a file\.Check the program/],
   ];
   for (const [what, volume, words] of broken) {
     test(`a volume that ${what} is refused in words, and the page goes on`, async () => {
@@ -163,9 +162,9 @@ test.describe('streams', () => {
       await viewer.screenshot(`broken-${what.replaceAll(' ', '-')}`);
       await viewer.problem.getByRole('button', { name: 'Close' }).click();
       await expect(viewer.problem).toHaveCount(0);
-      await viewer.page.getByRole('button', { name: 'A tube with a narrowing of 50 %' }).click();
+      await viewer.page.getByRole('button', { name: 'A tube with a stenosis of 50 %' }).click();
       await viewer.rest();
-      // The browser itself reports an answer that is an error.
+      // The browser reports the failed request itself.
       expect(viewer.faults.filter((fault) => !fault.includes('404'))).toEqual([]);
     });
   }
@@ -190,7 +189,7 @@ test.describe('streams', () => {
       await expect(viewer.page.getByRole('progressbar')).toHaveCount(0);
       await expect(viewer.problem).toHaveCount(0);
     }
-    await viewer.page.getByRole('button', { name: 'A tube with a narrowing of 50 %' }).click();
+    await viewer.page.getByRole('button', { name: 'A tube with a stenosis of 50 %' }).click();
     await viewer.rest();
     viewer.expectNoFault();
   });
@@ -218,7 +217,6 @@ function anotherType(): Buffer {
   return Buffer.concat([header({ ...VOLUME, dtype: 'complex64' }), voxels(VOLUME)]);
 }
 
-/** Opens the small phantom several times, waits for its view each time, and closes it. */
 function openAndClose(page: Page, times: number): Promise<void> {
   return page.evaluate(async (count) => {
     const until = async <T>(found: () => T | null | undefined | false): Promise<T> => {
@@ -243,15 +241,14 @@ function openAndClose(page: Page, times: number): Promise<void> {
 test('50 opens of a phantom do not grow the memory', { tag: '@long' }, async ({ browser }) => {
   const viewer = await Viewer.open(browser, '?device=cpu&test=1');
   await expect(viewer.page.getByRole('button', { name: 'Aorta' })).toBeEnabled();
-  // What a complete view takes is taken once.
-  await viewer.page.getByRole('button', { name: 'A tube with a narrowing of 50 %' }).click();
+  await viewer.page.getByRole('button', { name: 'A tube with a stenosis of 50 %' }).click();
   await viewer.rest();
   await viewer.page.getByRole('button', { name: 'Close the scan' }).click();
   await openAndClose(viewer.page, 10);
   const before = await viewer.memory();
   await openAndClose(viewer.page, 40);
   expect(before).toBeGreaterThan(MEGABYTE);
-  // Whatever 40 opens left behind, a volume or a picture, would be far more.
+  // A leaked volume or picture would exceed this by far.
   expect((await viewer.memory()) - before).toBeLessThan(5 * MEGABYTE);
   viewer.expectNoFault();
   await viewer.close();
@@ -271,7 +268,7 @@ test('without cross-origin isolation one thread computes, and the page says so',
     },
   );
   await viewer.page.goto('./?phantom=stenosis&device=cpu');
-  await expect(viewer.device).toHaveText('CPU: 1 thread, as the page is not cross-origin isolated');
+  await expect(viewer.device).toHaveText('CPU: 1 thread, because the page is not cross-origin isolated');
   await viewer.rest();
   expect(isEmpty(await viewer.pixels())).toBe(false);
   const before = await viewer.camera();

@@ -1,4 +1,4 @@
-/** The section across the lumen under the pointer: what a click takes, and the steps to lumens that lie behind it. */
+/** The lumen under the pointer: what a click takes, and stepping to lumens behind it. */
 import { expect, test } from '@playwright/test';
 import { button, expectBegun, rows, startTracing, untraced } from './controls';
 import type { Viewer } from './page';
@@ -28,7 +28,7 @@ test('along a ray the nearest lumen is shown first, Alt and the wheel step to th
 }) => {
   const viewer = await untraced(browser);
   await startTracing(viewer);
-  // From the left one branch lies before the other.
+  // From the left, one branch is in front of the other.
   await viewer.press('l');
   await viewer.rest();
   const [x, y] = await viewer.place([0.5, 0.22]);
@@ -40,7 +40,7 @@ test('along a ray the nearest lumen is shown first, Alt and the wheel step to th
   await expect(inset(viewer)).toContainText('2 of 2');
   await viewer.screenshot('lumen-inset-ray');
   await viewer.click([0.5, 0.22]);
-  // One click: the point is set, and lies in the branch that is farther away, on the right of the patient.
+  // One click sets the point in the branch farther away, on the patient's right.
   await expectBegun(viewer);
   await expect(button(viewer, 'Set the point here')).toHaveCount(0);
   const [left] = await viewer.hair('coronal');

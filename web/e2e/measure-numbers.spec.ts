@@ -1,4 +1,4 @@
-/** What is told of a measured vessel, beside the profile and in the section. */
+/** Numbers of a measured vessel, next to the profile and in the section. */
 import { AxeBuilder } from '@axe-core/playwright';
 import { expect, test } from '@playwright/test';
 import { menu } from './controls';
@@ -22,20 +22,20 @@ test('by ECST an original diameter is asked for; by area the percentage is that 
   await numbers.getByLabel('Method').selectOption('area');
   await expect(tube.stenosis()).toHaveText(PYTHON.area);
   await numbers.getByLabel('Method').selectOption('nascet');
-  await numbers.getByLabel('Groups').selectOption('carotid');
-  await expect(tube.stenosis()).toContainText('Group of the field: ');
-  await numbers.getByLabel('Groups').selectOption('');
+  await numbers.getByLabel('Severity category').selectOption('carotid');
+  await expect(tube.stenosis()).toContainText('Severity category: ');
+  await numbers.getByLabel('Severity category').selectOption('');
 });
 
 test('behind a near-occlusion there is no percentage', async () => {
   await tube.marked();
   const numbers = tube.viewer.page.getByTestId('numbers');
-  await numbers.getByLabel('Other side').fill('12');
-  await numbers.getByLabel('Other side').press('Enter');
+  await numbers.getByLabel('Contralateral').fill('12');
+  await numbers.getByLabel('Contralateral').press('Enter');
   await expect(tube.stenosis()).toContainText('No percentage');
   await expect(tube.stenosis()).not.toContainText('%');
-  await numbers.getByLabel('Other side').fill('');
-  await numbers.getByLabel('Other side').press('Enter');
+  await numbers.getByLabel('Contralateral').fill('');
+  await numbers.getByLabel('Contralateral').press('Enter');
   await expect(tube.stenosis()).toHaveText(PYTHON.nascet);
 });
 
@@ -70,14 +70,14 @@ test('a page at 200 % has no words over the lumen, and no look beneath a button'
 });
 
 test('vessel and profile share their axis', async () => {
-  // Tried until it holds: after the window changed, chart and picture change one after the other.
+  // Retried, because chart and picture update separately.
   await expect(async () => {
     const [canvas, from, to] = await Promise.all([
       tube.viewer.page.locator('[data-testid=profile] canvas').boundingBox(),
       tube.middleOf(tube.tick('0')),
       tube.middleOf(tube.tick('60')),
     ]);
-    // The middles of the first and of the last column are at the ends of the vessel.
+    // The first and last columns are centred on the ends of the vessel.
     const half = (canvas?.width ?? 0) / ((await tube.viewer.pixels('profile')).width * 2);
     expect(Math.abs((canvas?.x ?? 0) + half - from[0])).toBeLessThan(1);
     expect(Math.abs((canvas?.x ?? 0) + (canvas?.width ?? 0) - half - to[0])).toBeLessThan(1.5);
@@ -129,10 +129,10 @@ test('a ruler measures between two clicks; its ends can be dragged, and it can b
 test('another width of the point spread is reckoned with, and said', async () => {
   const blur = tube.viewer.page.getByRole('region', { name: 'Blur of the scan' });
   await expect(blur).toContainText('assumed: ');
-  await blur.getByLabel('Give it').fill('0.6');
-  await blur.getByLabel('Give it').press('Enter');
+  await blur.getByLabel('Known FWHM').fill('0.6');
+  await blur.getByLabel('Known FWHM').press('Enter');
   await expect(blur).toContainText(', given.');
-  await blur.getByLabel('Give it').fill('');
-  await blur.getByLabel('Give it').press('Enter');
+  await blur.getByLabel('Known FWHM').fill('');
+  await blur.getByLabel('Known FWHM').press('Enter');
   await expect(blur).toContainText('assumed: ');
 });

@@ -1,4 +1,4 @@
-/** The places of a measurement, by mouse and by keys: the numbers are those of the Python package (`expected/make.py`). */
+/** Places of a measurement, by mouse and keys, with the numbers of the Python package (`expected/make.py`). */
 import { expect, test } from '@playwright/test';
 import { MeasuredTube, PYTHON } from './measured-tube';
 
@@ -51,7 +51,7 @@ test('each place can be dragged in the profile, the CPR and on the vessel, and m
   await three('marked place', '30.0');
   await tube.dragBy(tube.handle('reference before', 'in the CPR'), [await tube.pixels(-11.5), 12]);
   await three('reference before', '10.0');
-  // On the vessel, which runs downwards from its first point at the feet: upwards in this view.
+  // The first point is at the feet, so moving along the vessel is upwards here.
   const [, low] = await tube.middleOf(tube.handle('marked place', 'on the vessel'));
   const [, high] = await tube.middleOf(tube.handle('reference before', 'on the vessel'));
   const [, from] = await tube.middleOf(tube.handle('reference after', 'on the vessel'));
@@ -74,7 +74,6 @@ test('one drag moves one place: a reference passes the stenosis, and stops there
   await mouse.up();
   await expect(tube.row('reference-0')).toContainText('at 12.0 mm');
   await expect(tube.row('reference-0')).not.toContainText('(suggestion)');
-  // On the side that it left there is no mark.
   await expect(tube.row('reference-1')).toContainText('(suggestion)');
   const shown = [main, await tube.arcLength('reference-1')];
   await tube.button('Confirm the suggested places').click();
@@ -229,7 +228,7 @@ test('the whole line of a place is its grip, 20 pixels beside it too, and a miss
   await tube.viewer.press('Control+z');
   await expect(tube.row('place-0')).toContainText('at 30.0 mm');
 
-  // A press without a drag is a click of the chart, and a drag between the lines moves the section alone.
+  // A press without a drag clicks the chart; a drag between lines moves only the section.
   await mouse.click(column + 10, (box?.y ?? 0) + (box?.height ?? 0) * 0.6);
   await drag(column + (await tube.pixels(10)), await tube.pixels(2));
   await expect(tube.row('place-0')).toContainText('at 30.0 mm');

@@ -1,10 +1,9 @@
-/** The tube with a narrowing at 30 mm in the layout of measuring: what can be done with its places. */
+/** The tube with a stenosis at 30 mm, in the layout for measuring. */
 import { readFileSync } from 'node:fs';
 import { type Browser, expect, type Locator } from '@playwright/test';
 import { saved, stenosis } from './controls';
 import { Viewer } from './page';
 
-/** A file that the Python package wrote (`expected/make.py`). */
 export const expected = (name: string): string =>
   readFileSync(new URL(`./expected/${name}`, import.meta.url), 'utf-8');
 export const PYTHON = JSON.parse(expected('measuring.json'));
@@ -54,7 +53,6 @@ export class MeasuredTube {
     return [box.x + box.width / 2, box.y + box.height / 2];
   }
 
-  /** Drags a handle by a number of pixels. */
   async dragBy(of: Locator, [dx, dy]: readonly [number, number]): Promise<void> {
     const { mouse } = this.viewer.page;
     const [x, y] = await this.middleOf(of);
@@ -65,24 +63,22 @@ export class MeasuredTube {
     await mouse.up();
   }
 
-  /** Pixels of the chart for a length (mm) along the vessel of 60 mm. */
+  /** Chart pixels for a length (mm) along the 60 mm vessel. */
   async pixels(mm: number): Promise<number> {
     const [from, to] = await Promise.all([this.middleOf(this.tick('0')), this.middleOf(this.tick('60'))]);
     return ((to[0] - from[0]) * mm) / 60;
   }
 
-  /** Pixels of the section view for 1 mm: 50 mm have room in it. */
+  /** Section pixels per mm: the view shows 50 mm. */
   async sectionPixels(): Promise<number> {
     return Math.min(...(await this.viewer.size('section'))) / 50;
   }
 
-  /** The arc length that a row tells (mm). */
   async arcLength(name: string): Promise<number> {
     const words = (await this.row(name).textContent()) ?? '';
     return Number.parseFloat(/ at ([\d.]+) mm/.exec(words)?.[1] ?? '');
   }
 
-  /** Nothing is marked: all marks that were made before are removed. */
   async nothingMarked(): Promise<void> {
     for (const name of ['place-0', 'reference-0', 'reference-1']) {
       const remove = this.row(name).getByRole('button', { name: /^Remove/ });
@@ -93,7 +89,7 @@ export class MeasuredTube {
     await expect(this.row('place-0')).toContainText('(suggestion)');
   }
 
-  /** The stenosis at 30 mm, with references at 10 and 50 mm, moved there by keys alone. */
+  /** Stenosis at 30 mm, references at 10 and 50 mm, by keys only. */
   async marked(): Promise<void> {
     await this.nothingMarked();
     await this.movedByKeys('place-0', this.handle('(narrowest|marked) place', 'in the profile'), 30, 'Right');
@@ -101,14 +97,13 @@ export class MeasuredTube {
     await this.movedByKeys('reference-1', this.handle('reference after', 'on the vessel'), 50, 'Down');
   }
 
-  /** Moves a place to an arc length with arrow keys, of which one leads along the vessel. */
   private async movedByKeys(
     row: string,
     handle: Locator,
     to: number,
     ahead: 'Right' | 'Down',
   ): Promise<void> {
-    // A suggestion may still follow the place that was moved before it.
+    // The suggestion may still follow the previous move.
     await expect(async () => {
       const steps = Math.round(2 * (to - (await this.arcLength(row))));
       const back = { Right: 'Left', Down: 'Up' }[ahead];
@@ -124,7 +119,6 @@ export class MeasuredTube {
     await expect(this.row(row)).toContainText(`at ${to.toFixed(1)} mm`);
   }
 
-  /** The text that is saved by a button of the menu "Save". */
   async saved(name: string): Promise<string> {
     return (await saved(this.viewer, name)).toString('utf-8');
   }

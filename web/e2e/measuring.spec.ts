@@ -1,4 +1,4 @@
-/** Measuring in the page beside all else that it does. */
+/** Measuring while the page does other work. */
 import { expect, test } from '@playwright/test';
 import { Viewer } from './page';
 

@@ -1,4 +1,4 @@
-/** DICOM series that are refused, and the buttons that mend them: in the words of the page, never in those of Python. */
+/** Rejected DICOM series, and the buttons that mend them, worded for the page. */
 import { expect, test } from '@playwright/test';
 import { series } from './dicom';
 import { Viewer } from './page';
@@ -17,7 +17,6 @@ async function choose(files: ReturnType<typeof series>): Promise<void> {
   await viewer.page.locator('input[type=file]').first().setInputFiles(files);
 }
 
-/** Presses the button of a refusal that says these words, and waits for the scan; gives its size. */
 async function mended(words: RegExp, button: string): Promise<readonly number[] | undefined> {
   await expect(viewer.problem).toContainText(words);
   await expect(viewer.problem).not.toContainText(/=True|`\w+`/);

@@ -1,4 +1,4 @@
-/** The picture of the page is the picture of the Python package (`expected/make.py`). */
+/** The page renders the same pictures as the Python package (`expected/make.py`). */
 import { readFileSync } from 'node:fs';
 import { expect, test } from '@playwright/test';
 import {
@@ -27,7 +27,6 @@ const { size, views } = JSON.parse(readFileSync(file('views.json'), 'utf-8')) as
 };
 const [WIDTH, HEIGHT] = size;
 
-/** The view in a pane of just the size of the picture. */
 async function shown(viewer: Viewer): Promise<{ found: Pixels; samples: number }> {
   await viewer.pin(size);
   const found = await viewer.picture();
@@ -50,7 +49,7 @@ for (const view of views) {
     const other = withContext ? OTHER_DEVICE_WITH_CONTEXT : OTHER_DEVICE;
     expect(difference(found, expected, isGpu ? other : SAME_CODE)).toBeNull();
     expect(isEmpty(found)).toBe(false);
-    // It would be refused if a thing of 8 pixels were elsewhere.
+    // Proves that an object of 8 pixels in the wrong position is detected.
     const broken = expected.bytes.slice();
     broken.copyWithin(4 * (80 * WIDTH + 60), 4 * (80 * WIDTH + 90), 4 * (80 * WIDTH + 130));
     expect(difference(found, { ...expected, bytes: broken }, SAME_CODE)).not.toBeNull();
@@ -59,7 +58,6 @@ for (const view of views) {
   });
 }
 
-/** The pixels of a file, which the page decodes. */
 async function decoded(viewer: Viewer, name: string): Promise<Pixels> {
   const address = `data:image/png;base64,${readFileSync(file(name)).toString('base64')}`;
   const bytes = await viewer.page.evaluate(async (from) => {

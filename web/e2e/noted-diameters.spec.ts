@@ -1,4 +1,4 @@
-/** One diameter alone is kept, a reference stands alone, and nothing at the section runs off the pane. */
+/** A noted diameter and a reference can exist alone, and nothing at the section leaves the pane. */
 import { expect, test } from '@playwright/test';
 import { REPORT, SESSION } from './controls';
 import { MeasuredTube } from './measured-tube';

@@ -1,4 +1,4 @@
-/** "Save for PACS": what the page shows comes back from its own server as objects of DICOM, in an archive that Python reads. */
+/** "Save for PACS": the page's server returns DICOM objects in an archive that Python reads. */
 import { type ChildProcess, spawn, spawnSync } from 'node:child_process';
 import { once } from 'node:events';
 import { join } from 'node:path';
@@ -37,7 +37,6 @@ test.afterEach(() => {
   }
 });
 
-/** Serves the built page by the Python package. */
 async function served(...words: readonly string[]): Promise<Served> {
   const server = spawn(python, [SCRIPT, 'serve', join(ROOT, 'web/dist'), ...words], {
     env: ENVIRONMENT,
@@ -48,7 +47,6 @@ async function served(...words: readonly string[]): Promise<Served> {
   return JSON.parse(String(line));
 }
 
-/** What the objects of an archive say. */
 function read(archive: string): Record<string, Told> {
   const done = spawnSync(python, [SCRIPT, 'read', archive], { encoding: 'utf-8', env: ENVIRONMENT });
   expect(done.status, done.stderr).toBe(0);
@@ -58,7 +56,6 @@ function read(archive: string): Record<string, Told> {
 const opened = (browser: Browser, { address }: Served): Promise<Viewer> =>
   Viewer.open(browser, '?device=cpu', { baseURL: address, viewport: SIZE, acceptDownloads: true });
 
-/** Measures the vessel, and confirms the places that are suggested. */
 async function measured(viewer: Viewer): Promise<void> {
   await viewer.rest();
   await viewer.press('m');
@@ -66,7 +63,7 @@ async function measured(viewer: Viewer): Promise<void> {
   await expect(viewer.page.getByTestId('stenosis')).toContainText('NASCET');
 }
 
-/** Saves by the menu, with this answer to its question; what is in the archive. */
+/** Saves by the menu with an answer to its question; returns the archive's content. */
 async function saved(viewer: Viewer, answer: string): Promise<Record<string, Told>> {
   await menu(viewer).click();
   await button(viewer, 'For PACS (DICOM, zip)').click();
@@ -165,7 +162,7 @@ test('a file of another patient is shown and refused, and another one can be cho
     await button(viewer, 'For PACS (DICOM, zip)').click();
     await viewer.page.getByLabel('DICOM file of the study').setInputFiles(place.other);
     const question = viewer.page.getByRole('alertdialog', { name: 'Study of the chosen file' });
-    await expect(question).toContainText('This file is refused');
+    await expect(question).toContainText('This file cannot be used');
     await expect(question).toContainText("'J-17'");
     await expect(question.locator('dd').first()).toHaveText('Roe^Mary');
     await expect(button(viewer, 'Save in this study')).toHaveCount(0);
@@ -183,7 +180,7 @@ test('a page of a server of files says what it needs', async ({ browser }) => {
   await viewer.rest();
   await menu(viewer).click();
   await button(viewer, 'For PACS (DICOM, zip)').click();
-  await expect(viewer.problem).toContainText('Open the scan by `lumencut view`');
+  await expect(viewer.problem).toContainText('Open the scan with `lumencut view`');
   viewer.expectNoFault();
   await viewer.close();
 });
@@ -204,7 +201,6 @@ test('a segmentation is taken as a mask of the scan, and contours are refused by
   await expect(rows(viewer)).toHaveCount(2);
   await expect(nameOf(viewer, 1)).toHaveValue('left renal artery');
   await viewer.rest();
-  // The browser tells of the one answer that refuses.
   expect(viewer.faults).toEqual([expect.stringContaining('422')]);
   await viewer.close();
 });

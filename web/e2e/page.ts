@@ -1,4 +1,4 @@
-/** The page as a user sees it: what can be done with it, and what it shows. It notes everything that must not happen. */
+/** The page from the user's perspective; it records all faults. */
 import { type Browser, type BrowserContextOptions, expect, type Locator, type Page } from '@playwright/test';
 import type { Answer, Asked, Message, Question } from '../src/core/asked';
 import type { Camera, Pair, Report } from '../src/core/messages';
@@ -13,14 +13,13 @@ interface TestHook extends Asked {
 }
 
 export class Viewer {
-  /** Requests to other origins, and errors: there must be none. */
   readonly faults: string[] = [];
-  /** The place of the last click, and until when (ms) another one there would make it a double click. */
+  /** Position of the last click, and until when (ms) another click there is a double click. */
   private lastClick: { readonly at: Pair; readonly until: number } = { at: [0, 0], until: 0 };
 
   private constructor(readonly page: Page) {}
 
-  /** The page in a context of its own; `query` is what follows its address, with `?` or `#`. */
+  /** Opens the page in its own context; `query` follows the address, with `?` or `#`. */
   static async open(browser: Browser, query = '', options: BrowserContextOptions = {}): Promise<Viewer> {
     const context = await browser.newContext(options);
     const page = await context.newPage();
@@ -49,7 +48,6 @@ export class Viewer {
     });
   }
 
-  /** Refuses whatever went wrong unseen. */
   expectNoFault(): void {
     expect(this.faults).toEqual([]);
   }
@@ -78,7 +76,7 @@ export class Viewer {
     return this.page.getByRole('alert');
   }
 
-  /** Waits for two frames: what a change asks for is known only after the next one. */
+  /** Waits for two frames: requests of a change start after the next frame. */
   async frames(): Promise<void> {
     await this.page.evaluate(
       () =>
@@ -88,7 +86,6 @@ export class Viewer {
     );
   }
 
-  /** Waits until the turning view is complete. */
   async rest(): Promise<void> {
     await this.frames();
     await this.page.waitForFunction(
@@ -96,7 +93,6 @@ export class Viewer {
     );
   }
 
-  /** The view as the address tells it. */
   async state(): Promise<ViewState> {
     await this.frames();
     await this.page.waitForFunction(() => document.documentElement.dataset.address === 'written');
@@ -105,7 +101,6 @@ export class Viewer {
     return state ?? {};
   }
 
-  /** The camera as the page has it. */
   async camera(): Promise<Camera> {
     const { camera } = await this.state();
     const size = await this.size();
@@ -115,7 +110,6 @@ export class Viewer {
     return { ...camera, size, pixel_spacing: (camera.pixel_spacing * camera.height) / Math.min(...size) };
   }
 
-  /** CSS pixels of a pane. */
   async size(name: PaneName = 'turning'): Promise<Pair> {
     return this.pane(name).evaluate((pane) => [pane.clientWidth, pane.clientHeight]);
   }
@@ -128,7 +122,7 @@ export class Viewer {
     return box;
   }
 
-  /** A place in a pane, from its top left, in CSS pixels; parts of its size where `x` and `y` are below 1. */
+  /** Position in a pane (CSS pixels); values below 1 are shares of its size. */
   async place([x, y]: Pair, name: PaneName = 'turning'): Promise<Pair> {
     const box = await this.box(name);
     return [
@@ -137,7 +131,6 @@ export class Viewer {
     ];
   }
 
-  /** Drags from a place by a number of pixels, in steps, and lets go. */
   async drag(from: Pair, [dx, dy]: Pair, options: DragOptions = {}): Promise<void> {
     const { mouse, keyboard } = this.page;
     const [x, y] = await this.place(from, options.pane);
@@ -159,7 +152,6 @@ export class Viewer {
     const [x, y] = await this.place(at, name);
     const { at: last, until } = this.lastClick;
     if (Math.hypot(x - last[0], y - last[1]) <= DOUBLE_NEAR) {
-      // Two clicks in a row are no double click.
       await this.page.waitForTimeout(Math.max(0, until - Date.now()));
     }
     await this.page.mouse.click(x, y);
@@ -167,7 +159,6 @@ export class Viewer {
     await this.frames();
   }
 
-  /** A touch of a finger, which hovers over nothing before. */
   async tap(at: Pair, name: PaneName = 'turning'): Promise<void> {
     await this.page.touchscreen.tap(...(await this.place(at, name)));
     await this.frames();
@@ -191,7 +182,6 @@ export class Viewer {
     }
   }
 
-  /** Gives the turning view a size of its own, whatever the bars of the page leave to it. */
   async pin([width, height]: Pair): Promise<void> {
     await this.page.addStyleTag({
       content: `[data-testid=turning] { position: absolute; width: ${width}px; height: ${height}px; inset: 0 auto auto 0; }`,
@@ -202,7 +192,6 @@ export class Viewer {
     );
   }
 
-  /** Does something in the menu of methods, contexts and all settings. */
   async research(work: () => Promise<unknown>): Promise<void> {
     const summary = this.page.getByText('Research', { exact: true });
     await summary.click();
@@ -210,13 +199,12 @@ export class Viewer {
     await summary.click();
   }
 
-  /** A field of the toolbar, of its menu or above the turning view, by its words. */
   field(words: string): Locator {
     const label = this.page.locator('.toolbar label, .looks label', { hasText: new RegExp(`^${words}`) });
     return label.locator('select, input');
   }
 
-  /** Presses a key that shows a named view, and waits for it: the letters at the left and the top tell it. */
+  /** Presses the key of a named view, and waits for its letters. */
   async look(key: string, left: string, top: string): Promise<void> {
     await this.press(key);
     await expect(this.pane().locator('.edge.left')).toHaveText(left);
@@ -224,24 +212,21 @@ export class Viewer {
     await this.rest();
   }
 
-  /** Views and window as they were at first. */
   reset(): Promise<void> {
     return this.look('r', 'R', 'S');
   }
 
-  /** What a canvas shows. */
   async pixels(name: PaneName = 'turning'): Promise<Pixels> {
     const { width, height, text } = await this.pane(name).locator('canvas').evaluate(readCanvas);
     return { width, height, bytes: Buffer.from(text, 'base64') };
   }
 
-  /** What the turning view shows once it is complete. */
   async picture(): Promise<Pixels> {
     await this.rest();
     return this.pixels();
   }
 
-  /** The middle of the cross-hair in a pane (CSS pixels from its top left). */
+  /** Centre of the cross-hair (CSS pixels from the top left). */
   async hair(name: PaneName): Promise<Pair> {
     return this.pane(name)
       .locator('.hair')
@@ -251,17 +236,15 @@ export class Viewer {
       ]);
   }
 
-  /** Bytes of the memory of the module. */
   memory(): Promise<number> {
     return this.page.evaluate(() => (window as unknown as { lumencutTest: TestHook }).lumencutTest.memory());
   }
 
-  /** What is open. */
   report(): Promise<Report> {
     return this.ask('report', null);
   }
 
-  /** What the engine answers, or why it does not. */
+  /** The engine's answer, or its failure. */
   ask<N extends Question>(name: N, message: Message<N>): Promise<Answer<N>> {
     const asked = JSON.stringify([name, message]);
     return this.page.evaluate(`window.lumencutTest.ask(...${asked})`) as Promise<Answer<N>>;
@@ -276,7 +259,6 @@ interface DragOptions {
   readonly pane?: PaneName;
   readonly button?: 'left' | 'middle' | 'right';
   readonly modifier?: 'Shift' | 'Control' | 'Alt';
-  /** The button stays down. */
   readonly isHeld?: boolean;
 }
 
@@ -293,12 +275,10 @@ function readCanvas(canvas: HTMLElement | SVGElement): { width: number; height: 
   return { width, height, text: btoa(text) };
 }
 
-/** Where the tests serve the page. */
 export function pageAddress(): string {
   return `http://127.0.0.1:${process.env.LUMENCUT_E2E_PORT}/`;
 }
 
-/** A fragment that tells a view. */
 export function viewFragment(state: object): string {
   return `#v1=${encodeURIComponent(JSON.stringify(state))}`;
 }

@@ -1,4 +1,4 @@
-/** The reformations in the pane of the picked vessel: their pictures and places are those of the Python package (`expected/make_reformations.py`). */
+/** Reformations have the pictures and positions of the Python package (`expected/make_reformations.py`). */
 import { readFileSync } from 'node:fs';
 import { type Browser, expect, test } from '@playwright/test';
 import type { Pair, Reformation, Vector } from '../src/core/messages';
@@ -22,7 +22,7 @@ const table = JSON.parse(readFileSync(file('reformations.json'), 'utf-8')) as {
   readonly reformations: readonly Expected[];
 };
 
-/** The page with the pane of the picked vessel in just the size of the table. */
+/** Opens a phantom with the pane of the picked vessel in the size of the table. */
 async function opened(browser: Browser, phantom: string, state: Partial<ViewState> = {}) {
   const fragment = viewFragment({ window: table.window, layout: 'two', vessel: 0, ...state });
   const viewer = await Viewer.open(browser, `?phantom=${phantom}&device=cpu${fragment}`);
@@ -36,7 +36,6 @@ async function opened(browser: Browser, phantom: string, state: Partial<ViewStat
 
 const choice = (viewer: Viewer, words: string) => viewer.page.getByLabel(words, { exact: true });
 
-/** Chooses the reformation that a message asks for, by what stands in its pane. */
 async function choose(viewer: Viewer, asked: Reformation): Promise<void> {
   await choice(viewer, 'Reformation').selectOption(asked.kind);
   if (asked.kind === 'uncurl') {
@@ -72,7 +71,7 @@ for (const row of table.reformations) {
     const hair = (await viewer.state()).hair ?? [0, 0, 0];
     const away = Math.hypot(...row.point.map((place, n) => place - (hair[n] ?? 0)));
     expect(away).toBeLessThan(row.pixel_spacing);
-    // It is drawn where it was put: also a map, of which each place stands for a ray, has it on the ray.
+    // The cross-hair is where it was placed; in a map, on its ray.
     await expect
       .poll(async () => {
         const [x, y] = await viewer.hair('straightened');
@@ -103,7 +102,6 @@ test('a click in a CFA picks the place that it shows, and a roll has no angle of
   await viewer.close();
 });
 
-/** The pixels of a file, which the page decodes. */
 async function decoded(viewer: Viewer, name: string): Promise<Pixels> {
   const address = `data:image/png;base64,${readFileSync(file(name)).toString('base64')}`;
   const { width, height, bytes } = await viewer.page.evaluate(async (from) => {

@@ -1,4 +1,4 @@
-/** Clicks that lead nowhere: nothing changes, and the page says what was found, what was expected, and where. */
+/** Rejected clicks change nothing; the page reports what it found, what it expected, and where. */
 import { expect, test } from '@playwright/test';
 import { button, expectBegun, rows, startTracing, traced } from './controls';
 import { Viewer } from './page';
@@ -18,7 +18,6 @@ test.afterAll(() => viewer.close());
 const length = () => rows(viewer).first().locator('.length').textContent();
 const lastStep = () => button(viewer, 'Undo').getAttribute('title');
 
-/** A click that is refused: vessels and steps stay as they were, and the place is shown in every view. */
 async function expectRefused(click: () => Promise<void>, words: RegExp, mark: RegExp): Promise<void> {
   const before = [await length(), await lastStep(), await rows(viewer).count()];
   await click();
@@ -57,7 +56,7 @@ test('in a vessel that does not meet the other one, which can be bridged', async
   await expectRefused(
     () => clickAt(viewer, [STRAIGHT, 0], 'axial'),
     /Found \d+\.\d mm between them that do not look like lumen, least at .*; expected lumen/,
-    /least like lumen here: -\d+/,
+    /least lumen-like point: -\d+/,
   );
   await viewer.screenshot('refused-apart');
   await expect(viewer.problem.getByRole('button', { name: 'Click between' })).toBeVisible();

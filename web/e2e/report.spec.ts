@@ -1,4 +1,4 @@
-/** What is taken away of a measured vessel: its table, its JSON and its report. */
+/** Files saved of a measured vessel: table, JSON and report. */
 import { readFileSync } from 'node:fs';
 import { expect, test } from '@playwright/test';
 import { menu, REPORT, SESSION } from './controls';
@@ -22,7 +22,7 @@ test('the table and the JSON are those of Python', async () => {
   expect(PYTHON.nascet).toContain(`${told.vessels[0].stenosis.percent.toFixed(0)} ± 1 % of the diameter`);
 });
 
-/** A line of the table in which coordinates that are 0 but for rounding are 0: the last digits of those differ by the compiler. */
+/** Rounds coordinates that are 0 except for rounding, which depends on the compiler. */
 const withoutRounding = (line: string): string =>
   line
     .split(',')

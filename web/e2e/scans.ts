@@ -1,25 +1,25 @@
-/** A scan as a file that the page and the command line read: two tubes that do not meet, one of them narrowed, and bone behind them. */
+/** A scan file for page and command line: two separate tubes, one with a stenosis, in front of bone. */
 import { expect } from '@playwright/test';
 import type { Pair } from '../src/core/messages';
 import { expectBegun, fileOf, type MadeFile, traced } from './controls';
 import type { PaneName, Viewer } from './page';
 
-/** Voxels along each axis, and their side (mm); the middle of the volume is at 0. */
+/** Voxels per axis, and their side (mm); the volume is centred at 0. */
 const COUNTS = [80, 56, 90] as const;
 const SIDE = 0.8;
 const HALF = COUNTS.map((count) => ((count - 1) * SIDE) / 2) as [number, number, number];
 
-/** Where the axes of the tubes are (mm to the patient's left), and where that of a bone is (mm backwards, in the middle). */
+/** Axes of the tubes (mm to the patient's left), and depth of the bone (mm backwards). */
 export const NARROWED = -12;
 export const STRAIGHT = 12;
 export const BONE = 15;
 
 const radius = (z: number): number => 4 - 2 * Math.exp(-((z / 6) ** 2));
 
-/** 350 HU within, -100 without, and between them what a scanner makes of an edge. */
+/** 350 HU inside, -100 outside, with a blurred edge. */
 const lumen = (inside: number): number => -100 + 450 * Math.min(Math.max(0.5 + inside / 1.6, 0), 1);
 
-/** `shift` moves all of it along the patient (mm): the grid of another scan. */
+/** `shift` moves everything along the patient (mm), for another grid. */
 export function tubes(name: string, shift = 0): MadeFile {
   const [columns, rows, slices] = COUNTS;
   const values = new Int16Array(columns * rows * slices);
@@ -45,24 +45,22 @@ export function tubes(name: string, shift = 0): MadeFile {
   return fileOf(name, Buffer.concat([Buffer.from(`${header.join('\n')}\n\n`), Buffer.from(values.buffer)]));
 }
 
-/** Opens the page with the scan in it. */
 export async function openScan(viewer: Viewer, scan: MadeFile): Promise<void> {
   await expect(viewer.page.getByRole('button', { name: 'Choose files' })).toBeEnabled();
   await viewer.page.locator('main input[type=file]').first().setInputFiles(scan);
   await viewer.rest();
 }
 
-/** Which two of the three axes a slice shows, and which way the second one runs in it. */
+/** Axes shown by a slice, and the direction of the second. */
 const SHOWN: Readonly<Partial<Record<PaneName, readonly [number, number, number]>>> = {
   axial: [0, 1, 1],
   coronal: [0, 2, -1],
   sagittal: [1, 2, -1],
 };
 
-/** How long a scan is along each axis (mm). */
 const EXTENT = COUNTS.map((count) => count * SIDE) as [number, number, number];
 
-/** The pixel of a place in a slice that shows all of a scan: mm along the slice's axes from its middle. */
+/** Pixel of a position in a slice that shows the whole scan (mm from its centre). */
 export async function pixelAt(
   viewer: Viewer,
   [a, b]: Pair,
@@ -75,12 +73,10 @@ export async function pixelAt(
   return [Math.round((width - 1) / 2 + a / spacing), Math.round((height - 1) / 2 + (sign * b) / spacing)];
 }
 
-/** Clicks there. */
 export async function clickAt(viewer: Viewer, at: Pair, pane: PaneName = 'coronal'): Promise<void> {
   await viewer.click(await pixelAt(viewer, at, pane), pane);
 }
 
-/** Traces the tube at `x` between two heights; the list then has this number of vessels. */
 export async function traceTube(viewer: Viewer, x: number, [from, to]: Pair, count: number): Promise<void> {
   await clickAt(viewer, [x, from]);
   await expectBegun(viewer);

@@ -1,10 +1,10 @@
-/** Serves the built page for the tests, and a volume that comes slowly. */
+/** Serves the built page for the tests, and a slow volume. */
 import type { ServerResponse } from 'node:http';
 import { defineConfig, type Plugin } from 'vite';
 import page from '../vite.config.ts';
 import { header, type StreamParts, VOLUME } from './streams.ts';
 
-/** How long it takes from one slice of the slow volume to the next (ms). */
+/** Delay per slice of the slow volume (ms). */
 const PAUSE = 250;
 
 const SLOW: StreamParts = { ...VOLUME, size: [64, 64, 400] };
@@ -24,5 +24,5 @@ const slow: Plugin = {
   },
 };
 
-// As other servers do, this one knows no address but those of its files.
+// Like other servers, it serves only its files.
 export default defineConfig({ ...page, appType: 'mpa', plugins: [slow] });

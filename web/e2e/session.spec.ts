@@ -1,4 +1,4 @@
-/** A session is saved, the page forgets it, and its file brings everything back, in the page and on the command line. */
+/** A session file restores everything, in the page and on the command line. */
 import { spawnSync } from 'node:child_process';
 import { existsSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
@@ -24,13 +24,12 @@ const SCAN = tubes('tubes.nrrd');
 const ROOT = join(import.meta.dirname, '../..');
 const PYTHON = process.env.LUMENCUT_PYTHON ?? join(ROOT, '.venv/bin/python');
 
-// Each of them goes on where the one before it ended.
+// Each test continues from the previous one.
 test.describe.configure({ mode: 'serial' });
 
 let viewer: Viewer;
-/** The session file, and what the page showed as it was saved. */
 let session: Buffer;
-let before: Awaited<ReturnType<typeof told>>;
+let before: Awaited<ReturnType<typeof pageState>>;
 let picture: Awaited<ReturnType<Viewer['pixels']>>;
 
 const started = (browser: Browser, query = '?device=cpu') =>
@@ -39,8 +38,7 @@ const fileNow = (bytes = session) => fileOf('lumencut-session.mrk.json', bytes);
 
 const blur = () => viewer.page.getByRole('region', { name: 'Blur of the scan' });
 
-/** All that the page tells of a session. */
-async function told() {
+async function pageState() {
   const { page } = viewer;
   const all = (selector: string, property: 'value' | 'checked' | 'textContent' | 'ariaPressed') =>
     page
@@ -68,7 +66,7 @@ async function told() {
   };
 }
 
-/** Traces both tubes, changes how they are listed, measures one of them, draws a ruler and turns the view. */
+/** Traces both tubes, edits the list, measures, draws a ruler and turns the view. */
 async function work(): Promise<void> {
   await startTracing(viewer);
   for (const [n, x] of [NARROWED, STRAIGHT].entries()) {
@@ -83,8 +81,8 @@ async function work(): Promise<void> {
   await viewer.press('2');
   await viewer.research(() => viewer.field('Context').selectOption('dvr'));
   await viewer.press('m');
-  await blur().getByLabel('Give it').fill('0.8');
-  await blur().getByLabel('Give it').press('Enter');
+  await blur().getByLabel('Known FWHM').fill('0.8');
+  await blur().getByLabel('Known FWHM').press('Enter');
   await expect(blur()).toContainText('0.80 mm, given', { timeout: 30_000 });
   await button(viewer, 'Confirm the suggested places').click({ timeout: 30_000 });
   await expect(stenosis(viewer)).toContainText('%');
@@ -97,12 +95,11 @@ async function work(): Promise<void> {
   await viewer.rest();
 }
 
-/** The page as it was when the session was saved. */
 async function expectAllBack(): Promise<void> {
   await expect(rows(viewer)).toHaveCount(2);
   await expect(stenosis(viewer)).toHaveText(before.stenosis ?? '', { timeout: 30_000 });
   await viewer.rest();
-  await expect.poll(told).toEqual(before);
+  await expect.poll(pageState).toEqual(before);
   expect(difference(await viewer.picture(), picture, OTHER_DEVICE)).toBeNull();
   const again = await saved(viewer, SESSION);
   expect(JSON.parse(again.toString('utf-8'))).toEqual(JSON.parse(session.toString('utf-8')));
@@ -115,7 +112,7 @@ test.beforeAll(async ({ browser }) => {
   await work();
   picture = await viewer.picture();
   session = await saved(viewer, SESSION);
-  before = await told();
+  before = await pageState();
   await viewer.screenshot('session-saved');
 });
 test.afterEach(() => viewer.expectNoFault());
@@ -184,7 +181,6 @@ test('a session of another scan is refused in words, and nothing changes', async
   await openInstead();
 });
 
-/** Opens the scan of the session in the place of what is open. */
 async function openInstead(): Promise<void> {
   await viewer.problem.getByRole('button', { name: 'Close' }).click();
   await choose(viewer, SCAN);
@@ -210,7 +206,7 @@ test('a damaged session is refused in words, and nothing changes', async () => {
   }
 });
 
-/** What a PNG has under a keyword: the chunk says where it ends, for the bytes after it may be letters too. */
+/** Text of a PNG chunk; the chunk length bounds it, since later bytes may be letters. */
 function textOf(png: Buffer, keyword: string): string {
   const begin = png.indexOf(`tEXt${keyword}\0`);
   expect(begin).toBeGreaterThan(0);
@@ -231,10 +227,10 @@ test('the command line measures and renders what the session tells', async () =>
   expect(measured.stdout + measured.stderr).toContain(before.stenosis ?? 'a stenosis');
   const drawn = lumencut('render', scan, '--like', made, '-o', rendered);
   expect(drawn.status, drawn.stderr).toBe(0);
-  // A picture tells how it was rendered: in the view of the session, of the one vessel that is not hidden.
+  // A picture stores its settings: the session's view, with the one visible vessel.
   const recipe = JSON.parse(textOf(readFileSync(rendered ?? ''), 'Lumencut'));
   const { camera } = JSON.parse(session.toString('utf-8')).LumencutSession.view;
-  // Its axes were made unit vectors once more.
+  // The axes were normalised again.
   for (const name of ['center', 'direction', 'up', 'size', 'pixel_spacing']) {
     const found: number[] = [recipe.camera[name]].flat();
     const expected: number[] = [camera[name]].flat();

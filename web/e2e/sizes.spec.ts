@@ -1,4 +1,4 @@
-/** Small and large windows, dense screens, touch, and what screen readers and keyboards need. */
+/** Window sizes, dense screens, touch, screen readers and keyboards. */
 import { AxeBuilder } from '@axe-core/playwright';
 import { type CDPSession, expect, test } from '@playwright/test';
 import type { Pair } from '../src/core/messages';
@@ -17,7 +17,7 @@ for (const [name, viewport] of [
     const viewer = await Viewer.open(browser, '?device=cpu', { viewport });
     await expect(viewer.page.getByRole('button', { name: 'Aorta' })).toBeEnabled();
     await viewer.screenshot(`${name}-start`);
-    await viewer.page.getByRole('button', { name: 'A tube with a narrowing of 50 %' }).click();
+    await viewer.page.getByRole('button', { name: 'A tube with a stenosis of 50 %' }).click();
     await viewer.rest();
     await viewer.screenshot(name);
     const page = await viewer.page.evaluate(() => [
@@ -26,7 +26,6 @@ for (const [name, viewport] of [
     ]);
     expect(page).toEqual([viewport.width, viewport.height]);
     const [width, height] = await viewer.size();
-    // The main view is what the page is for.
     expect(width * height).toBeGreaterThan(0.25 * viewport.width * viewport.height);
     expect(isEmpty(await viewer.pixels())).toBe(false);
     await expect(viewer.field('Layout')).toBeInViewport({ ratio: 1 });
@@ -52,7 +51,7 @@ test('at 200 % the view has as many pixels as the screen, and picks where it is 
   expect([pixels.width, pixels.height]).toEqual([2 * width, 2 * height]);
   await viewer.click([0.5, 0.7]);
   await expect(viewer.readOut).toHaveText(/ · trunk · /);
-  // A longer read-out takes no room from the views.
+  // A longer read-out does not shrink the views.
   expect(await viewer.size()).toEqual([width, height]);
   const [x, y] = await viewer.hair('turning');
   expect(Math.abs(x - 0.5 * width)).toBeLessThan(2);
@@ -118,7 +117,6 @@ test.describe('touch', () => {
   });
 });
 
-/** What axe finds that is serious. */
 async function seriousFaults({ page }: Viewer): Promise<readonly string[]> {
   const { violations } = await new AxeBuilder({ page }).analyze();
   return violations
@@ -134,7 +132,7 @@ for (const colorScheme of ['dark', 'light'] as const) {
     await expect(page.getByRole('button', { name: 'Aorta' })).toBeEnabled();
     await viewer.screenshot(`start-${colorScheme}`);
     expect(await serious()).toEqual([]);
-    await page.getByRole('button', { name: 'A tube with a narrowing of 50 %' }).click();
+    await page.getByRole('button', { name: 'A tube with a stenosis of 50 %' }).click();
     await viewer.rest();
     await viewer.screenshot(`open-${colorScheme}`);
     expect(await serious()).toEqual([]);
@@ -189,7 +187,7 @@ test('the bar is one row in windows of the usual sizes', async ({ browser }) => 
   await viewer.close();
 });
 
-/** Windows of the usual sizes: a tablet that is touched, three screens, and one at 200 % zoom. */
+/** Usual windows: a touch tablet, three screens, and one at 200 % zoom. */
 const USUAL = [
   { viewport: { width: 1024, height: 768 }, hasTouch: true },
   { viewport: { width: 1280, height: 720 } },
@@ -207,7 +205,7 @@ for (const options of USUAL) {
       test.setTimeout(120_000);
       const viewer = await Viewer.open(browser, '?phantom=stenosis&device=cpu', { ...options, colorScheme });
       await viewer.rest();
-      // Each key takes up a mode; tracing is laid down before the next one.
+      // Each key switches the mode; tracing ends before the next one.
       for (const [mode, key] of [
         ['look', 'v'],
         ['trace', 't'],

@@ -1,4 +1,4 @@
-/** Streams of voxels as `lumencut view` sends them, whole and broken. */
+/** Voxel streams as sent by `lumencut view`, complete and broken. */
 
 export interface StreamParts {
   readonly size: readonly [number, number, number];
@@ -8,7 +8,7 @@ export interface StreamParts {
   readonly name: string;
 }
 
-/** A volume of 96 × 88 × 32 voxels of 1 mm; mirrored, its centerline would lie outside. */
+/** 96 × 88 × 32 voxels of 1 mm; mirrored, the centerline would leave the volume. */
 export const VOLUME: StreamParts = {
   size: [96, 88, 32],
   dtype: 'int16',
@@ -22,7 +22,6 @@ export const VOLUME: StreamParts = {
   name: 'made for a test',
 };
 
-/** What comes before the voxels; `magic` and `text` are for broken streams. */
 export function header(parts: object, magic = 'LCVOLUME', text = JSON.stringify(parts)): Buffer {
   const bytes = Buffer.from(text);
   const padded = Buffer.concat([bytes, Buffer.alloc((16 - ((12 + bytes.length) % 16)) % 16, 0x20)]);
@@ -31,7 +30,7 @@ export function header(parts: object, magic = 'LCVOLUME', text = JSON.stringify(
   return Buffer.concat([Buffer.from(magic, 'latin1'), length, padded]);
 }
 
-/** A tube of 350 HU along the z axis, in fat, and beside it bone that grows denser backwards. */
+/** A tube of 350 HU along z in fat, next to bone that gets denser backwards. */
 export function voxels({ size: [columns, rows, slices] }: StreamParts): Buffer {
   const values = new Int16Array(columns * rows * slices);
   for (let n = 0; n < values.length; n++) {
@@ -43,7 +42,6 @@ export function voxels({ size: [columns, rows, slices] }: StreamParts): Buffer {
 
 export const WHOLE = Buffer.concat([header(VOLUME), voxels(VOLUME)]);
 
-/** The axis of the tube, as a file of lines. */
 export const CENTERLINE = `# vtk DataFile Version 3.0
 axis
 ASCII

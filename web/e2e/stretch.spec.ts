@@ -1,17 +1,16 @@
-/** Stretches of a vessel: their length, their C-arm angles, and the angle between two. */
+/** Stretches of a vessel: length, C-arm angles, and the angle between two. */
 import { expect, test } from '@playwright/test';
 import { PYTHON, SIZE } from './measured-tube';
 import { Viewer } from './page';
 
 test('a stretch, its C-arm angles, and the angle to another one', async ({ browser }) => {
-  // The phantom is a large one, and its longest vessel is measured.
+  // The phantom is large, and its longest vessel is measured.
   test.setTimeout(90_000);
   const aorta = await Viewer.open(browser, '?phantom=aorta&device=cpu', { viewport: SIZE });
   await expect(aorta.pane('section')).toBeVisible({ timeout: 30_000 });
   await aorta.press('m');
   const mark = aorta.page.getByRole('button', { name: 'Mark a stretch' });
   await expect(mark).toBeVisible({ timeout: 30_000 });
-  // Half way along it, as the stretch of Python.
   const choice = aorta.page.getByRole('combobox', { name: /^Vessel \d/ });
   await choice.selectOption(await choice.inputValue());
   await mark.click();

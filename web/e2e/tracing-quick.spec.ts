@@ -1,24 +1,24 @@
-/** The first step of the guided try, by somebody who is faster than the engine; and where keys take the focus. */
+/** The first tour step by a user faster than the engine, and the focus after keys. */
 import { type Browser, expect, type Page, test } from '@playwright/test';
 import { Viewer } from './page';
 
 const SIZE = { width: 1100, height: 720 };
-/** On the tube, as parts of the coronal pane's height from its middle and its top. */
+/** On the tube, as shares of the coronal pane's height. */
 const [UPPER, LOWER] = [0.3, 0.7];
 
 async function guided(browser: Browser): Promise<Viewer> {
   const viewer = await Viewer.open(browser, '?device=cpu', { viewport: SIZE });
-  await viewer.page.getByRole('button', { name: 'Guided try in two minutes' }).click({ timeout: 30_000 });
+  await viewer.page.getByRole('button', { name: 'Guided tour in two minutes' }).click({ timeout: 30_000 });
   await expect(viewer.pane()).toBeVisible({ timeout: 50_000 });
   return viewer;
 }
 
-const guide = (page: Page) => page.getByLabel('Guided try');
+const guide = (page: Page) => page.getByLabel('Guided tour');
 
 test('points that are set quickly become a vessel, though Done is pressed at once', async ({ browser }) => {
   const viewer = await guided(browser);
   const { page } = viewer;
-  await expect(guide(page)).toContainText('Press “Trace” first');
+  await expect(guide(page)).toContainText('Press “Trace” or');
   await expect(guide(page)).not.toContainText('coronal');
   const height = (await guide(page).boundingBox())?.height;
   await viewer.press('t');

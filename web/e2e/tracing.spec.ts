@@ -1,4 +1,4 @@
-/** Vessels are traced by clicks and by keys, edited, undone, saved and read again. */
+/** Tracing by clicks and keys, editing, undoing, saving and reloading. */
 import { readFileSync } from 'node:fs';
 import { expect, type Locator, test } from '@playwright/test';
 import { button, listAsTheyCame, nameOf, rename, rows, SIZE, untraced } from './controls';
@@ -9,7 +9,7 @@ const lengthOf = async (viewer: Viewer, n: number): Promise<number> =>
 const point = (viewer: Viewer, n: number, pane: PaneName = 'coronal'): Locator =>
   viewer.pane(pane).getByRole('button', { name: new RegExp(`^Point ${n} of`) });
 
-/** A place in a slice of the junction, by the height of the pane: its volume is as high as the pane. */
+/** Position in a slice of the junction, in heights of the pane, which the volume fills. */
 async function place(viewer: Viewer, across: number, down: number, pane: PaneName = 'coronal') {
   const [width, height] = await viewer.size(pane);
   return [Math.round(width / 2 + across * height), Math.round(down * height)] as const;
@@ -30,7 +30,6 @@ async function startTool(viewer: Viewer): Promise<void> {
   await viewer.rest();
 }
 
-/** Traces from the trunk into a branch, and ends the vessel. */
 async function traceTo(viewer: Viewer, end: readonly [number, number], count: number): Promise<void> {
   await click(viewer, TRUNK);
   await click(viewer, end);
@@ -40,7 +39,6 @@ async function traceTo(viewer: Viewer, end: readonly [number, number], count: nu
 
 test('a page without vessels offers the three ways to them', async ({ browser }) => {
   const viewer = await untraced(browser);
-  // Each is large enough for a finger.
   const offer = viewer.page.locator('.trace-bar.offer');
   for (const words of ['Find all vessels', 'Trace one vessel', 'I have centerlines']) {
     const box = await offer.getByRole('button', { name: words }).boundingBox();
@@ -90,13 +88,13 @@ test('by mouse: two clicks trace a vessel, a live path leads to the pointer, and
   await viewer.screenshot('trace-live');
   await click(viewer, RIGHT);
   await expect(nameOf(viewer, 0)).toHaveValue('Vessel 1');
-  // From 1/5 of the height into the other branch: the trunk and the branch have 30 mm and 36 mm.
+  // From 1/5 of the height into the other branch: trunk 30 mm, branch 36 mm.
   await expect.poll(() => lengthOf(viewer, 0)).toBeGreaterThan(45);
   const whole = await lengthOf(viewer, 0);
   expect(whole).toBeLessThan(66);
   await button(viewer, 'End this vessel').click();
 
-  // A click on the right of the curve adds a point there, which is dragged along the vessel and removed.
+  // A click on the curve adds a point, which is dragged along the vessel and removed.
   const [middleX, middleY] = await viewer.place(await place(viewer, 0, 0.65), 'coronal');
   await viewer.page.mouse.click(middleX, middleY, { button: 'right' });
   await expect(point(viewer, 3)).toHaveCount(1);
@@ -124,7 +122,7 @@ test('where no lumen is under the pointer, a click in the projection is looked a
 }) => {
   const viewer = await untraced(browser, 'y_junction', { hasTouch: true });
   await startTool(viewer);
-  // A finger does not hover: nothing is shown beside it, and the brightest place is proposed. Two taps at one place are a double tap.
+  // A finger does not hover: no inset, and the brightest position is proposed. Two taps are a double tap.
   await viewer.tap([0.5, 0.75]);
   await expect(viewer.page.locator('[data-place=candidate]')).toHaveCount(4);
   await expect(viewer.page.locator('[data-place=first]')).toHaveCount(0);
@@ -187,7 +185,7 @@ test('a vessel that nobody clicked takes points, runs where it ran, and is edite
   await expect(point(viewer, 1)).toHaveCount(0);
   const [x, y] = await viewer.place(await place(viewer, 0, 0.5), 'coronal');
   await viewer.page.mouse.click(x, y, { button: 'right' });
-  // Both ends, two places between them, and the one that was clicked.
+  // Both ends, two points between them, and the added one.
   await expect(point(viewer, 5)).toHaveCount(1);
   await expect(point(viewer, 6)).toHaveCount(0);
   await expect(button(viewer, 'Undo')).toHaveAttribute('title', /add a point/);
@@ -251,7 +249,7 @@ test('all branches from here are those that hang together with the vessel at the
 }, async ({ browser }) => {
   test.setTimeout(400_000);
   const viewer = await untraced(browser, 'aorta');
-  // The cross-hair stands where the page put it: a tree begins where the reader says.
+  // The page placed the cross-hair, so the user must place the seed.
   await viewer.press('b');
   await expect(viewer.page.getByRole('status').first()).toContainText('Click where the tree begins');
   await expect(rows(viewer)).toHaveCount(0);

@@ -1,4 +1,4 @@
-/** What mouse and keys do in the turning view. */
+/** Mouse and keys in the turning view. */
 import { expect, test } from '@playwright/test';
 import { pixelOf } from '../src/core/camera';
 import type { Camera, Pair, Vector } from '../src/core/messages';
@@ -16,17 +16,15 @@ test.beforeAll(async ({ browser }) => {
 test.afterEach(() => viewer.expectNoFault());
 test.afterAll(() => viewer.close());
 
-/** The point in the plane of the camera's centre that is seen at a pixel. */
 function pointAt(camera: Camera, [x, y]: Pair): Vector {
   const [mx, my] = [(camera.size[0] - 1) / 2, (camera.size[1] - 1) / 2];
   const right = scale(cross(camera.direction, camera.up), (x - mx) * camera.pixel_spacing);
   return add(add(camera.center, right), scale(camera.up, (my - y) * camera.pixel_spacing));
 }
 
-/** By how much a picture differs, so that a test can ask for a change. */
 const differs = (a: Pixels, b: Pixels) => difference(a, b, SAME_CODE) !== null;
 
-/** A view in which one branch lies before the other, and none in the plane of the picture. */
+/** A view in which branches overlap and none lies in the picture plane. */
 async function showOverlap(): Promise<void> {
   await viewer.look('l', 'A', 'S');
   await viewer.drag([0.5, 0.4], [12, 18]);
@@ -64,7 +62,7 @@ test('Alt and a drag rotate about the axis of the picked vessel', async () => {
 
 test('the wheel zooms, and the place at the pointer stays', async () => {
   const camera = await viewer.camera();
-  // The browser tells the place of a wheel in whole pixels of the page, on which a view need not begin.
+  // The browser rounds wheel positions to page pixels, while a view may start between them.
   const box = await viewer.box();
   const at: Pair = [Math.round(box.x + 150) - box.x, Math.round(box.y + 90) - box.y];
   const kept = pointAt(camera, at);
@@ -137,7 +135,6 @@ test('keys choose the windows, and the strip and its list do so too', async () =
   await presets.selectOption({ label: 'Soft tissue (3)' });
   await expect(viewer.window).toHaveText('W 400 L 40');
   await expect(chosen).toHaveText('Soft tissue (3)');
-  // In narrow windows the list alone is there.
   const narrow = viewer.page.viewportSize();
   await viewer.page.setViewportSize({ width: 1600, height: 560 });
   const level = viewer.page.getByRole('slider', { name: 'Level of the window' });
@@ -177,7 +174,6 @@ test('space turns until it is pressed again', async () => {
   await viewer.reset();
   const camera = await viewer.camera();
   await viewer.press(' ');
-  // It is time that turns the view here.
   await viewer.page.waitForTimeout(400);
   await viewer.press(' ');
   await viewer.rest();

@@ -1,4 +1,4 @@
-/** Every edit can be undone and done again, and nothing of a study is left in the next one. */
+/** Every edit can be undone and redone, and a new study starts empty. */
 import { expect, test } from '@playwright/test';
 import { button, choose, nameOf, rename, rows, SESSION, saved, startTracing, stenosis } from './controls';
 import { Viewer } from './page';
@@ -6,7 +6,6 @@ import { NARROWED, openScan, STRAIGHT, traceTube, tubes } from './scans';
 
 const SIZE = { width: 1200, height: 760 };
 const SCAN = tubes('tubes.nrrd');
-/** The least number of steps that are taken. */
 const STEPS = 30;
 
 let viewer: Viewer;
@@ -23,7 +22,7 @@ const undoButton = () => button(viewer, 'Undo');
 const point = (n: number, name: string) =>
   viewer.pane('coronal').getByRole('button', { name: `Point ${n} of ${name}` });
 
-/** What was made of the scan, as it stands in the session file; how it is looked at is no edit. */
+/** The user's work in the session file, without the display state. */
 async function made(): Promise<string> {
   const text = (await saved(viewer, SESSION)).toString('utf-8');
   const { view, ...session } = JSON.parse(text).LumencutSession;
@@ -31,14 +30,13 @@ async function made(): Promise<string> {
   return JSON.stringify({ ...JSON.parse(text), LumencutSession: session });
 }
 
-/** Does an edit, and waits until it is the last step. */
+/** Performs an edit and waits until it is the last step. */
 async function step(words: RegExp, edit: () => Promise<unknown>): Promise<void> {
   await edit();
   await expect(undoButton()).toHaveAttribute('title', words);
   await expect(viewer.page.locator('.trace-bar span').filter({ hasText: 'Tracing …' })).toHaveCount(0);
 }
 
-/** Edits of vessels; gives how many. */
 async function editVessels(): Promise<number> {
   const { page } = viewer;
   await startTracing(viewer);
@@ -64,10 +62,9 @@ async function editVessels(): Promise<number> {
   await step(/hide a vessel/, () => button(viewer, 'Hide Vessel 2').click());
   await step(/show a vessel/, () => button(viewer, 'Show Vessel 2').click());
   await step(/hide a vessel/, () => button(viewer, 'Hide Vessel 2').click());
-  // The row of a hidden vessel offers nothing but to show it again.
   await expect(rows(viewer).nth(1).locator('.buttons')).toHaveCount(0);
   await step(/show a vessel/, () => button(viewer, 'Show Vessel 2').click());
-  // It is picked as soon as it is shown.
+  // It is picked once displayed.
   await rows(viewer).nth(1).getByRole('radio').click();
   await expect(rows(viewer).nth(1).getByRole('radio')).toBeChecked();
   await step(/delete a vessel/, () => viewer.press('Delete'));
@@ -83,7 +80,6 @@ async function editVessels(): Promise<number> {
   return 2 + 4 + 11;
 }
 
-/** Edits of marks and rulers; gives how many. */
 async function editMarks(): Promise<number> {
   const numbers = viewer.page.getByTestId('numbers');
   await viewer.press('m');
@@ -98,7 +94,9 @@ async function editMarks(): Promise<number> {
   await step(/choose the method/, () => numbers.getByLabel('Method').selectOption('ecst'));
   const original = numbers.getByLabel('Original diameter');
   await step(/give the original diameter/, () => original.fill('9').then(() => original.press('Enter')));
-  await step(/choose the groups/, () => numbers.getByLabel('Groups').selectOption('carotid'));
+  await step(/choose the severity category/, () =>
+    numbers.getByLabel('Severity category').selectOption('carotid'),
+  );
   await step(/stretch/, () => button(viewer, 'Mark a stretch').click());
   await step(/remove the reference/, () => button(viewer, 'Remove the reference after').click());
   await button(viewer, 'Ruler').click();
@@ -128,7 +126,6 @@ test('thirty steps and more are undone to the beginning and done again, and the 
     for (let n = 1; n < count; n++) {
       await viewer.press(key);
     }
-    // Not one step fewer, and not one more.
     await button(viewer, words).click();
     await expect(button(viewer, words)).toBeDisabled();
     await expect(button(viewer, other)).toBeEnabled();
@@ -150,10 +147,9 @@ test('nothing of a study is left in the next one', async () => {
   await expect(page.getByTestId('ruler')).toHaveCount(1);
   await viewer.press('Control+z');
   const blur = page.getByRole('region', { name: 'Blur of the scan' });
-  await blur.getByLabel('Give it').fill('0.9');
-  await blur.getByLabel('Give it').press('Enter');
+  await blur.getByLabel('Known FWHM').fill('0.9');
+  await blur.getByLabel('Known FWHM').press('Enter');
   await expect(blur).toContainText(', given.');
-  // A ruler that has its first point only.
   await button(viewer, 'Ruler').click();
   await viewer.click([0.4, 0.5], 'section');
   await choose(viewer, tubes('next.nrrd', 5));
@@ -169,7 +165,7 @@ test('nothing of a study is left in the next one', async () => {
   await viewer.screenshot('next-study');
   const session = JSON.parse(await made()).LumencutSession;
   expect(session).toMatchObject({ vessels: [], doubtful: [], stoppers: [], rulers: [], bridge: false });
-  // Measured there, nothing is marked, and the blur is its own.
+  // Measured there: no marks, and its own estimated FWHM.
   await startTracing(viewer);
   await expect(page.locator('[data-place]')).toHaveCount(0);
   await traceTube(viewer, NARROWED, [26, -26], 1);

@@ -1,20 +1,20 @@
-/** The best view of a vessel, and turning about a place on it, by mouse and by keys. */
+/** Best view of a vessel, and turning about a place on it, by mouse and keys. */
 import { expect, type Locator, test } from '@playwright/test';
 import { dot } from '../src/core/vectors';
 import { button, fileOf, type MadeFile } from './controls';
 import { Viewer } from './page';
 
 const SIZE = { width: 1280, height: 800 };
-/** Voxels along each axis, and their side (mm). */
+/** Voxels per axis, and their side (mm). */
 const COUNTS = [60, 60, 90] as const;
 const SIDE = 0.6;
 const HALF = COUNTS.map((count) => ((count - 1) * SIDE) / 2) as [number, number, number];
-/** Where the tube stands to the patient's left (mm): mirrored, its line would lie outside of the scan. */
+/** Tube position to the patient's left (mm): mirrored, its line would leave the scan. */
 const LEFT = 100;
-/** Half the axes of the lumen (mm), from right to left and from front to back. */
+/** Semi-axes of the lumen (mm), right to left and front to back. */
 const AXES = [6, 3.5] as const;
 
-/** A tube along the patient whose lumen is an ellipse: its values pass half way where the wall is, on each line through its middle. */
+/** A tube with an elliptical lumen; values pass half way at the wall on every ray. */
 function tube(): MadeFile {
   const [columns, rows, slices] = COUNTS;
   const values = new Int16Array(columns * rows * slices);
@@ -43,7 +43,6 @@ function tube(): MadeFile {
   );
 }
 
-/** Its axis, with the radius of a circle of the same area. */
 function centerline(): MadeFile {
   const radius = Math.sqrt(AXES[0] * AXES[1]);
   const rows = Array.from({ length: 41 }, (_, n) => `${LEFT},0,${n - 20},${radius}`);
@@ -63,13 +62,12 @@ test.afterAll(() => viewer.close());
 const bar = (): Locator => viewer.page.getByTestId('place-turn');
 const angle = (): Locator => bar().getByRole('slider');
 
-/** What the bar tells: this cut, the least and the largest so far (mm). */
 async function diameters(): Promise<number[]> {
   const words = (await bar().getByRole('status').textContent()) ?? '';
   return [...words.matchAll(/([\d.]+) mm/g)].map(([, number]) => Number(number));
 }
 
-/** What is told is that of the ellipse, but for the rounding of words and of voxels. */
+/** Diameters of the ellipse, up to rounding and voxel size. */
 function expectDiameters(found: readonly number[], expected: readonly number[]): void {
   expect(found).toHaveLength(expected.length);
   found.forEach((diameter, n) => {
@@ -111,13 +109,13 @@ test('by mouse: a drag turns about the place of the section, and Escape puts it 
   await viewer.drag([0.3, 0.8], [height / 2, 0]);
   await expect(bar().locator('.place-turn-degrees')).toHaveText('-90°');
   expectDiameters(await diameters(), [7, 7, 12]);
-  // The wheel magnifies, and ends nothing; another view does.
+  // Zooming keeps the turn; another view ends it.
   await viewer.wheel([0.5, 0.6], -240);
   expect((await viewer.camera()).pixel_spacing).toBeLessThan(0.9 * first.pixel_spacing);
   await expect(begin).toHaveAttribute('aria-pressed', 'true');
   await viewer.press('Shift+S');
   await expect(bar()).toHaveCount(0);
-  // A press of the button over the view ends it too, and puts no cross-hair behind the button.
+  // Pressing the button again ends it without moving the cross-hair.
   await begin.click();
   await expect(bar()).toBeVisible();
   const place = await viewer.readOut.textContent();

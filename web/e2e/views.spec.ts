@@ -1,4 +1,4 @@
-/** Slices, straightened vessel, section and layouts: the cross-hair links them, and each of them can fill the page. */
+/** Slices, straightened vessel, section and layouts: linked by the cross-hair, and each can be maximised. */
 import { expect, test } from '@playwright/test';
 import { difference, isEmpty, OTHER_DEVICE, SAME_CODE } from './compare';
 import { type PaneName, Viewer } from './page';
@@ -27,7 +27,6 @@ async function layOut(name: string): Promise<void> {
   await viewer.rest();
 }
 
-/** Waits until a slice shows another picture than before. */
 async function expectChange(pane: PaneName, change: () => Promise<void>): Promise<void> {
   const before = await viewer.pixels(pane);
   await change();
@@ -56,7 +55,6 @@ test('a click in the turning view puts the cross-hair into all views', async () 
   const [x, y] = await viewer.hair('turning');
   expect(Math.abs(x - 0.3 * width)).toBeLessThan(2);
   expect(Math.abs(y - 0.7 * height)).toBeLessThan(2);
-  // The patient's right is on the left from the front and in the slices.
   for (const pane of ['axial', 'coronal'] as const) {
     expect((await viewer.hair(pane))[0]).toBeLessThan((await viewer.size(pane))[0] / 2 - 5);
   }
@@ -106,7 +104,6 @@ test('a notch of the wheel goes one slice, with Shift ten, by the distance of th
   };
   const before = await height();
   await viewer.wheel([0.5, 0.5], 120, 'axial');
-  // One slice of 0.5 mm towards the feet, and ten of them back.
   await expect.poll(async () => (await height()) - before).toBeCloseTo(-0.5, 5);
   await viewer.page.keyboard.down('Shift');
   await viewer.wheel([0.5, 0.5], -100, 'axial');
@@ -225,7 +222,6 @@ test('in a window of another size all views fill their panes', async () => {
   await viewer.rest();
 });
 
-/** Numbers but for their last digits. */
 function rounded(state: object): unknown {
   const number = (value: unknown) => (typeof value === 'number' ? Number(value.toFixed(9)) : value);
   return JSON.parse(JSON.stringify(state, (_, value) => number(value)));
@@ -245,7 +241,7 @@ test('a page that is loaded again shows the same view', async () => {
   await viewer.page.reload();
   await viewer.rest();
   expect(rounded(await viewer.state())).toEqual(rounded(state));
-  // The address tells the middle to a thousandth of a mm, which moves some edges by a step.
+  // The address rounds the centre to 0.001 mm, which moves some edges by a step.
   expect(difference(await viewer.picture(), picture, OTHER_DEVICE)).toBeNull();
   await expect.poll(async () => difference(await viewer.pixels('axial'), axial, OTHER_DEVICE)).toBeNull();
   expect(decodeURIComponent(viewer.page.url())).not.toContain('trunk');

@@ -1,4 +1,4 @@
-/** The whole way of a person with a scan: open it, click along a vessel, measure it, take the report. */
+/** The whole workflow: open a scan, click along a vessel, measure it, save the report. */
 import { existsSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { expect, test } from '@playwright/test';
@@ -18,18 +18,16 @@ import { Viewer } from './page';
 import { pixelAt } from './scans';
 
 const SCAN = join(import.meta.dirname, '../../../shared/data/stent-cta/stent_cta.nii.gz');
-/** How long that scan is along each axis (mm), and where its stent begins and its left limb ends, from the middle. */
+/** Extent of the scan (mm), and start of its stent and left limb from the centre. */
 const EXTENT = [128, 128, 256] as const;
 const STENT = [9, 64] as const;
 const LIMB = [8.4, -71.7] as const;
 const SIZE = { width: 1400, height: 860 };
 const MOST_CLICKS = 12;
-/** A percentage, with its method, its references and mm, as the page and the report tell it. */
 const GRADED = /\d+ % of the diameter.*NASCET.*\d+\.\d\d? mm/;
 
 test('by mouse, from the file of a scan to the report', async ({ browser }) => {
   test.skip(!existsSync(SCAN), 'there are no real scans beside the repository');
-  // All of the way has to fit in this.
   test.setTimeout(60_000);
   const viewer = await Viewer.open(browser, '?device=cpu', { viewport: SIZE });
   const { page } = viewer;
@@ -51,7 +49,7 @@ test('by mouse, from the file of a scan to the report', async ({ browser }) => {
   await viewer.screenshot('way-3-traced');
   await button(viewer, 'Done').click();
   await button(viewer, 'Measure').click();
-  // Within a stent few places are safe to compare with; where none is, the reader is told so, and marks one.
+  // Within a stent there may be no safe reference; then the user is told and marks one.
   await page.getByRole('button', { name: /^Confirm the suggested places?$/ }).click({ timeout: 30_000 });
   const told = /No percentage: Mark a reference: where the vessel is normal\./;
   await expect(stenosis(viewer)).toHaveText(new RegExp(`${GRADED.source}|${told.source}`));
@@ -79,11 +77,10 @@ test('by keys alone, from the start page to the report', async ({ browser }) => 
   const viewer = await Viewer.open(browser, '?device=cpu', { viewport: SIZE });
   const { page } = viewer;
   const counted = await countInput(viewer);
-  await expect(button(viewer, 'A tube with a narrowing of 50 %')).toBeEnabled();
-  await tabTo(viewer, 'A tube with a narrowing');
+  await expect(button(viewer, 'A tube with a stenosis of 50 %')).toBeEnabled();
+  await tabTo(viewer, 'A tube with a stenosis');
   await viewer.press('Enter');
   await viewer.rest();
-  // Its own vessel makes room.
   await viewer.press('v');
   await tabTo(viewer, /^Delete$/);
   await viewer.press('Enter');
@@ -101,7 +98,6 @@ test('by keys alone, from the start page to the report', async ({ browser }) => 
   }
   await viewer.press('Enter');
   await traced(viewer, 1);
-  // Twice at one place ends the vessel; Escape lays the tool down.
   await viewer.press('Enter');
   await expect(button(viewer, 'End this vessel')).toHaveCount(0);
   await viewer.screenshot('keys-traced');

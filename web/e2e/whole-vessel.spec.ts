@@ -1,9 +1,9 @@
-/** A vessel by one click: the whole of it, from the nearest vessel that there is to its end. */
+/** A whole vessel by one click: from its parent vessel to its end. */
 import { expect, test } from '@playwright/test';
 import { button, countInput, expectBegun, nameOf, rows, startTracing, untraced } from './controls';
 import type { Viewer } from './page';
 
-/** Places in the coronal slice of the junction: across from its middle, and down, in heights of the pane. */
+/** Positions in the coronal slice: across from its centre and down, in pane heights. */
 const TRUNK = [0, 0.8] as const;
 const RIGHT = [-0.19, 0.22] as const;
 const LEFT = [0.19, 0.22] as const;
@@ -25,7 +25,7 @@ test('a vessel and the one that hangs on it take two actions each: a click and E
   for (const [n, place] of [TRUNK, RIGHT].entries()) {
     await viewer.click(await at(viewer, place), 'coronal');
     await expectBegun(viewer);
-    // The vessels of the scan are looked for once; after that a click shows what it would take.
+    // The first search finds all vessels; after that a click previews its vessel.
     await expect(ghost(viewer)).toHaveCount(n > 0 ? 1 : 0);
     await viewer.press('Enter');
     await expect(rows(viewer)).toHaveCount(n + 1);
@@ -34,7 +34,6 @@ test('a vessel and the one that hangs on it take two actions each: a click and E
   }
   const { clicks, keys } = await counted();
   expect([clicks, keys]).toEqual([2, 2]);
-  // The trunk runs on into the left branch; both hang together, and are the whole of the junction.
   await button(viewer, 'Done').click();
   await viewer.rest();
   await viewer.screenshot('whole-vessel-done');
@@ -56,7 +55,6 @@ test('a double click or its button takes the whole vessel, and a second click el
   await button(viewer, 'Whole vessel').click();
   await expect(rows(viewer)).toHaveCount(1);
   await expect(nameOf(viewer, 0)).toHaveValue('Vessel 1');
-  // The other one is traced as before, from click to click.
   await viewer.click(await at(viewer, TRUNK), 'coronal');
   await expectBegun(viewer);
   await viewer.click(await at(viewer, LEFT), 'coronal');
@@ -71,7 +69,6 @@ test('by keys alone: Enter twice at the cross-hair, and the key w', async ({ bro
   await startTracing(viewer);
   await viewer.click(await at(viewer, TRUNK), 'coronal');
   await expectBegun(viewer);
-  // The point is taken back; the cross-hair stays where it was.
   await viewer.press('Backspace');
   await expect(button(viewer, 'Whole vessel')).toHaveCount(0);
   await viewer.press('Enter');
@@ -99,7 +96,7 @@ test('where there is a vessel already, and where there is none, the page says so
   await viewer.press('w');
   await expect(viewer.problem).toContainText('a vessel that is traced already');
   await expect(rows(viewer)).toHaveCount(1);
-  // It begins no vessel then: the next click would go on from there.
+  // It does not begin a vessel, which the next click would extend.
   await expect(button(viewer, 'Whole vessel')).toHaveCount(0);
   await viewer.press('Escape');
   await viewer.click(await at(viewer, AIR), 'coronal');

@@ -1,7 +1,5 @@
-// Runs the tests of the page: those of its logic, and those in a browser, which needs the built page (`npm run build`).
-//
-// The last line is `N passed, N failed`. The exit status is not 0 where a test failed, where a part did not run to its
-// end, and where no test ran.
+// Runs the unit and browser tests of the built page. The last line is `N passed, N failed`.
+// The exit status is not 0 if a test failed, a part did not finish, or no test ran.
 import { spawnSync } from 'node:child_process';
 import { existsSync, mkdtempSync, readFileSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
@@ -11,7 +9,7 @@ import { stripVTControlCharacters } from 'node:util';
 
 const web = dirname(dirname(fileURLToPath(import.meta.url)));
 
-/** Runs one of the test programs; its report in JSON, or nothing where it wrote none. */
+/** Runs a test program; returns its JSON report, or null. */
 function run(program, programArguments, environment, report) {
   const command = join(web, 'node_modules/.bin', program);
   const done = spawnSync(command, programArguments, {
@@ -26,7 +24,7 @@ function run(program, programArguments, environment, report) {
   return { status: done.status ?? 1, report: JSON.parse(readFileSync(report, 'utf-8')) };
 }
 
-/** What a part counted; one that ended red without a red test, or ran no test, counts as a test that failed. */
+/** Counts a part; a failed part without failed tests, or without tests, counts as one failure. */
 function counted(name, { status, report }, passed, failed, red) {
   const count = report ? { passed: passed(report), failed: failed(report) } : { passed: 0, failed: 0 };
   if (count.failed === 0 && (status !== 0 || count.passed === 0)) {
@@ -36,7 +34,7 @@ function counted(name, { status, report }, passed, failed, red) {
   return { ...count, red: report ? red(report) : [] };
 }
 
-/** The red tests of Vitest, a line each. */
+/** Failed tests of Vitest, one line each. */
 const redOfLogic = (report) =>
   report.testResults.flatMap(({ name, assertionResults }) =>
     assertionResults
@@ -44,7 +42,7 @@ const redOfLogic = (report) =>
       .map(({ fullName, failureMessages }) => line(relative(web, name), fullName, failureMessages[0])),
   );
 
-/** The red tests of Playwright within a suite and those in it, a line each. */
+/** Failed tests of a Playwright suite, one line each. */
 const redOfBrowser = ({ suites = [], specs = [] }) => [
   ...suites.flatMap(redOfBrowser),
   ...specs
@@ -52,7 +50,7 @@ const redOfBrowser = ({ suites = [], specs = [] }) => [
     .map(({ file, title, tests }) => line(`e2e/${file}`, title, tests[0]?.results[0]?.error?.message)),
 ];
 
-/** A line that begins as pytest's does, so that a log is searched for one word. */
+/** Formatted like pytest's, so that logs can be searched alike. */
 const line = (file, title, message = 'no message') =>
   `FAILED web/${file} > ${title} - ${stripVTControlCharacters(message).split('\n')[0]}`;
 

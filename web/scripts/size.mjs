@@ -1,4 +1,4 @@
-// Compares the built page with budget.json: the bytes that a browser loads, gzipped. A pattern without a file is red too.
+// Compares the gzipped size of the built page with budget.json. A pattern without a file is an error.
 import { readdirSync, readFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
@@ -9,7 +9,7 @@ const built = readdirSync(join(web, 'dist'), { recursive: true, encoding: 'utf8'
 const budget = JSON.parse(readFileSync(join(web, 'budget.json'), 'utf8'));
 let isRed = false;
 
-/** The built files that a pattern stands for; `*` is any part of a name. */
+/** Built files that match a pattern; `*` is any part of a name. */
 function matching(pattern) {
   const [before, after] = pattern.split('*');
   return built.filter((name) => name.startsWith(before) && name.endsWith(after ?? ''));

@@ -1,9 +1,6 @@
-// Compiles the crates of the page for the browser, and writes their modules and types to src/core/pkg: the engine,
-// and in `dicom/` the judge of DICOM series, which the page loads with the first DICOM file.
-//
-// Workers share the engine's memory, for which Rust's standard library is compiled anew: that is what RUSTC_BOOTSTRAP
-// and `build-std` are for. None of its features is needed: a panic ends the module at once and leaves no trace.
-// Without `panic=immediate-abort` the modules are 5 % larger.
+// Compiles the page's crates to src/core/pkg: the engine, and in `dicom/` the judge of DICOM series, loaded on demand.
+// Workers share the engine's memory, so Rust's standard library is recompiled (RUSTC_BOOTSTRAP, `build-std`).
+// Without `panic=immediate-abort`, which ends the module at once, the modules are 5 % larger.
 import { spawnSync } from 'node:child_process';
 import { existsSync, mkdirSync, renameSync, rmSync, statSync } from 'node:fs';
 import { dirname, join } from 'node:path';
@@ -12,11 +9,10 @@ import { fileURLToPath } from 'node:url';
 const web = dirname(dirname(fileURLToPath(import.meta.url)));
 const root = dirname(web);
 const target = 'wasm32-unknown-unknown';
-/** Small modules take minutes to link; for trying things out `LUMENCUT_WASM_PROFILE=checks` compiles quickly. */
+/** Release modules take minutes to link; `LUMENCUT_WASM_PROFILE=checks` compiles quickly. */
 const profile = process.env.LUMENCUT_WASM_PROFILE ?? 'wasm';
 const pkg = join(web, 'src/core/pkg');
-/** One set of flags for both modules, so that the standard library is compiled once; how the engine shares its memory is said to the
- * linker by its build script. */
+/** The same flags for both modules, so that the standard library is compiled once. */
 const flags = [
   '-Zunstable-options',
   '-Cpanic=immediate-abort',
@@ -27,7 +23,6 @@ const modules = [
   { crate: 'lumencut-dicom-wasm', folder: join(pkg, 'dicom'), name: 'lumencut_dicom' },
 ];
 
-/** Runs a command in the repository; the build ends where it fails. */
 function run(command, commandArguments, environment = {}) {
   const done = spawnSync(command, commandArguments, {
     cwd: root,
@@ -40,7 +35,7 @@ function run(command, commandArguments, environment = {}) {
   }
 }
 
-/** Compiles the crates for the browser, all at once: what they share is compiled once, and one is linked beside the other. */
+/** Compiles both crates at once, so that shared parts compile once. */
 function compile() {
   const packages = modules.flatMap(({ crate }) => ['--package', crate]);
   run(
@@ -53,7 +48,7 @@ function compile() {
   );
 }
 
-/** Writes the module of a compiled crate to its folder, as a browser loads it. */
+/** Writes a crate's module in the form that browsers load. */
 function write({ crate, folder, name }) {
   const compiled = join(root, 'target', target, profile, `${crate.replaceAll('-', '_')}.wasm`);
   const fresh = join(root, 'target/page-module');

@@ -1,4 +1,4 @@
-/** Starts the page: the engine, the keys, and what its address names. */
+/** Starts the page: engine, keys, and files named by its address. */
 import { render } from 'preact';
 import { engine } from './client/shared';
 import { followEdits } from './edit/following';
@@ -21,7 +21,6 @@ import { followView, restore, stateOf } from './url/fragment';
 
 const asked = new URLSearchParams(window.location.search);
 
-/** An address that the page was given: by its own address, or by the program that serves it. */
 function addressOf(name: string): string | null {
   const meta = document.querySelector<HTMLMetaElement>(`meta[name="lumencut-${name}"]`);
   const address = asked.get(name) ?? meta?.content ?? null;
@@ -33,7 +32,7 @@ function addressOf(name: string): string | null {
 }
 
 async function begin(): Promise<void> {
-  // Read before anything is shown: what is shown is written there.
+  // Read first, because the displayed state is written to the hash.
   const state = stateOf(window.location.hash);
   await start(asked.get('device') ?? 'auto');
   const [volume, centerlines, phantom] = [
@@ -63,7 +62,7 @@ followKeeping(sessionStorage, async () => new TextDecoder().decode(await savedSe
 followEdits(engine);
 followPlaceTurn();
 if (asked.has('test')) {
-  // What the tests of the page need and no user: the size of the memory, and what the engine answers.
+  // For tests only: memory size and engine answers.
   Object.assign(window, {
     lumencutTest: {
       memory: () => engine.memory(),

@@ -1,4 +1,4 @@
-/** Which names of anatomy are offered where a vessel is named. */
+/** The anatomical names offered for vessels. */
 import { expect, test } from 'vitest';
 import { namesToOffer } from '../src/edit/anatomy';
 

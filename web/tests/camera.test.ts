@@ -14,7 +14,6 @@ import type { Camera, Vector } from '../src/core/messages';
 import { add, cross, dot, length, middle, scale, subtract, turned, unit } from '../src/core/vectors';
 import { CAMERA, expectNear, expectOrthonormal, random } from './helpers';
 
-/** The world point that is seen at a pixel, in the plane of the camera's centre. */
 function pointAt(camera: Camera, [x, y]: readonly [number, number]): Vector {
   const [mx, my] = middleOf(camera);
   const across = scale(rightOf(camera), (x - mx) * camera.pixel_spacing);
@@ -97,7 +96,7 @@ test('axes that are not quite at right angles come back to them', () => {
 describe('panning and zooming', () => {
   test('a pan moves by exactly its length in mm', () => {
     const after = panned(CAMERA, [10, -6]);
-    // From the front the patient's left is on the right: 10 pixels of 0.5 mm to the right, 6 upwards.
+    // The patient's left is on the right: 10 pixels of 0.5 mm right, 6 up.
     expectNear(subtract(after.center, CAMERA.center), [-5, 0, -3]);
   });
 

@@ -28,7 +28,6 @@ beforeEach(() => {
   beginStudy(documentOf());
 });
 
-/** A vessel with two clicks. */
 async function begun(from = A, to = B): Promise<number> {
   const id = begunId(await beginVessel(tracing, [from, to]));
   expect(id).not.toBeNull();

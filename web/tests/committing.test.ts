@@ -7,14 +7,14 @@ import { progress } from '../src/state/store';
 
 const FINDING: Progress = { words: 'Finding vessels', done: 0, total: null };
 
-/** An engine that tells how far it is and answers when the test says so. */
+/** An engine that reports progress and answers on command. */
 class Slow {
-  told: (heard: Progress) => void = () => {};
+  onProgress: (report: Progress) => void = () => {};
   end: () => void = () => {};
-  readonly asked = { ask: (_name, _message, { told } = {}) => this.answer(told) } as Asked;
+  readonly asked = { ask: (_name, _message, { onProgress } = {}) => this.answer(onProgress) } as Asked;
 
-  private answer(told: ((heard: Progress) => void) | undefined): Promise<never> {
-    this.told = told ?? this.told;
+  private answer(onProgress: ((report: Progress) => void) | undefined): Promise<never> {
+    this.onProgress = onProgress ?? this.onProgress;
     const edited = { document: EMPTY, words: 'x', added: [], without_marks: [], notes: [], told: null };
     const answer = { edited, report: null, lines: [], facts: [], pick: null };
     return new Promise((resolve) => {
@@ -42,7 +42,7 @@ async function begun(
 
 test('an edit that tells only at its begin that it runs is shown as running all the same', async () => {
   const { slow, done } = await begun();
-  slow.told(FINDING);
+  slow.onProgress(FINDING);
   expect(progress.value).toBeNull();
   await vi.advanceTimersByTimeAsync(1000);
   expect(progress.value).toEqual(FINDING);
@@ -56,13 +56,13 @@ test('what is told after the end of an edit is no longer shown', async () => {
   await vi.advanceTimersByTimeAsync(1000);
   slow.end();
   await done;
-  slow.told({ ...FINDING, done: 90, total: 100 });
+  slow.onProgress({ ...FINDING, done: 90, total: 100 });
   expect(progress.value).toBeNull();
 });
 
 test('an edit that is done at once shows no progress', async () => {
   const { slow, done } = await begun();
-  slow.told(FINDING);
+  slow.onProgress(FINDING);
   slow.end();
   await done;
   await vi.advanceTimersByTimeAsync(1000);

@@ -1,4 +1,4 @@
-/** The comparer of pictures that the tests in the browser use refuses what it should. */
+/** The picture comparison of the browser tests rejects what it should. */
 import { expect, test } from 'vitest';
 import {
   difference,
@@ -11,7 +11,6 @@ import {
 
 const WIDTH = 64;
 
-/** A ramp, of which some channels were changed. */
 function ramp(changes: Readonly<Record<number, number>> = {}): Pixels {
   const bytes = Uint8Array.from({ length: WIDTH * WIDTH * 4 }, (_, n) => (changes[n] ?? 0) + (n % 200));
   return { width: WIDTH, height: WIDTH, bytes };

@@ -1,4 +1,4 @@
-/** Compressed slices of which some bytes are others: read or refused, never a hang, and the next series is read as before. */
+/** Damaged compressed slices are read or rejected, never hang, and do not affect the next series. */
 import { readFileSync } from 'node:fs';
 import { describe, expect, test } from 'vitest';
 import { changed, file } from './made';

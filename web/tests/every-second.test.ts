@@ -15,11 +15,10 @@ class Closable extends Memory {
   close(): void {}
 }
 
-/** The world position of an index. */
 const placed = (affine: readonly (readonly number[])[], index: readonly number[]) =>
   affine.slice(0, 3).map((row) => row.reduce((sum, value, a) => sum + value * (index[a] ?? 1), 0));
 
-/** Streams the voxels 0, 1, 2 … of a grid in pieces of random length; gives what was kept. */
+/** Streams the voxels 0, 1, 2 … in pieces of random length; returns what was kept. */
 function streamed(size: [number, number, number], dtype: keyof typeof ARRAYS, unit: number): Memory {
   const memory = new Closable();
   const sink = new EverySecond(memory);
@@ -30,7 +29,6 @@ function streamed(size: [number, number, number], dtype: keyof typeof ARRAYS, un
   const next = random(count);
   for (let at = 0; at < count; ) {
     const end = Math.min(count, at + 1 + Math.floor(next() * 1.7 * size[0]));
-    // As a part of a larger piece its bytes begin anywhere.
     const piece = new Uint8Array(1 + (end - at) * unit).subarray(1);
     piece.set(bytes.subarray(at * unit, end * unit));
     sink.take_voxels(at * unit, piece);

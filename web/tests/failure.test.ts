@@ -26,7 +26,7 @@ test('the place of a failure and the value there survive it too', () => {
 
 test('the end of the module is a crash, also after it was told from the worker to the page', () => {
   const crash = Failure.of(new WebAssembly.RuntimeError('memory access out of bounds'));
-  expect([crash.kind, crash.found]).toEqual([CRASH, 'that it has stopped: memory access out of bounds']);
+  expect([crash.kind, crash.found]).toEqual([CRASH, 'a crash: memory access out of bounds']);
   expect(crash.mending).toContain('save the session');
   expect(Failure.of(new Error(crash.text))).toEqual(crash);
   expect(Failure.of(new RangeError('too long')).kind).toBe('unexpected');

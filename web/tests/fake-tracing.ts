@@ -1,4 +1,4 @@
-/** An engine in the place of the worker's, whose vessels are straight between clicks, and which notes what it is asked. */
+/** A fake engine with straight vessels between clicks; it records its questions. */
 import type { Answer, Asked, Message, Question } from '../src/core/asked';
 import { Failure } from '../src/core/failure';
 import type {
@@ -16,25 +16,21 @@ import type {
   VesselDocument,
 } from '../src/core/messages';
 
-/** Where the fake has no lumen: below this z (mm). */
+/** The fake has no lumen below this z (mm). */
 export const FLOOR = -50;
 
 export class FakeTracing implements Asked {
   readonly lines: LineContent[] = [];
   readonly edits: EditRequest[] = [];
   readonly shown: (readonly ListedLine[])[] = [];
-  /** What was odd about each edit. */
   notes: readonly string[] = [];
-  /** Edits and trees wait for this. */
+  /** Delays edits and trees. */
   gate: Promise<void> = Promise.resolve();
-  /** The windows of what is shown. */
   windows: Report['windows'] = null;
   private lastId = 100;
 
-  /** The names of the questions, in their order. */
   readonly trips: Question[] = [];
 
-  /** Questions are answered by the methods of their names. */
   ask<N extends Question>(name: N, message: Message<N>): Promise<Answer<N>> {
     this.trips.push(name);
     return (this as unknown as Answering)[name](message) as Promise<Answer<N>>;
@@ -50,7 +46,6 @@ export class FakeTracing implements Asked {
     return this.lines.length - 1;
   }
 
-  /** Every section lies at its mm along z. */
   async across({ at }: Message<'across'>): Promise<Answer<'across'>> {
     return [
       [0, 0, at],
@@ -67,7 +62,7 @@ export class FakeTracing implements Asked {
     return NOTHING;
   }
 
-  /** The least that the page relies on: clicks come and go, straight lines follow, and a click below the floor needs a bridge. */
+  /** Minimal edits: clicks, straight lines, and a bridge below the floor. */
   async edit(request: EditRequest): Promise<AfterEdit> {
     const edited = await this.made(request);
     const { vessels } = edited.document;
@@ -178,7 +173,6 @@ export class FakeTracing implements Asked {
 
 type Answering = Readonly<Record<Question, (message: unknown) => Promise<unknown>>>;
 
-/** The report of a study with vessels of 10 mm. */
 export function reportOf(lines: readonly NamedLine[]): Report {
   const volume = {
     size: [1, 1, 1],
@@ -198,12 +192,11 @@ function vesselOf(id: number): DocumentVessel {
   return { id, line: id, name: `n${id}`, color: '#ffffff', isHidden: false, clicks: null, doubt: null };
 }
 
-/** A document with vessels that have these lines; their ids are those of their places, from 1. */
+/** Vessels with these lines; ids count from 1. */
 export function documentOf(...lines: readonly number[]): VesselDocument {
   return { ...NOTHING, vessels: lines.map((line, n) => ({ ...vesselOf(n + 1), line, name: `n${line}` })) };
 }
 
-/** A document with one more vessel for each line. */
 export function withLines<T extends VesselDocument>(document: T, ...lines: readonly number[]): T {
   const first = Math.max(0, ...document.vessels.map((vessel) => vessel.id)) + 1;
   const added = lines.map((line, n) => ({ ...vesselOf(first + n), line, name: '' }));

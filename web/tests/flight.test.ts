@@ -7,11 +7,11 @@ import { destination, flyTo } from '../src/state/flight';
 import * as store from '../src/state/store';
 import { CAMERA } from './helpers';
 
-const AWAY = turnedAbout({ ...CAMERA, pixel_spacing: 0.25 }, [0, 0, 0], [0, 0, 1], 1);
+const TURNED_CAMERA = turnedAbout({ ...CAMERA, pixel_spacing: 0.25 }, [0, 0, 0], [0, 0, 1], 1);
 
-/** What the engine was asked for, and the views that it tells: they tell themselves apart by what is in their middle. */
+/** Requests and views; each view is identified by its centre. */
 let asked: Message<'flight'>[] = [];
-const told = ({ from, to, views }: Message<'flight'>): Camera[] =>
+const viewsOf = ({ from, to, views }: Message<'flight'>): Camera[] =>
   Array.from({ length: views }, (_, n) => ({ ...(n < views - 1 ? from : to), center: [n, 0, 0] }));
 let answer: () => Promise<Camera[]>;
 const engine: Asked = {
@@ -20,7 +20,6 @@ const engine: Asked = {
     return answer() as Promise<Answer<N>>;
   },
 };
-/** Lets the answer come. */
 const answered = () => new Promise<void>((done) => setTimeout(done, 0));
 
 describe('a flight', () => {
@@ -35,7 +34,7 @@ describe('a flight', () => {
 
   beforeEach(() => {
     [now, steps, asked] = [0, [], []];
-    answer = () => Promise.resolve(asked.slice(-1).flatMap(told));
+    answer = () => Promise.resolve(asked.slice(-1).flatMap(viewsOf));
     vi.spyOn(performance, 'now').mockImplementation(() => now);
     vi.stubGlobal('requestAnimationFrame', (step: FrameRequestCallback) => steps.push(step));
     vi.stubGlobal('window', { matchMedia: () => ({ matches: false }) });
@@ -51,10 +50,10 @@ describe('a flight', () => {
   });
 
   test('shows the views of the engine at their times, in less than half a second, and leads to nowhere else', async () => {
-    flyTo(engine, AWAY);
-    expect(destination.value).toBe(AWAY);
+    flyTo(engine, TURNED_CAMERA);
+    expect(destination.value).toBe(TURNED_CAMERA);
     await answered();
-    expect(asked).toEqual([{ from: CAMERA, to: AWAY, views: 49 }]);
+    expect(asked).toEqual([{ from: CAMERA, to: TURNED_CAMERA, views: 49 }]);
     for (const [at, view] of [
       [0, 0],
       [100, 12],
@@ -66,12 +65,12 @@ describe('a flight', () => {
       expect(store.camera.value).toEqual({ ...CAMERA, center: [view, 0, 0] });
     }
     pass(300);
-    expect(store.camera.value).toEqual(AWAY);
+    expect(store.camera.value).toEqual(TURNED_CAMERA);
     expect([destination.value, steps.length]).toEqual([null, 0]);
   });
 
   test('goes on where its pane changes its size, also before the engine has answered', async () => {
-    flyTo(engine, AWAY);
+    flyTo(engine, TURNED_CAMERA);
     store.camera.value = { ...CAMERA, size: [200, 150], pixel_spacing: 2 * CAMERA.pixel_spacing };
     await answered();
     pass(100);
@@ -79,13 +78,13 @@ describe('a flight', () => {
     const camera = store.camera.value ?? CAMERA;
     store.camera.value = { ...camera, size: [400, 300], pixel_spacing: 0.5 * camera.pixel_spacing };
     pass(400);
-    expect(store.camera.value).toEqual(AWAY);
+    expect(store.camera.value).toEqual(TURNED_CAMERA);
   });
 
   test.each([true, false])(
     'ends where something else moves the camera; after the answer: %s',
     async (isLate) => {
-      flyTo(engine, AWAY);
+      flyTo(engine, TURNED_CAMERA);
       if (isLate) {
         await answered();
         pass(100);
@@ -101,7 +100,7 @@ describe('a flight', () => {
   );
 
   test('gives way to a later one', async () => {
-    flyTo(engine, AWAY);
+    flyTo(engine, TURNED_CAMERA);
     const last = { ...CAMERA, pixel_spacing: 1 };
     flyTo(engine, last);
     await answered();
@@ -113,7 +112,7 @@ describe('a flight', () => {
   test('is none where the engine refuses it, and the page says why', async () => {
     store.report.value = { volume: null, vessels: [], windows: null };
     answer = () => Promise.reject(new Failure('camera', 'size of the flight', 'two', 'one'));
-    flyTo(engine, AWAY);
+    flyTo(engine, TURNED_CAMERA);
     await answered();
     expect([store.camera.value, destination.value, steps.length]).toEqual([CAMERA, null, 0]);
     expect(store.problem.value?.subject).toBe('size of the flight');
@@ -123,8 +122,8 @@ describe('a flight', () => {
   test.each([true, false])('is none where the view turns already, or no motion is wanted', (isTurning) => {
     store.isTurning.value = isTurning;
     vi.stubGlobal('window', { matchMedia: () => ({ matches: !isTurning }) });
-    flyTo(engine, { ...AWAY, size: [200, 150], pixel_spacing: 0.5 });
-    expect(store.camera.value).toEqual(AWAY);
+    flyTo(engine, { ...TURNED_CAMERA, size: [200, 150], pixel_spacing: 0.5 });
+    expect(store.camera.value).toEqual(TURNED_CAMERA);
     expect([asked, steps]).toEqual([[], []]);
   });
 });

@@ -8,7 +8,7 @@ import { CAMERA } from './helpers';
 const VIEW: View = { camera: CAMERA, method: 'csr', settings: { levels: 3 } };
 const other = (x: number): View => ({ ...VIEW, camera: { ...CAMERA, center: [x, 0, 0] } });
 
-/** An engine whose pictures take `time(view)` ms, that fails at once for NaN and after a time below 0, and that stops at once where it is told to. */
+/** Frames take `time(view)` ms; NaN fails at once, negative values fail after that time; stops immediately. */
 class FakeEngine {
   readonly asked: View[] = [];
   underWay = 0;
@@ -267,7 +267,7 @@ test('the first picture of a device may be slow: only the next one tells whether
   expect(stages()).toEqual(['moving', 'full']);
   for (const [pictures, expected] of [
     [1, ['moving', 'full', 'full', 'samples']],
-    // One that goes on to be slow is not drawn again and again.
+    // A persistently slow view is not redrawn repeatedly.
     [9, ['moving', 'full', 'full']],
   ] as const) {
     shown = [];

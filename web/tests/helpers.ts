@@ -1,9 +1,8 @@
-/** What several tests share. */
+/** Shared test helpers. */
 import { expect } from 'vitest';
 import type { Camera, Vector } from '../src/core/messages';
 import { cross, dot, length } from '../src/core/vectors';
 
-/** A camera from the front. */
 export const CAMERA: Camera = {
   center: [10, -20, 30],
   direction: [0, 1, 0],
@@ -19,7 +18,6 @@ export function expectNear(found: readonly number[], expected: readonly number[]
   });
 }
 
-/** Refuses axes that are not unit vectors at right angles. */
 export function expectOrthonormal(direction: Vector, up: Vector, digits = 12): void {
   expect(length(direction)).toBeCloseTo(1, digits);
   expect(length(up)).toBeCloseTo(1, digits);
@@ -27,7 +25,7 @@ export function expectOrthonormal(direction: Vector, up: Vector, digits = 12): v
   expect(length(cross(direction, up))).toBeCloseTo(1, digits);
 }
 
-/** Numbers in [0, 1) that are the same in every run (mulberry32). */
+/** Reproducible numbers in [0, 1) (mulberry32). */
 export function random(seed: number): () => number {
   let state = seed;
   return () => {

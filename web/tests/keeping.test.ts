@@ -1,4 +1,4 @@
-/** The session is kept over a reload only where the reader allows it. */
+/** The session is kept over a reload only if the user allows it. */
 import { afterEach, beforeEach, expect, test, vi } from 'vitest';
 import { followKeeping, isKeeping, kept } from '../src/session/keeping';
 import { EMPTY } from '../src/state/document';
@@ -46,7 +46,6 @@ test('with leave a change is kept, and is offered after a reload; what is saved 
   change('add', withLines(document_.value, 1));
   await later();
   expect(sessions()).toEqual(['session of 1']);
-  // The page is loaded anew, and the scan is opened again.
   begin(EMPTY);
   end();
   held.set('lumencut-session', 'session of 1');

@@ -1,4 +1,4 @@
-/** What was not saved is not lost unasked. */
+/** Unsaved work is not lost without a question. */
 import { beforeEach, expect, test } from 'vitest';
 import { EMPTY } from '../src/state/document';
 import { begin, change, document_, markSaved, undo } from '../src/state/history';

@@ -1,19 +1,19 @@
-/** Which line of a place a drag takes hold of. */
+/** Which place line a drag grabs. */
 import { expect, test, vi } from 'vitest';
-import { HIT, nearestLine } from '../src/measure/line-grips';
-import type { Place } from '../src/measure/marks';
+import { GRAB_DISTANCE_PX, nearestLine } from '../src/measure/line-grips';
+import type { VesselPlace } from '../src/measure/marks';
 
-// The page's own engine runs in a worker, which there is none of here.
+// The page's engine needs a worker, which tests lack.
 vi.mock('../src/client/shared', () => ({ engine: {} }));
 
-const place = (at: number): Place => ({ kind: 'place', slot: 0, at, isSuggestion: false });
-/** 10 pixels for each mm, from pixel 5. */
+const place = (at: number): VesselPlace => ({ kind: 'place', slot: 0, at, isSuggestion: false });
+/** 10 pixels per mm, from pixel 5. */
 const AXIS = { low: 0, high: 60, start: 5, end: 605 };
 
 test('a line is taken within 22 pixels, of two the one that is nearer, and none from farther away', () => {
   const places = [place(30), place(33)];
-  expect(nearestLine(places, AXIS, 305 - HIT)?.at).toBe(30);
-  expect(nearestLine(places, AXIS, 305 - HIT - 1)).toBeNull();
+  expect(nearestLine(places, AXIS, 305 - GRAB_DISTANCE_PX)?.at).toBe(30);
+  expect(nearestLine(places, AXIS, 305 - GRAB_DISTANCE_PX - 1)).toBeNull();
   expect(nearestLine(places, AXIS, 319)?.at).toBe(30);
   expect(nearestLine(places, AXIS, 321)?.at).toBe(33);
   expect(nearestLine([], AXIS, 305)).toBeNull();

@@ -1,4 +1,4 @@
-/** The lumens under the pointer: the nearest one is meant first, and the wheel steps through them. */
+/** Lumens under the pointer: the nearest first, and stepping by the wheel. */
 import { beforeEach, expect, test } from 'vitest';
 import type { Asked } from '../src/core/asked';
 import type { PointedAt, PointedLumen, Vector } from '../src/core/messages';

@@ -1,4 +1,4 @@
-/** Small files made here, and ways to damage them. */
+/** Small test files, and ways to damage them. */
 import { deflateRawSync, gzipSync } from 'node:zlib';
 import { BlobSource, type Source } from '../src/io/source';
 
@@ -6,7 +6,7 @@ export function file(path: string, bytes: Uint8Array | string): Source {
   return new BlobSource(path, new Blob([bytes as Uint8Array<ArrayBuffer>]));
 }
 
-/** A NIfTI-1 file of 16-bit numbers that count from 0, with a header of these fields instead. */
+/** A NIfTI-1 file of 16-bit numbers counting from 0, with a stated size. */
 export function nifti(size: readonly [number, number, number] = [7, 5, 3], stated = size): Buffer {
   const header = Buffer.from(new ArrayBuffer(352));
   header.writeInt32LE(348, 0);
@@ -27,14 +27,12 @@ export function gzipped(bytes: Uint8Array): Buffer {
   return gzipSync(bytes);
 }
 
-/** A copy with one byte changed. */
 export function changed(bytes: Uint8Array, at: number): Buffer {
   const copy = Buffer.from(bytes);
   copy[at] = (copy[at] ?? 0) ^ 0xff;
   return copy;
 }
 
-/** A zip archive of one member, which claims to unpack to `claimed` bytes. */
 export function archived(name: string, bytes: Uint8Array, claimed = bytes.length): Buffer {
   const packed = deflateRawSync(bytes);
   const fields = Buffer.alloc(26);
@@ -71,7 +69,7 @@ function crc32(bytes: Uint8Array): number {
   return ~sum >>> 0;
 }
 
-/** The elements of a plain DICOM slice of 16-bit numbers, without preamble. */
+/** A DICOM slice of 16-bit numbers, without preamble. */
 export function slice(changes: Readonly<Record<string, string | number>> = {}, z = 0): Buffer {
   const stated: Record<string, readonly [string, string | number]> = {
     '00080016': ['UI', '1.2.840.10008.5.1.4.1.1.2'],

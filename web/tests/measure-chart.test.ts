@@ -1,7 +1,7 @@
-/** The axes of a profile, its curves and its flags; the lying vessel on the same axis. */
+/** Profile axes, curves and flags, with the horizontal vessel on the same axis. */
 import { describe, expect, test } from 'vitest';
 import { axisAlong, chartLayout, LEFT, RIGHT } from '../src/measure/chart-layout';
-import { bandPath, counted, linePath, lonely, spreadOf, stretches, topOf } from '../src/measure/curves';
+import { bandPath, counted, isolated, linePath, spreadOf, stretches, topOf } from '../src/measure/curves';
 import { flagsIn, runs } from '../src/measure/flags';
 import { lyingBox, lyingIn, lyingPicture } from '../src/measure/lying';
 import { pixelAt, ticks, valueAt } from '../src/measure/scale';
@@ -59,7 +59,7 @@ describe('curves', () => {
   });
 
   test('sections that stand alone are dots', () => {
-    expect(lonely([1, null, 2, null, null])).toEqual([0, 2]);
+    expect(isolated([1, null, 2, null, null])).toEqual([0, 2]);
     expect(linePath(...axes, places, [1, null, 2, null, null])).toBe('');
   });
 
@@ -76,7 +76,6 @@ describe('curves', () => {
     const [low, high] = spreadOf(profile);
     expect(low[20]).toBeCloseTo(7.8, 12);
     expect(high[20]).toBeCloseTo(8.2, 12);
-    // Sections that do not count have none.
     expect(low[118]).toBeNull();
   });
 
@@ -139,7 +138,7 @@ describe('the lying vessel', () => {
   test('the middle of each column is at the arc length of its row in the CPR', () => {
     const x = axisAlong(60, 900);
     const lying = lyingIn(x, { height: 150, density: 2, fitting: 22 });
-    // As the engine lays it out: a row every `spacing` mm, the first one at the first point.
+    // The engine's layout: a row every `spacing` mm, starting at the first point.
     const columns = Math.floor(60 / lying.spacing + 1e-9) + 1;
     const box = lyingBox(x, lying, [columns, 41]);
     const pixel = box.width / columns;

@@ -1,4 +1,4 @@
-/** What a reader marks on a vessel, and what is suggested meanwhile. */
+/** Marks of a user, and suggestions. */
 import { describe, expect, test } from 'vitest';
 import type { Pair, Vector } from '../src/core/messages';
 import {
@@ -6,13 +6,13 @@ import {
   comparedIn,
   moved,
   NOTHING_SUGGESTED,
-  type Place,
   placeAfter,
   placesOf,
   referenceSlots,
   removed,
   type Suggested,
   stretchAround,
+  type VesselPlace,
   withDiameter,
   withReference,
   withStretch,
@@ -29,9 +29,9 @@ const SUGGESTED: Suggested = [
   { at: 45, diameter: 8 },
 ];
 const found = (given: ReturnType<typeof marks>, suggested = SUGGESTED) => placesOf(profile, given, suggested);
-const short = (places: readonly Place[]) =>
+const short = (places: readonly VesselPlace[]) =>
   places.map(({ kind, slot, at, isSuggestion }) => `${kind} ${slot} ${at}${isSuggestion ? '?' : ''}`);
-function place(given: ReturnType<typeof marks>, kind: string, slot = 0): Place {
+function place(given: ReturnType<typeof marks>, kind: string, slot = 0): VesselPlace {
   const one = found(given).find((each) => each.kind === kind && each.slot === slot);
   if (!one) {
     throw new Error(`no ${kind} ${slot}`);
@@ -235,7 +235,7 @@ describe('sections', () => {
   });
 
   test('where the vessel crosses itself the place stays on its side of the loop', () => {
-    // Seen from the end of a bend: 20 mm and 40 mm lie at the same pixel.
+    // Seen along a bend: 20 mm and 40 mm share a pixel.
     const seen = ([, , z]: Vector): Pair => [200 - 10 * Math.abs(z - 30), 0];
     expect(seenNearest(profile, seen, [100, 2], 23)).toBe(20);
     expect(seenNearest(profile, seen, [100, 2], 37)).toBe(40);

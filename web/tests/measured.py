@@ -14,7 +14,7 @@ from lumencut import Profile, Vessel, _lumencut, measure, phantom
 from lumencut.measured_vessel import Marked, MeasuredVessel, vessels_csv, vessels_json
 from lumencut.profile_sections import counts, flag_words, nearest
 
-#: Where the first vessel is asked, in parts of its length.
+#: Positions on the first vessel, as shares of its length.
 PLACE, BEFORE, AFTER = 0.4, 0.03, 0.995
 
 

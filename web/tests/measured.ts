@@ -1,8 +1,8 @@
-/** A vessel that is measured, made by formulas. */
+/** A synthetic measured vessel. */
 import type { Profile, Vector } from '../src/core/messages';
 import { NO_MARKS, type VesselMarks } from '../src/state/document';
 
-/** So many mm long, with a section every 0.5 mm; 8 mm wide but for 4 mm at the middle, and not measured in its first 1 mm. */
+/** Sections every 0.5 mm; 8 mm wide, 4 mm in the middle; the first 1 mm is not measured. */
 export function madeProfile(length = 60): Profile {
   const places = Array.from({ length: 2 * length + 1 }, (_, n) => n / 2);
   const width = (at: number) => (Math.abs(at - length / 2) < 4 ? 4 : 8);

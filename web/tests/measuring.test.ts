@@ -1,4 +1,4 @@
-/** What the page measures is what the Python package measures (`measured.py`). */
+/** The page measures the same as the Python package (`measured.py`). */
 import { spawnSync } from 'node:child_process';
 import { existsSync } from 'node:fs';
 import { join } from 'node:path';
@@ -8,7 +8,7 @@ import type { MeasuredVessel, Pair, Profile } from '../src/core/messages';
 import { NO_MARKS } from '../src/state/document';
 import { opened } from './traced';
 
-/** Two compilers round sums and sines differently: by parts of a number, or of a mm. */
+/** Rounding of sums and sines differs between compilers: relative, or in mm. */
 const ROUNDING = 1e-9;
 
 interface Truth {
@@ -22,7 +22,6 @@ interface Truth {
 const here = import.meta.dirname;
 const python = join(here, '../../.venv/bin/python');
 
-/** What Python measured. */
 function truth(phantom: string): Truth {
   const done = spawnSync(python, [join(here, 'measured.py'), phantom], {
     encoding: 'utf-8',
@@ -34,7 +33,7 @@ function truth(phantom: string): Truth {
   return JSON.parse(done.stdout);
 }
 
-/** Where two values of JSON differ by more than rounding; empty where nowhere. */
+/** Where two JSON values differ by more than rounding; empty if nowhere. */
 function apart(found: unknown, expected: unknown, path = ''): string {
   if (typeof found === 'number' && typeof expected === 'number') {
     const most = ROUNDING * Math.max(1, Math.abs(expected));
@@ -52,7 +51,6 @@ function apart(found: unknown, expected: unknown, path = ''): string {
   return found === expected ? '' : `${path}: ${found}, not ${expected}`;
 }
 
-/** The fields of a table, each as a number where it is one. */
 function fields(table: string): (number | string)[] {
   const words = table.split(/[,\n]/);
   return words.map((word) => (word === '' || Number.isNaN(Number(word)) ? word : Number(word)));
@@ -60,7 +58,6 @@ function fields(table: string): (number | string)[] {
 
 const withoutNumbers = (json: string) => json.replace(/-?\d+\.\d+(e[+-]?\d+)?/g, '0');
 
-/** What the first vessel answers, by the names that `measured.py` has. */
 async function answers(engine: Asked, line: number, length: number, { at, references }: Truth['asked']) {
   const { stenosis: graded } = await engine.ask('grade', {
     line,
@@ -74,7 +71,7 @@ async function answers(engine: Asked, line: number, length: number, { at, refere
     at: graded?.at,
     references: graded?.references.map((spot) => spot.at),
     percent: graded?.percent,
-    // A percentage and its doubts are one line in Python.
+    // Percentage and doubts are one line in Python.
     words: [graded?.words, graded?.doubts.join(' ')].filter(Boolean).join('. '),
     doubts: await engine.ask('doubts', { line, compared: { at, references, method: 'area' } }),
     suggested: spots.map((spot) => spot && { arc_length: spot.at, diameter: spot.diameter }),
@@ -93,7 +90,6 @@ async function answers(engine: Asked, line: number, length: number, { at, refere
   };
 }
 
-/** The report of a vessel, with pictures that show nothing. */
 async function reported(engine: Asked, vessel: MeasuredVessel, length: number): Promise<string> {
   const { places } = await engine.ask('report_plan', vessel);
   return engine.ask('measured_report', {
@@ -115,7 +111,7 @@ async function reported(engine: Asked, vessel: MeasuredVessel, length: number): 
   });
 }
 
-/** The words of a report in their order, but for the view that the page alone shows, and the date. */
+/** Text of a report, without the page's view and the date. */
 function textOf(report: string): string[] {
   const body = report.slice(report.indexOf('<body>'));
   const words = body.split(/<[^>]*>/).map((text) => text.replace('; view CSR', '').trim());

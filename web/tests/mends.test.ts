@@ -1,11 +1,10 @@
-/** Every mend has words of the page, and none of them is Python. */
+/** Every mend is worded for the page, without Python terms. */
 import { readdirSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { expect, test } from 'vitest';
 import { Failure } from '../src/core/failure';
 import { MEND_NAMES, type MendName, mendWords } from '../src/core/mends';
 
-/** What mends can be chosen among. */
 const VALUES: Partial<Record<MendName, readonly string[]>> = {
   coordinates: ['lps', 'ras'],
   place: ['lps', 'ras'],
@@ -13,7 +12,7 @@ const VALUES: Partial<Record<MendName, readonly string[]>> = {
   unit: ['cm', 'dm'],
   phase: ['0', '400'],
 };
-/** An argument of Python that is given or named, such as `fill_gaps=True`, `coordinates=` or `window`. */
+/** A Python argument, such as `fill_gaps=True`, `coordinates=` or `window`. */
 const PYTHON = /\w=|`\w+_\w+`|=True/;
 
 test.each(MEND_NAMES)('%s is worded by the page', (name) => {

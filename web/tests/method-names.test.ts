@@ -1,4 +1,4 @@
-/** The words of methods are those of the engine. */
+/** Method names agree with the engine. */
 import { spawnSync } from 'node:child_process';
 import { join } from 'node:path';
 import { expect, test } from 'vitest';

@@ -1,4 +1,4 @@
-/** What the page of a notebook asks the kernel for: `asking.js` of the Python package, which is no module of this page. */
+/** Requests of the notebook page to the kernel: `asking.js` of the Python package. */
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
@@ -28,7 +28,6 @@ let sent: Asked[] = [];
 let told: string[] = [];
 let asker: Asker;
 
-/** What was sent last. */
 function last(): Asked {
   const asked = sent.at(-1);
   if (!asked) {
@@ -104,7 +103,7 @@ describe('what a notebook asks its kernel for', () => {
     vi.advanceTimersByTime(8500);
     expect(told.at(-1)).toContain('run the cell again');
     expect(told).toHaveLength(2);
-    // An answer that comes late shows its picture, and a lost one keeps nothing from being asked.
+    // A late answer is shown, and a lost one blocks nothing.
     expect(asker.answered(last().id)).toBeNull();
     asker.ask(['rotate', 1, 2]);
     expect(sent).toHaveLength(2);
@@ -115,7 +114,6 @@ describe('what a notebook asks its kernel for', () => {
 });
 
 describe('gestures of a notebook', () => {
-  /** The number that a file gives a name. */
   function constant(file: string, name: string): number {
     const text = readFileSync(join(import.meta.dirname, file), 'utf-8');
     const found = new RegExp(`^(?:export const |const |_)?${name} = ([\\d.e-]+)`, 'm').exec(text);

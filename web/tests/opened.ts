@@ -1,4 +1,4 @@
-/** Files opened by the page's readers, with a volume in plain memory in the engine's place. */
+/** Opens files with the page's readers, into plain memory. */
 import { readdirSync, readFileSync, statSync } from 'node:fs';
 import { join, relative } from 'node:path';
 import { fileURLToPath } from 'node:url';
@@ -24,7 +24,6 @@ export interface Header {
 
 const modules = fileURLToPath(new URL('../node_modules', import.meta.url));
 
-/** What takes the volume. */
 export class Memory {
   header: Header | null = null;
   lines = '';
@@ -54,7 +53,6 @@ export class Memory {
   }
 }
 
-/** What came of opening: a volume, or why there is none. */
 export interface Result {
   readonly memory: Memory;
   readonly states: States | null;
@@ -62,7 +60,7 @@ export interface Result {
   readonly failure: Failure | null;
 }
 
-// The page fetches its decoders from its own server; here they are files.
+// The page fetches decoders from its server; here they are files.
 vi.stubGlobal('fetch', async (address: string) => {
   return new Response(readFileSync(address.replace(/^\/node_modules/, modules)));
 });
@@ -74,14 +72,13 @@ export function sourceOf(path: string, name: string): Source {
   return new BlobSource(name, new Blob([readFileSync(path)]));
 }
 
-/** All files below a folder. */
 export function below(folder: string): Source[] {
   const every = readdirSync(folder, { recursive: true }).map((name) => join(folder, String(name)));
   const files = every.filter((path) => statSync(path).isFile());
   return files.map((path) => sourceOf(path, relative(join(folder, '..'), path)));
 }
 
-/** Opens sources as the page does; `others` may be named by them. */
+/** Opens sources as the page does; they may name `others`. */
 export async function openSources(
   sources: readonly Source[],
   { others = sources, wanted = {}, signal = new AbortController().signal }: Options = {},

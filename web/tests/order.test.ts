@@ -1,9 +1,9 @@
-/** In which order work runs: `Latest` and `Queue`. */
+/** The order of tasks in `Latest` and `Queue`. */
 import { describe, expect, test } from 'vitest';
 import { Latest } from '../src/core/latest';
 import { Queue } from '../src/worker/queue';
 
-/** Work that ends when it is told to. */
+/** A task that ends on command. */
 function held(name: string, log: string[]) {
   let release: () => void = () => undefined;
   const ended = new Promise<void>((resolve) => {

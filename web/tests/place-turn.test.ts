@@ -20,7 +20,7 @@ import { tool } from '../src/state/tool';
 import { CAMERA, expectNear } from './helpers';
 
 const FIRST: Camera = { ...CAMERA, center: [5, 6, 7], pixel_spacing: 0.1 };
-/** 10 mm at first, 1 mm less every ten degrees, to 2 mm at 80 and 90 degrees; none at 100. */
+/** 10 mm, 1 mm less every 10°, down to 2 mm at 80° and 90°; null at 100°. */
 const DIAMETERS = Array.from({ length: 180 }, (_, n) =>
   n === 100 ? null : 10 - Math.floor(Math.min(n, 179 - n) / 10),
 );
@@ -40,7 +40,6 @@ const shown = (line: number): Report => ({
   windows: null,
 });
 
-/** What the engine was asked, and how it answers. */
 let questions: unknown[] = [];
 let answer: () => Promise<unknown>;
 const engine: Asked = {
@@ -54,7 +53,7 @@ let end: () => void;
 beforeEach(() => {
   questions = [];
   answer = () => Promise.resolve({ camera: FIRST, diameters: DIAMETERS });
-  // No motion is wanted, so that each view is there at once.
+  // Reduced motion, so that each view appears at once.
   vi.stubGlobal('window', { matchMedia: () => ({ matches: true }) });
   placeTurn.value = null;
   tool.value = 'look';
@@ -113,7 +112,7 @@ describe('a turn', () => {
     turnTo(90);
     const camera = store.camera.value;
     expectNear(pixelOf(camera, FIRST.center), before, 9);
-    // From the front the viewer moves to the patient's left, and looks to the right: as the engine turns.
+    // From the front, the viewer moves to the patient's left and looks right, like the engine.
     expectNear(camera.direction, [-1, 0, 0], 12);
     expect(placeTurn.value).toMatchObject({ angle: 90, least: 2, largest: 10 });
   });
@@ -136,7 +135,6 @@ describe('a turn', () => {
   test('is put back to its first view by Escape where a drag began before that was reached', async () => {
     vi.stubGlobal('window', { matchMedia: () => ({ matches: false }) });
     const turn = { camera: FIRST, diameters: DIAMETERS };
-    // The views of the flight are not there yet.
     answer = () => (questions.length > 1 ? new Promise(() => undefined) : Promise.resolve(turn));
     await togglePlaceTurn(engine);
     expect([store.camera.value, destination.value]).toEqual([CAMERA, FIRST]);

@@ -2,7 +2,7 @@ import { afterEach, beforeEach, describe, expect, test, vi } from 'vitest';
 import type { Where } from '../src/input/bindings';
 import { type Handlers, listen } from '../src/input/pointer';
 
-/** An element with its top left at (100, 50), and what its handlers were called with. */
+/** An element at (100, 50) that records its handler calls. */
 class Pane extends EventTarget {
   readonly captured: number[] = [];
 
@@ -50,7 +50,6 @@ afterEach(() => {
   vi.unstubAllGlobals();
 });
 
-/** Sends an event with its place in the element. */
 function send(type: string, [x, y]: readonly [number, number] = [0, 0], more: object = {}): Event {
   const event = new Event(type, { cancelable: true });
   const fields = {
@@ -251,7 +250,7 @@ describe('wheel', () => {
     wheel(100, { altKey: true });
     expect([handlers.step.mock.calls, handlers.zoom.mock.calls]).toEqual([[[1]], []]);
     expect(handlers.leave).not.toHaveBeenCalled();
-    // What turns or zooms a view changes what is under the pointer.
+    // Turning or zooming changes what is under the pointer.
     wheel(100);
     expect([handlers.zoom.mock.calls.length, handlers.leave.mock.calls.length]).toEqual([1, 1]);
     Object.assign(handlers, { rows: undefined });

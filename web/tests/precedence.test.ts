@@ -1,7 +1,7 @@
 import { afterEach, beforeEach, expect, test, vi } from 'vitest';
 import { Precedence } from '../src/core/precedence';
 
-/** A worker that does one piece of work after the other, and whose views can be stopped. */
+/** A sequential worker with views that can be stopped. */
 class FakeWorker {
   stops = 0;
   private last: Promise<unknown> = Promise.resolve();

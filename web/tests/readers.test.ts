@@ -1,4 +1,4 @@
-/** The page's readers against Python's, on made files and on real ones. */
+/** The page's readers agree with Python's, on synthetic and real files. */
 import { statSync } from 'node:fs';
 import { relative } from 'node:path';
 import { describe, expect, test } from 'vitest';
@@ -7,19 +7,18 @@ import { type Expected, everyTruth, refusedLike, sameVolume } from './truth';
 
 const truths = everyTruth();
 
-/** What Python reads and the page does not: there is no decoder of it that is free and small. */
+/** Supported by Python only: there is no small free decoder. */
 const NOT_READ: Readonly<Record<string, RegExp>> = {
   'JPEG extended, 12 bits': /^JPEG Extended of 1\d bits$/,
 };
 
-/** Opens what Python read; files beside it may be named by it. */
+/** Opens what Python read; it may name neighbouring files. */
 function opened({ path, folder, kind, wanted = {} }: Expected): Promise<Result> {
   const isFolder = statSync(path).isDirectory();
   const sources = isFolder ? below(path) : [sourceOf(path, relative(`${folder}/..`, path))];
   return openSources(sources, { others: kind === 'volume' ? below(folder) : sources, wanted });
 }
 
-/** A series of real size takes seconds where the machine is busy. */
 const LONGEST = 60_000;
 
 describe.skipIf(truths.length === 0)('read as Python reads', { timeout: LONGEST }, () => {

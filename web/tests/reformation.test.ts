@@ -1,4 +1,4 @@
-/** What a reformation is asked with, and the words below its picture. */
+/** Requests for reformations, and captions of their pictures. */
 import { expect, test } from 'vitest';
 import { wrapped } from '../src/output/wrapping';
 import { type Chosen, REFORMATIONS, reformationOf } from '../src/state/reformation';

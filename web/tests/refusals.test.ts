@@ -1,4 +1,4 @@
-/** What cannot be read is refused with words, at once, whatever is wrong with it. */
+/** Unreadable files are rejected immediately, with an explanation. */
 import { randomBytes } from 'node:crypto';
 import { describe, expect, test } from 'vitest';
 import { archived, changed, file, gzipped, nifti, slice } from './made';

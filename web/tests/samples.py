@@ -187,7 +187,7 @@ def marked(image: Callable[..., Any]) -> Writer:
     return write
 
 
-#: Of a vessel that runs across the body and turns away from its sides.
+#: Of a vessel that runs across the body.
 MARK = "Lumencut straightened vessel; sides SPL at its middle; up to 88.5 deg off"
 GZIPPED = nifti(name="v.nii.gz")
 VOLUMES: dict[str, Writer] = {

@@ -1,7 +1,7 @@
-/** The study of a series: what is kept of it for objects that are put beside the scan. */
+/** The study data kept of a series, for objects saved with it. */
 import { expect, test } from 'vitest';
 import { series } from '../e2e/dicom';
-import { type LookedInto, lookInto } from '../src/io/dicom/headers';
+import { type ExaminedFile, examine } from '../src/io/dicom/headers';
 import type { Plan } from '../src/io/dicom/judging';
 import { Recorder } from '../src/io/dicom/records';
 import { headOf, studyOf } from '../src/io/dicom/study';
@@ -10,9 +10,8 @@ import { BlobSource } from '../src/io/source';
 const sources = series([0, 2, 4]).map(
   ({ name, buffer }) => new BlobSource(name, new Blob([new Uint8Array(buffer)])),
 );
-const read = (): Promise<LookedInto[]> =>
-  Promise.all(sources.map((source) => lookInto(source, new Recorder({ SOPInstanceUID: [] }))));
-/** A plan of the last slices alone. */
+const read = (): Promise<ExaminedFile[]> =>
+  Promise.all(sources.map((source) => examine(source, new Recorder({ SOPInstanceUID: [] }))));
 const plan = { slices: [{ file: 1 }, { file: 2 }] } as unknown as Plan;
 
 test('it has the header of one slice without its pixels, and the UIDs of all that were read', async () => {

@@ -1,4 +1,4 @@
-/** Looking for many vessels: where a tree begins, clicks meanwhile, and what is shown first of what was found. */
+/** Searching for vessels: seeds, clicks during the search, and the first view of the result. */
 import { afterEach, beforeEach, expect, test, vi } from 'vitest';
 import type { EngineClient } from '../src/client/engine';
 import type { Camera, DocumentVessel, Vector } from '../src/core/messages';
@@ -10,12 +10,12 @@ import { setPoint } from '../src/edit/pointing';
 import { toPick } from '../src/edit/shown';
 import { EMPTY } from '../src/state/document';
 import { begin, document_ } from '../src/state/history';
+import { message } from '../src/state/message';
 import * as store from '../src/state/store';
-import { told } from '../src/state/telling';
 import { tool } from '../src/state/tool';
 import { FakeTracing, withLines } from './fake-tracing';
 
-// The page's own engine runs in a worker, which there is none of here.
+// The page's engine needs a worker, which tests lack.
 vi.mock('../src/client/shared', () => ({ engine: {} }));
 
 const OPENED: Vector = [0, 0, 0];
@@ -40,7 +40,7 @@ afterEach(() => {
   store.camera.value = null;
   toPick.value = null;
   first.value = null;
-  told.value = null;
+  message.value = null;
 });
 
 test('where the reader did not put the cross-hair a click says where a tree begins', async () => {
@@ -71,7 +71,7 @@ test('clicks while vessels are looked for are no points of others, and the page 
   tool.value = 'trace';
   await setPoint(tracing, CHOSEN);
   expect(first.value).toBeNull();
-  expect(told.value).toContain('No point was set');
+  expect(message.value).toContain('No point was set');
   open();
   await finding;
   expect(searches.value).toBe(0);

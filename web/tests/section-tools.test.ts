@@ -1,4 +1,4 @@
-/** Where the buttons at the section stand, and how large the words of a key image are. */
+/** Position of the buttons at the section, and font sizes of key images. */
 import { expect, test } from 'vitest';
 import { leftOf } from '../src/measure/chart-layout';
 import { fittingSize } from '../src/output/wrapping';

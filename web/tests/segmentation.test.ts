@@ -1,4 +1,4 @@
-/** Segmentations of DICOM as masks: which files are such, and how their vessels are called. */
+/** DICOM segmentations as masks: recognition and vessel names. */
 import { expect, test } from 'vitest';
 import type { DocumentVessel } from '../src/core/messages';
 import { isSegmentation, namedBySegment } from '../src/edit/segmentation';

@@ -1,11 +1,11 @@
-/** Segmentations of 3D Slicer in the page: layers and names, and archives of which no more is unpacked than is needed. */
+/** 3D Slicer segmentations: layers and names, and archives unpacked no further than needed. */
 import { gzipSync } from 'node:zlib';
 import { describe, expect, test } from 'vitest';
 import { membersOf } from '../src/io/dicom/archive';
 import { archived, file } from './made';
 import { openSources } from './opened';
 
-/** A file of 4 × 3 × 2 voxels with some layers, whose values count over all of them. */
+/** 4 × 3 × 2 voxels with layers whose values count upwards. */
 function segmentation(lines: readonly string[], layers: readonly (readonly number[])[]): Buffer {
   const list = layers.length > 1;
   const header = [

@@ -1,7 +1,7 @@
-/** A document goes into a session file and comes back. */
+/** Round trip of a document through a session file. */
 import { describe, expect, test } from 'vitest';
 import type { Report } from '../src/core/messages';
-import { cameraOf, contentOf, documentOf, type Looked } from '../src/session/content';
+import { cameraOf, contentOf, type DisplayState, documentOf } from '../src/session/content';
 import { type Document, NO_MARKS } from '../src/state/document';
 
 const GRID = [
@@ -54,7 +54,7 @@ const DOCUMENT: Document = {
   rulers: [{ from: [0, 0, 0], to: [3, 4, 0] }],
   isOneMillimetre: false,
 };
-const LOOKED: Looked = {
+const LOOKED: DisplayState = {
   camera: {
     center: [0, 0, 0],
     direction: [0, 1, 0],
@@ -133,7 +133,6 @@ test('a camera shows as much in a pane of another size', () => {
   const camera = view && cameraOf(view, [1000, 962]);
   expect(camera?.pixel_spacing).toBeCloseTo((0.5 * 480.6) / 962, 11);
   expect(camera?.size).toEqual([1000, 962]);
-  // Saved and opened again and again in the same pane, it does not drift.
   const again = view && cameraOf(view, LOOKED.camera.size);
   expect(again?.pixel_spacing).toBeCloseTo(0.5, 11);
 });

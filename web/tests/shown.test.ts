@@ -15,7 +15,6 @@ let end: () => void;
 const shownLines = () => tracing.shown.map((lines) => lines.map(({ line }) => line));
 const add = (...lines: number[]) => change('add', withLines(document_.value, ...lines));
 
-/** All work that is under way is done. */
 const idle = () => new Promise((resolve) => setTimeout(resolve, 5));
 
 function open(...lines: number[]): void {
@@ -143,7 +142,7 @@ test('what vessels are measured among counts hidden ones too, and no doubtful on
   await hide(2, true);
   await idle();
   expect([listedLines.value, tree.value.length]).toEqual(['1,2', 1]);
-  // The line of the hidden one is another one: the vessel that is shown is measured anew.
+  // The hidden vessel's line changed, so the visible one is measured again.
   change('edit', changed(document_.value, 2, { line: 7 }));
   await idle();
   expect([listedLines.value, tree.value.length]).toEqual(['1,7', 1]);

@@ -1,18 +1,17 @@
-/** What holds of all files of the page: they are short, need each other in no circle, nor do their folders, and one file alone touches the wasm. */
+/** Rules for all page files: length, no import cycles between files or folders, and one file that touches wasm. */
 import { readdirSync, readFileSync } from 'node:fs';
 import { dirname, join, normalize } from 'node:path';
 import { describe, expect, test } from 'vitest';
 
 const SRC = join(import.meta.dirname, '../src');
 const LONGEST = 300;
-/** Written by a program, so that nobody reads it from beginning to end. */
+/** Generated, so exempt from the length limit. */
 const GENERATED = 'core/generated/';
 
 const files = readdirSync(SRC, { recursive: true, encoding: 'utf8' }).filter(
   (name) => /\.tsx?$/.test(name) && !name.startsWith('core/pkg'),
 );
 
-/** The files of the page that a file imports, also for its types alone. */
 function imported(name: string): string[] {
   const text = readFileSync(join(SRC, name), 'utf8');
   const found = [...text.matchAll(/(?:from|import)\s*\(?['"](\.[^'"]*)['"]/g)].map((match) => match[1] ?? '');
@@ -20,10 +19,9 @@ function imported(name: string): string[] {
   return paths.flatMap((path) => files.filter((file) => [path, `${path}.ts`, `${path}.tsx`].includes(file)));
 }
 
-/** The folder of a file within the sources; the first file of all lies in none. */
+/** Folder of a file within src; `main.tsx` has none. */
 const folderOf = (name: string): string => name.split(/[/\\]/).slice(0, -1)[0] ?? name;
 
-/** A circle of files that need each other; none where there is none. */
 function circle(graph: ReadonlyMap<string, readonly string[]>): string[] {
   const done = new Set<string>();
   const walk = (name: string, way: string[]): string[] => {

@@ -1,4 +1,4 @@
-/** Cleaning a tree and walking through doubtful branches, with an engine that answers at once. */
+/** Cleaning a tree and reviewing doubtful branches, with an engine that answers at once. */
 import { afterEach, beforeEach, expect, test, vi } from 'vitest';
 import type { Asked } from '../src/core/asked';
 import type { DocumentVessel, EditRequest, LineFacts, Started } from '../src/core/messages';
@@ -7,14 +7,14 @@ import { answerDoubt, countedDoubts, placeOfDoubt, reasonOf, showDoubt, stepDoub
 import { isListOpen } from '../src/edit/list-open';
 import { chosenDoubt } from '../src/edit/mode';
 import { tree } from '../src/edit/shown';
-import { apart, followFacts, keepPart, marked, reachOf, removeMarked } from '../src/edit/tidying';
+import { followFacts, keepPart, marked, reachOf, removeMarked, unconnected } from '../src/edit/tidying';
 import { isTreeShown, listedVessels } from '../src/edit/vessel-order';
 import { EMPTY } from '../src/state/document';
 import { begin, document_, undo } from '../src/state/history';
 import { pickedVessel, started } from '../src/state/store';
 import { markNone, shorterThan, thinnerThan, treeChosen } from '../src/state/tidy';
 
-// The page's own engine runs in a worker, which there is none of here.
+// The page's engine needs a worker, which tests lack.
 vi.mock('../src/client/shared', () => ({ engine: {} }));
 
 const vessel = (id: number, doubt: string | null = null): DocumentVessel => ({
@@ -26,7 +26,7 @@ const vessel = (id: number, doubt: string | null = null): DocumentVessel => ({
   clicks: null,
   doubt,
 });
-/** A trunk with two branches, and two pieces by themselves, one of them of unknown radius. */
+/** A trunk with two branches, and two separate vessels, one of unknown radius. */
 const SURE = [1, 2, 3, 4, 5].map((id) => vessel(id));
 const DOUBTFUL = [6, 7, 8].map((id) => vessel(id, `reason ${id}`));
 const FACTS: readonly LineFacts[] = [
@@ -37,7 +37,6 @@ const FACTS: readonly LineFacts[] = [
   { line: 15, length: 5, calibre: null, part: 2, parent: 11 },
 ];
 
-/** What the engine knows of vessels that are sure. */
 const factsAmong = (vessels: readonly DocumentVessel[]): readonly LineFacts[] => {
   const told = new Map(FACTS.map((one) => [one.line, one]));
   const sure = vessels.filter(({ doubt }) => doubt === null);
@@ -46,7 +45,6 @@ const factsAmong = (vessels: readonly DocumentVessel[]): readonly LineFacts[] =>
 
 const asked: string[] = [];
 
-/** Removes, accepts and leaves out as the engine does. */
 function edited({ document, edit }: EditRequest): object {
   const { kind, ids = [] } = edit as { kind: string; ids?: readonly number[] };
   const vessels =
@@ -85,7 +83,7 @@ beforeEach(async () => {
   tree.value = SURE;
   isListOpen.value = true;
   end = followFacts(engine);
-  await vi.waitFor(() => expect(apart.value.length).toBe(0));
+  await vi.waitFor(() => expect(unconnected.value.length).toBe(0));
   await Promise.resolve();
 });
 
@@ -128,11 +126,11 @@ test('a slider of limits reaches to what most vessels lie below, and no farther 
 });
 
 test('only what hangs together with the picked vessel is kept; doubtful branches stay to be judged', async () => {
-  expect(apart.value, 'none is picked').toEqual([]);
+  expect(unconnected.value, 'none is picked').toEqual([]);
   pickedVessel.value = 3;
-  expect(apart.value).toEqual([1, 2, 3, 5]);
+  expect(unconnected.value).toEqual([1, 2, 3, 5]);
   pickedVessel.value = 1;
-  expect(apart.value).toEqual([4, 5]);
+  expect(unconnected.value).toEqual([4, 5]);
   await keepPart(engine);
   expect(ids()).toEqual([1, 2, 3, 6, 7, 8]);
 });

@@ -65,7 +65,7 @@ def truth(folder: Path, scene: Any, clicks: list[list[Any]]) -> dict[str, Any]:
     branches = trace_from(volume, clicked[0][0])
     found = find_vessels(volume)
     lumen = (volume.array > 205).astype(np.uint8)
-    # A hole, of which a note tells.
+    # A hole that produces a note.
     inside = np.linalg.inv(volume.world_from_index) @ [*clicked[0][0], 1.0]
     lumen[tuple(np.round(inside[2::-1]).astype(int))] = 0
     mask = Volume(lumen, world_from_index=volume.world_from_index)

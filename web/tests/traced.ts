@@ -1,4 +1,4 @@
-/** The engine itself, as the page's worker has it, with the room that traces. */
+/** The real engine as the page's worker uses it. */
 import { readFileSync } from 'node:fs';
 import type { Asked } from '../src/core/asked';
 import { Failure } from '../src/core/failure';
@@ -12,23 +12,21 @@ initSync({ module: readFileSync(new URL('../src/core/pkg/lumencut_bg.wasm', impo
 export interface Opened {
   readonly engine: Asked;
   readonly report: () => Report;
-  /** Says stop to what was asked for until then. */
   readonly cancel: () => void;
 }
 
-/** An engine with a phantom open. */
 export async function opened(phantom: string, scale = 1): Promise<Opened> {
   const module = await Engine.open('cpu');
   module.open_phantom(phantom, scale);
   let cancelled = new AbortController();
   const engine: Asked = {
-    ask: async (name, message, beside = {}) => {
+    ask: async (name, message, attachments = {}) => {
       const { signal } = cancelled;
-      // As in the queue, work begins once what asked for it has gone on.
+      // As in the queue, work starts after its request returns.
       await Promise.resolve();
       try {
         refuseStopped(name, signal);
-        return await askWithFiles(module, name, message, { beside, signal });
+        return await askWithFiles(module, name, message, { attachments, signal });
       } catch (error) {
         throw Failure.of(error);
       }
@@ -41,20 +39,15 @@ export async function opened(phantom: string, scale = 1): Promise<Opened> {
   return { engine, report: () => ask(module, 'report', null), cancel };
 }
 
-/** A document without vessels. */
 export const EMPTY: VesselDocument = { vessels: [], stoppers: [], bridge: false };
 
-/** What comes of an edit of a document. */
 export const edited = async (engine: Asked, edit: Edit, document = EMPTY): Promise<Edited> =>
   (await engine.ask('edit', { document, edit, bridging: false })).edited;
 
-/** The line of a vessel after an edit. */
 export const lineOf = ({ document }: Edited, n = 0): number => document.vessels[n]?.line ?? -1;
 
-/** Nobody listens. */
 export const unheard = (_: Progress): void => {};
 
-/** What a promise is refused with. */
 export async function refusal(promise: Promise<unknown>): Promise<Failure> {
   try {
     await promise;

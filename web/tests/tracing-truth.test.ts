@@ -1,4 +1,4 @@
-/** What the page traces and writes is what Python traces and writes. */
+/** The page traces and writes the same as Python. */
 import { spawnSync } from 'node:child_process';
 import { existsSync, mkdtempSync, readFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
@@ -10,7 +10,6 @@ import { EMPTY, edited, lineOf, opened } from './traced';
 
 interface Truth {
   readonly phantom: string;
-  /** A file of a mask of it. */
   readonly mask: string;
   readonly clicks: readonly (readonly Vector[])[];
   readonly lines: readonly LineContent[];
@@ -24,7 +23,7 @@ interface Truth {
 
 const root = fileURLToPath(new URL('../..', import.meta.url));
 
-/** The truth; none where there is no Python that has the package. */
+/** Empty without an installed Python package. */
 function everyTruth(): readonly Truth[] {
   const python = join(root, '.venv/bin/python');
   if (!existsSync(python)) {
@@ -38,7 +37,7 @@ function everyTruth(): readonly Truth[] {
   return JSON.parse(readFileSync(join(folder, 'truth.json'), 'utf-8'));
 }
 
-/** The largest difference of any number of two lines, which have the same numbers of points. */
+/** Largest difference of two lines with equal numbers of points. */
 function apart(found: LineContent, truth: LineContent): number {
   const flat = ({ points, radius, confidence }: LineContent) => [
     ...points.flat(),
@@ -51,9 +50,9 @@ function apart(found: LineContent, truth: LineContent): number {
   return Math.max(...own.map((number, n) => Math.abs(number - (others[n] ?? Number.NaN))));
 }
 
-/** Sines and the like differ in their last bit from machine to machine (mm). */
+/** Sines differ in the last bit between machines (mm). */
 const LAST_BITS = 1e-9;
-/** Where voxels go by their distance to the wall, a last bit tells which of two equal ones goes first (mm). */
+/** Voxel order by wall distance may depend on the last bit (mm). */
 const SHOWN = 1e-3;
 
 const ADD_MASK = { document: EMPTY, edit: { kind: 'add_mask' }, bridging: false } as const;
@@ -63,7 +62,7 @@ const every = everyTruth();
 describe.skipIf(every.length === 0)('as Python', () => {
   test.each(every)('traces $phantom', async ({ phantom, clicks, lines, files }) => {
     const { engine } = await opened(phantom);
-    // All vessels but the last were clicked before; it is begun, and all are traced together.
+    // Earlier vessels are given; the last one is begun, and all are traced together.
     const vessel = { line: 0, name: '', color: '', isHidden: false, doubt: null };
     const vessels = clicks.slice(0, -1).map((own, n) => ({ ...vessel, id: n + 1, clicks: own }));
     const begin = { kind: 'begin_vessel', clicks: clicks.at(-1) ?? [] } as const;
@@ -74,7 +73,6 @@ describe.skipIf(every.length === 0)('as Python', () => {
       expect(apart(found, truth)).toBeLessThan(LAST_BITS);
       expect(found.bridged).toEqual(truth.bridged);
     }
-    // The same numbers give the same bytes.
     const own = await Promise.all(lines.map((line) => engine.ask('add_line', line)));
     const named = own.map((line, n) => ({ line, name: `vessel ${n}` }));
     for (const kind of ['vtp', 'mrk.json'] as const) {

@@ -16,7 +16,6 @@ test('a vessel between two clicks follows the one that is there', async () => {
   expect([radius?.length, confidence?.length, bridged?.length]).toEqual(
     points.map(() => points.length).slice(0, 3),
   );
-  // The same clicks once more give the same line.
   expect(lineOf(await edited(engine, begin))).toBe(lineOf(begun));
   const way = await engine.ask('path', {
     from: ends[0] as Vector,

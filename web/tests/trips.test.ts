@@ -1,4 +1,4 @@
-/** How often a click of the tracing tool asks the worker: once, whatever it shows. */
+/** A tracing click takes one request to the worker. */
 import { afterEach, beforeEach, expect, test, vi } from 'vitest';
 import type { Vector } from '../src/core/messages';
 import { answered, dropEdits } from '../src/edit/committing';
@@ -16,7 +16,7 @@ import * as store from '../src/state/store';
 import { tool } from '../src/state/tool';
 import { documentOf, FakeTracing, reportOf } from './fake-tracing';
 
-// The page's own engine runs in a worker, which there is none of here.
+// The page's engine needs a worker, which tests lack.
 vi.mock('../src/client/shared', () => ({ engine: {} }));
 
 const [A, B, C]: Vector[] = [
@@ -29,7 +29,7 @@ let tracing: FakeTracing;
 let ends: (() => void)[];
 const idle = () => new Promise((resolve) => setTimeout(resolve, 5));
 
-/** What was asked since it was looked at last, when all is done. */
+/** Questions since the last call, once all work is done. */
 async function trips(): Promise<readonly string[]> {
   await idle();
   return tracing.trips.splice(0);

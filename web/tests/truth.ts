@@ -1,4 +1,4 @@
-/** What Python made of the same files, and how the page's readers are compared with it. */
+/** Python's results for the same files, and the comparison with the page's readers. */
 import { spawnSync } from 'node:child_process';
 import { createHash } from 'node:crypto';
 import { existsSync, mkdtempSync, readFileSync } from 'node:fs';
@@ -13,7 +13,7 @@ import type { Result } from './opened';
 export interface Expected {
   readonly name: string;
   readonly kind: 'volume' | 'series';
-  /** The file or folder that Python read, and the folder of all files that belong to it. */
+  /** The file or folder that Python read, and the folder of all related files. */
   readonly path: string;
   readonly folder: string;
   readonly wanted?: Partial<Wanted>;
@@ -21,13 +21,12 @@ export interface Expected {
   readonly affine: readonly (readonly number[])[];
   readonly dtype: string;
   readonly sha256: string;
-  /** A file of the values, where decoders round what was compressed with loss each in its own way. */
+  /** Values of lossy files, which decoders round differently. */
   readonly values?: string;
   readonly notes: readonly string[];
   readonly states: { readonly spacing: boolean; readonly orientation: boolean };
   readonly found?: string;
   readonly expected: string;
-  /** Advice in words. */
   readonly mend: string;
   readonly mends: readonly Mend[];
   readonly series: readonly string[];
@@ -35,14 +34,13 @@ export interface Expected {
 
 const here = fileURLToPath(new URL('.', import.meta.url));
 
-/** The truth about all files; none where there is no Python that has the package. */
+/** Empty without an installed Python package. */
 export function everyTruth(): readonly Expected[] {
   const folder = process.env.LUMENCUT_SAMPLES ?? written();
   const path = folder === null ? '' : join(folder, 'expected.json');
   return existsSync(path) ? JSON.parse(readFileSync(path, 'utf-8')) : [];
 }
 
-/** Lets Python write the files, and what it makes of them. */
 function written(): string | null {
   const python = join(here, '../../.venv/bin/python');
   if (!existsSync(python)) {
@@ -58,7 +56,6 @@ function written(): string | null {
   return folder;
 }
 
-/** The type that the page has for one of NumPy. */
 function inThePage(dtype: string): string {
   return ['int8', 'uint8', 'int16', 'uint16'].includes(dtype) ? dtype : 'float32';
 }
@@ -73,7 +70,7 @@ export function sameVolume({ memory, failure, notes, states }: Result, truth: Ex
     expect(Math.abs(value - (truth.affine.flat()[i] ?? 0))).toBeLessThanOrEqual(1e-12 * largest);
   });
   sameValues(memory.values, truth);
-  // What `lumencut info` alone says, and what the engine says of a scan, is no note of a reader.
+  // Statements of `lumencut info` and of the engine are not notes of a reader.
   const isNote = (note: string) => !/^(values are scaled|a straightened vessel:|the scan is )/.test(note);
   expect(notes).toEqual(truth.notes.filter(isNote));
 }

@@ -25,7 +25,7 @@ def rendered(view: dict[str, Any], size: tuple[int, int], samples: int) -> Image
     """The picture of a view."""
     scene = getattr(phantom, view["phantom"])()
     window = Window(*view["window"])
-    # The context shows the same window as the vessels, as it does in the page.
+    # Context and vessels share the window, as in the page.
     settings = Settings(window=window, context_window=window, samples=samples, **view["settings"])
     camera = Camera(size=size, **view["camera"])
     if view["method"] == "mpcpr":
@@ -71,7 +71,7 @@ def measured() -> None:
     (HERE / "measuring.csv").write_text(table, "utf-8")
 
 
-#: Oblique views, one of them along the body, in pixels of different sides (mm).
+#: Oblique views with different pixel sizes (mm), one along the body.
 LAID = [
     {"center": [2, -1, 3], "direction": [0.48, 0.8, 0.36], "up": [-0.6, 0, 0.8], "pixel_spacing": 0.45},
     {"center": [0, 0, 0], "direction": [0, 0, -1], "up": [0, -1, 0], "pixel_spacing": 0.07},

@@ -1,4 +1,4 @@
-/** The one engine of the page. */
+/** The single engine of the page. */
 import { EngineClient } from './engine';
 
 export const engine = new EngineClient();

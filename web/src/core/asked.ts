@@ -1,4 +1,4 @@
-/** What answers questions: the engine as the page has it, or a test in its place. */
+/** The interface that answers questions: the engine, or a test double. */
 import type { Questions } from './generated/questions';
 import type { GivenFile, Progress } from './messages';
 
@@ -6,19 +6,16 @@ export type Question = keyof Questions;
 export type Message<N extends Question> = Questions[N]['message'];
 export type Answer<N extends Question> = Questions[N]['answer'];
 
-export type Told = (progress: Progress) => void;
+export type OnProgress = (progress: Progress) => void;
 
-/** What a question can come with. */
-export interface Beside {
-  /** Hears how far long work is. */
-  readonly told?: Told;
-  /** The bytes of a file. */
+export interface Attachments {
+  readonly onProgress?: OnProgress;
   readonly bytes?: Uint8Array;
-  /** The files of a mask that an edit adds: they are read first. */
+  /** Files of a mask; the worker reads them before the edit. */
   readonly mask?: readonly GivenFile[];
 }
 
 export interface Asked {
-  /** The answer to a question of the table in `generated/questions.ts`. Throws `Failure`. */
-  ask<N extends Question>(name: N, message: Message<N>, beside?: Beside): Promise<Answer<N>>;
+  /** Answers a question of `generated/questions.ts`. Throws `Failure`. */
+  ask<N extends Question>(name: N, message: Message<N>, attachments?: Attachments): Promise<Answer<N>>;
 }

@@ -1,24 +1,22 @@
-/** Errors as the page has them: typed, with what was found, what was expected and what mends it. */
+/** Typed errors of the page: what was found, what was expected, and what mends it. */
 import { type Mend, type MendName, mendWords } from './mends';
 import type { Vector } from './messages';
 
-/** A DICOM series that can be chosen. */
 export interface SeriesChoice {
   readonly number: string;
   readonly uid: string;
   readonly description: string;
   readonly modality: string;
   readonly images: number;
-  /** Voxels along i, j, k, and their sizes (mm); null where the images form no stack. */
+  /** Voxels along i, j, k and their sizes (mm); null if the images form no stack. */
   readonly size: readonly number[] | null;
   readonly spacing: readonly number[] | null;
-  /** Why the images form no angiography volume, empty where they may. */
+  /** Why the images form no angiography volume; empty if they may. */
   readonly trouble: string;
-  /** Its middle slice, where that could be read. */
   readonly thumbnail?: Thumbnail;
 }
 
-/** A small grey picture: a byte for each pixel, in rows from the top. */
+/** Grey bytes in rows from the top. */
 export interface Thumbnail {
   readonly width: number;
   readonly height: number;
@@ -27,29 +25,25 @@ export interface Thumbnail {
 
 /** Clicked points, counted from 0. */
 export interface About {
-  /** The vessel; null for a point of no vessel yet. */
+  /** Null for a point that belongs to no vessel yet. */
   readonly vessel: number | null;
-  /** The point along it; null where all of them are meant. */
+  /** Null if all points of the vessel are meant. */
   readonly point: number | null;
 }
 
-/** What only some errors tell beside their words. */
 export interface More {
-  /** What mends it beside the advice. */
   readonly mends?: readonly Mend[];
-  /** The clicked points that it is about. */
   readonly about?: About;
-  /** The DICOM series of which none was chosen. */
   readonly series?: readonly SeriesChoice[];
-  /** Where it shows in the volume (mm, LPS), and what the volume has there. */
+  /** Position in the volume (mm, LPS), and the value there. */
   readonly place?: Vector;
   readonly value?: number;
 }
 
-/** The kind of what the module throws where it ends in the middle of its work; nothing more can be asked of it. */
+/** Kind of a crash of the module; afterwards the module answers nothing. */
 export const CRASH = 'crash';
 
-/** An error: what is wrong, what was found, what was expected, advice, and what mends it, by names that the page words. */
+/** An error with advice and with mends, which the page words by their names. */
 export class Failure extends Error {
   readonly mends: readonly Mend[];
   readonly series: readonly SeriesChoice[];
@@ -62,7 +56,7 @@ export class Failure extends Error {
     readonly subject: string,
     readonly found: string,
     readonly expected: string,
-    /** Advice that the page does not act on. */
+    /** Advice that the page cannot carry out itself. */
     readonly advice = '',
     { mends = [], series = [], about, place, value }: More = {},
   ) {
@@ -76,13 +70,13 @@ export class Failure extends Error {
     this.value = value ?? null;
   }
 
-  /** What was thrown as a failure: the JSON that the core throws, a stop, the end of the module, or any other error in its own words. */
+  /** Converts anything thrown: JSON of the core, an abort, a crash of the module, or another error. */
   static of(thrown: unknown): Failure {
     if (thrown instanceof Failure) {
       return thrown;
     }
     if (thrown instanceof DOMException && thrown.name === 'AbortError') {
-      return new Failure('interrupted', 'the page', 'a stop', 'to run to its end');
+      return new Failure('interrupted', 'the page', 'a stop', 'a complete run');
     }
     const text = thrown instanceof Error ? thrown.message : String(thrown);
     const fields = parsed(text);
@@ -92,34 +86,20 @@ export class Failure extends Error {
     }
     if (thrown instanceof Error && thrown.name === 'RuntimeError') {
       const advice = 'save the session, reload the page, and open the scan and the session again';
-      return new Failure(
-        CRASH,
-        'the engine of the page',
-        `that it has stopped: ${text}`,
-        'an answer',
-        advice,
-      );
+      return new Failure(CRASH, 'the engine of the page', `a crash: ${text}`, 'an answer', advice);
     }
-    return new Failure(
-      'unexpected',
-      'the page',
-      text,
-      'no error here',
-      'reload the page and open the scan again',
-    );
+    return new Failure('unexpected', 'the page', text, 'no error', 'reload the page and open the scan again');
   }
 
-  /** What mends it in the words of the page, advice first; empty where nothing is known. */
+  /** Advice and mends in words; empty if none is known. */
   get mending(): string {
     return mending(this.advice, this.mends);
   }
 
-  /** Whether this mends it. */
   isMendedBy(name: MendName): boolean {
     return this.mends.some((mend) => mend.name === name);
   }
 
-  /** What it tells beside its words. */
   get more(): More {
     const { mends, series, about, place, value } = this;
     return {
@@ -131,7 +111,7 @@ export class Failure extends Error {
     };
   }
 
-  /** As a text that survives the way between worker and page; `of` reads it again. */
+  /** Text form for messages between worker and page; `of` parses it. */
   get text(): string {
     const { kind, subject, found, expected, advice: mend, more } = this;
     return JSON.stringify({ kind, subject, found, expected, mend, ...more });

@@ -1,6 +1,6 @@
-/** What judges DICOM series by their headers. */
+/** The interface of the judge of DICOM series. */
 
-/** The judgements of the crate `lumencut-dicom`, with JSON in and out. */
+/** Functions of the crate `lumencut-dicom`, with JSON in and out. */
 export interface Judge {
   dicom_attributes(): string;
   judge_dicom(headers: string, wanted: string): string;

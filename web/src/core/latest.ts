@@ -1,4 +1,4 @@
-/** Runs one piece of work at a time; of those that come meanwhile only the latest runs. */
+/** Runs one task at a time; of the tasks that arrive meanwhile, only the latest runs. */
 export class Latest {
   private isBusy = false;
   private waiting: (() => Promise<void>) | null = null;

@@ -1,6 +1,6 @@
-/** What mends a failure: the names that every host knows, and the words of the page for each. */
+/** The mends of failures: names shared by all hosts, and their wording in the page. */
 
-/** All names: those of the crates, in their order. */
+/** In the order of the crates. */
 export const MEND_NAMES = [
   'bridge',
   'every_second',
@@ -26,13 +26,12 @@ export type MendName = (typeof MEND_NAMES)[number];
 
 export interface Mend {
   readonly name: MendName;
-  /** What can be chosen among, such as units or phases. */
   readonly values: readonly string[];
 }
 
 export const EVERY_SECOND: Mend = { name: 'every_second', values: [] };
 
-/** A space and a unit in the words of the page, such as `LPS in cm` for `lps in cm`. */
+/** `LPS in cm` for `lps in cm`. */
 export const readingWords = (reading: string): string =>
   reading.replace(/^\w+/, (space) => space.toUpperCase());
 
@@ -40,26 +39,24 @@ const spaces = ({ values }: Mend): string => values.map((space) => space.toUpper
 
 const WORDS: Record<MendName, (mend: Mend) => string> = {
   bridge: () => 'bridge the gap where the vessel is occluded',
-  every_second: () => 'take every second voxel along each axis, an eighth of all',
+  every_second: () => 'load every second voxel along each axis, an eighth of the data',
   cpu: () => 'compute on the CPU: add ?device=cpu to the address of this page',
-  windows: () => 'scale them by the Python package, which takes windows for them too',
-  threshold: () => 'make a mask of whole numbers of it, or trace it by `lumencut trace --threshold`',
+  windows: () => 'scale them with the Python package, which also accepts windows for them',
+  threshold: () => 'convert it to an integer mask, or trace it with `lumencut trace --threshold`',
   fewer_pixels: () => 'make the view smaller',
-  doubtful: () => 'look at the doubtful ones',
-  smaller_radius: () => 'look for thinner ones by `lumencut trace --smallest-radius`',
-  coordinates: (mend) => `choose the space of its coordinates, ${spaces(mend)}`,
+  doubtful: () => 'review the doubtful ones',
+  smaller_radius: () => 'search for thinner ones with `lumencut trace --smallest-radius`',
+  coordinates: (mend) => `choose its coordinate system, ${spaces(mend)}`,
   unit: ({ values }) => `choose the unit of its coordinates, ${values.join(' or ')}`,
-  place: (mend) => `choose the space of its coordinates, ${spaces(mend)}, if it belongs to this scan`,
-  reading: ({ values }) =>
-    `choose the space and the unit of its coordinates, ${values.map(readingWords).join(' or ')}`,
+  place: (mend) => `choose its coordinate system, ${spaces(mend)}, if it belongs to this scan`,
+  reading: ({ values }) => `choose its coordinate system and unit, ${values.map(readingWords).join(' or ')}`,
   reorder: () => 'put the points of the file in order',
   series: () => 'choose one of the series',
   phase: ({ values }) =>
-    values.length > 0 ? 'choose one of the phases' : 'read one phase by the Python package',
+    values.length > 0 ? 'choose one of the phases' : 'read one phase with the Python package',
   fill_gaps: () => 'interpolate the missing slices',
   resample_slices: () => 'put the slices on a regular grid',
   resample_and_fill: () => 'put the slices on a regular grid, and interpolate the missing ones',
 };
 
-/** A mend in the words of the page. */
 export const mendWords = (mend: Mend): string => WORDS[mend.name](mend);

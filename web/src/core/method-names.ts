@@ -1,4 +1,4 @@
-/** How readers call methods, in the order to show them; a test compares both tables with the engine's. */
+/** Names of the methods in display order; a test compares them with the engine's. */
 import type { Method, StenosisMethod } from './messages';
 
 export const VIEW_METHODS: readonly (readonly [Method, string])[] = [

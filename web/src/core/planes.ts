@@ -1,23 +1,22 @@
-/** Slices of the patient: their axes, and the way between their pixels and the world. */
+/** Slice planes of the patient, and the mapping between their pixels and the world. */
 import type { Pair, Plane, Vector, VolumeReport } from './messages';
 import { add, cross, dot, middle, scale, subtract } from './vectors';
 
 export type SliceName = 'axial' | 'coronal' | 'sagittal';
 
-/** To the right and downwards, as radiologists look at them: axial from the feet, coronal from the front, sagittal with the face to the left. */
+/** Right and down axes, radiological: axial from the feet, coronal from the front, sagittal facing left. */
 export const AXES: Readonly<Record<SliceName, { readonly right: Vector; readonly down: Vector }>> = {
   axial: { right: [1, 0, 0], down: [0, 1, 0] },
   coronal: { right: [1, 0, 0], down: [0, 0, -1] },
   sagittal: { right: [0, 1, 0], down: [0, 0, -1] },
 };
 
-/** Where a slice is looked at: its middle within the plane, and mm per pixel. */
+/** Position of a slice view: its centre in the plane, and mm per pixel. */
 export interface Look {
   readonly center: Vector;
   readonly spacing: number;
 }
 
-/** All of the volume in a pane. */
 export function fittedLook(volume: VolumeReport, name: SliceName, size: Pair): Look {
   const center = middle(volume.corners);
   const { right, down } = AXES[name];
@@ -27,12 +26,11 @@ export function fittedLook(volume: VolumeReport, name: SliceName, size: Pair): L
   return { center, spacing: spacing * 1.02 };
 }
 
-/** The look in a pane of another size; as much is seen along the shorter side. */
+/** The look for another pane size; the shorter side keeps its extent. */
 export function resizedLook(look: Look, from: Pair, to: Pair): Look {
   return { ...look, spacing: (look.spacing * Math.min(...from)) / Math.min(...to) };
 }
 
-/** The slice through a point. */
 export function planeOf(name: SliceName, look: Look, through: Vector, size: Pair): Plane {
   const { right, down } = AXES[name];
   const normal = cross(right, down);
@@ -40,29 +38,26 @@ export function planeOf(name: SliceName, look: Look, through: Vector, size: Pair
   return { center, right, down, size, pixel_spacing: look.spacing };
 }
 
-/** The world point at a column and a row. */
 export function pointOn({ center, right, down, size, pixel_spacing }: Plane, [x, y]: Pair): Vector {
   const across = scale(right, (x - (size[0] - 1) / 2) * pixel_spacing);
   return add(add(center, across), scale(down, (y - (size[1] - 1) / 2) * pixel_spacing));
 }
 
-/** Column and row of a world point, seen along the normal. */
+/** Column and row of a point, projected along the normal. */
 export function pixelOn({ center, right, down, size, pixel_spacing }: Plane, point: Vector): Pair {
-  const away = subtract(point, center);
+  const offset = subtract(point, center);
   return [
-    dot(away, right) / pixel_spacing + (size[0] - 1) / 2,
-    dot(away, down) / pixel_spacing + (size[1] - 1) / 2,
+    dot(offset, right) / pixel_spacing + (size[0] - 1) / 2,
+    dot(offset, down) / pixel_spacing + (size[1] - 1) / 2,
   ];
 }
 
-/** The look after a drag by a number of pixels. */
 export function pannedLook(look: Look, name: SliceName, [x, y]: Pair): Look {
   const { right, down } = AXES[name];
   const shift = add(scale(right, -x * look.spacing), scale(down, -y * look.spacing));
   return { ...look, center: add(look.center, shift) };
 }
 
-/** The look magnified; the place at the pixel stays where it is. */
 export function zoomedLook(look: Look, plane: Plane, factor: number, at: Pair): Look {
   const spacing = Math.min(Math.max(look.spacing / factor, 0.005), 20);
   const kept = pointOn(plane, at);
@@ -70,19 +65,19 @@ export function zoomedLook(look: Look, plane: Plane, factor: number, at: Pair): 
   return { center: add(kept, toward), spacing };
 }
 
-/** How far apart the slices of a volume are along an axis of the patient (mm). */
+/** Distance between slices along an axis of the patient (mm). */
 export function sliceDistance(volume: VolumeReport, name: SliceName): number {
   const { right, down } = AXES[name];
   return voxelSide(volume, cross(right, down));
 }
 
-/** How far it is from one voxel to the next along a direction (mm). */
+/** Distance between neighbouring voxels along a direction (mm). */
 export function voxelSide(volume: VolumeReport, direction: Vector): number {
   const steps = [0, 1, 2].map((axis) => Math.abs(dot(column(volume, axis), direction)));
   return Math.max(...steps, 1e-3);
 }
 
-/** The step from one voxel to the next along an index. */
+/** Step to the next voxel along an index. */
 function column(volume: VolumeReport, axis: number): Vector {
   return [0, 1, 2].map((row) => volume.world_from_index[row]?.[axis] ?? 0) as unknown as Vector;
 }

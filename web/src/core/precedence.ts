@@ -1,15 +1,12 @@
-/**
- * What the user waits for comes before views: the worker does one piece of work after the other, so the view under way is
- * stopped and asked for again afterwards. One that was stopped again and again runs to its end.
- */
+/** Answers take precedence over views: they stop the current view, which restarts afterwards. */
 
-/** How long an answer waits for a view of something that changes, which is quick as a rule (ms). */
+/** How long an answer waits for a view that changes, which is usually fast (ms). */
 const PATIENCE = 60;
-/** So many views in a row are stopped; the next one is not. */
+/** After this many stopped views in a row the next one runs to completion. */
 const MOST_STOPS = 6;
 
 interface UnderWay {
-  /** Whether the view only adds pixels or samples to what is shown already. */
+  /** Whether the view only adds pixels or samples to the picture. */
   readonly isRefining: boolean;
   isStopped: boolean;
 }
@@ -18,12 +15,8 @@ export class Precedence {
   private underWay: UnderWay | null = null;
   private stops = 0;
 
-  constructor(
-    /** Stops the view under way, where that is possible. */
-    private readonly stop: () => void,
-  ) {}
+  constructor(private readonly stop: () => void) {}
 
-  /** Hears of a view that was asked for, to its end. */
   async view<T>(isRefining: boolean, drawn: Promise<T>): Promise<T> {
     const own: UnderWay = { isRefining, isStopped: false };
     this.underWay = own;
@@ -38,13 +31,13 @@ export class Precedence {
     }
   }
 
-  /** Hears an answer that the user waits for, and has a view give way to it. */
+  /** Registers an answer that the user waits for; views yield to it. */
   async first<T>(answer: Promise<T>): Promise<T> {
     const view = this.underWay;
     if (!view || this.stops >= MOST_STOPS) {
       return answer;
     }
-    // Asked more than once: a view hears nothing before it begins.
+    // Repeated, because a view ignores a stop before it begins.
     const timer = setInterval(() => this.giveWay(view), PATIENCE);
     if (view.isRefining && !view.isStopped) {
       this.giveWay(view);

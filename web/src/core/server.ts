@@ -1,20 +1,25 @@
-/** The program that serves the page, as far as it makes something of what the page sends; a server of files makes nothing. */
+/** Requests to the Python server of the page; a plain file server offers none. */
 import { Failure } from './failure';
 
-/** What it makes: objects of DICOM, what a chosen DICOM file says of its study, and the mask of a segmentation. */
 export type Made = 'objects' | 'study' | 'mask';
 
-/** Where it makes this; refuses for `subject` where nothing does. */
+/** Address of a service. Throws if the page has no such server. */
 export function placeOf(made: Made, subject: string): string {
   const address = document.querySelector<HTMLMetaElement>(`meta[name="lumencut-${made}"]`)?.content;
   if (address) {
     return address;
   }
-  const advice = 'open the scan by `lumencut view`, of pip install "lumencut[dicom,plot]"';
-  throw new Failure('file', subject, 'a page alone', 'the program that reads and writes such DICOM', advice);
+  const advice = 'open the scan with `lumencut view`, from pip install "lumencut[dicom,plot]"';
+  throw new Failure(
+    'file',
+    subject,
+    'a page without its server',
+    'the server, which reads and writes DICOM',
+    advice,
+  );
 }
 
-/** What it makes of content; its refusals are failures. */
+/** Posts content to a service; errors are `Failure`s. */
 export async function made(what: Made, subject: string, content: object): Promise<Response> {
   const response = await fetch(placeOf(what, subject), {
     method: 'POST',
@@ -26,13 +31,14 @@ export async function made(what: Made, subject: string, content: object): Promis
   }
   const failure = Failure.of(await response.text());
   const advice =
-    response.status === 503 ? 'wait for what is made already' : 'look at the program that serves the page';
+    response.status === 503
+      ? 'wait until the current export is done'
+      : 'check the program that serves the page';
   throw failure.kind === 'unexpected'
-    ? new Failure('file', subject, `an answer ${response.status}`, 'what was asked for', advice)
+    ? new Failure('file', subject, `HTTP status ${response.status}`, 'status 200', advice)
     : failure;
 }
 
-/** Bytes as a text that JSON can hold. */
 export function inBase64(bytes: Blob): Promise<string> {
   return new Promise((resolve) => {
     const reader = new FileReader();

@@ -1,13 +1,12 @@
-/** What page and worker tell each other of session files. The fields are those of the file, which the module checks; lengths in mm. */
+/** Types of a session file, which the module validates. Lengths in mm. */
 import type { Pair, SettingValue, Vector } from './plain';
 
-/** The grid of the scan that a session was made of. */
 export interface SavedScan {
   readonly size: Vector;
   readonly world_from_index: readonly (readonly number[])[];
 }
 
-/** What belongs to a vessel beside its line; the module adds confidence and what was bridged. */
+/** A vessel without its line; the module adds confidence and bridged parts. */
 export interface SavedVessel {
   readonly color: string;
   readonly hidden: boolean;
@@ -24,11 +23,9 @@ export interface SavedMarks {
   readonly group: string | null;
   readonly stretch_mm: Pair | null;
   readonly second_stretch_mm: Pair | null;
-  /** Left out where there are none. */
   readonly diameters_mm?: readonly number[];
 }
 
-/** A branch that nobody has accepted yet, without its line. */
 export interface SavedBranch {
   readonly color: string;
   readonly doubt: string;
@@ -49,7 +46,6 @@ export interface SavedView {
   readonly picked: { readonly vessel: number; readonly at_mm: number } | null;
 }
 
-/** All of a session but its lines. */
 export interface SavedSession {
   readonly scan: SavedScan | null;
   readonly vessels: readonly SavedVessel[];
@@ -57,9 +53,9 @@ export interface SavedSession {
   readonly stoppers: readonly { readonly center: Vector; readonly radius_mm: number }[];
   readonly bridge: boolean;
   readonly rulers: readonly { readonly from: Vector; readonly to: Vector }[];
-  /** The width of the point spread that the reader gave; null where it is estimated. */
+  /** FWHM entered by the user; null if estimated. */
   readonly fwhm_mm: number | null;
   readonly view: SavedView | null;
-  /** Whether voxels were taken for 1 mm apart where the scan does not say; a file that leaves it out says no. */
+  /** Whether the user assumed voxels of 1 mm; absent means no. */
   readonly one_millimetre_assumed?: boolean;
 }

@@ -13,20 +13,19 @@ export const cross = (a: Vector, b: Vector): Vector => [
 export const length = (a: Vector): number => Math.sqrt(dot(a, a));
 export const negate = (a: Vector): Vector => scale(a, -1);
 
-/** The vector of length 1; one without a direction stays. */
+/** The unit vector; a zero vector is returned unchanged. */
 export function unit(a: Vector): Vector {
   const size = length(a);
   return size > 0 ? scale(a, 1 / size) : a;
 }
 
-/** `a` turned about the unit vector `axis` by an angle (radians), as a right-handed screw (Rodrigues' formula). */
+/** Rotates `a` about the unit vector `axis` by an angle (radians), right-handed (Rodrigues' formula). */
 export function turned(a: Vector, axis: Vector, angle: number): Vector {
   const [cos, sin] = [Math.cos(angle), Math.sin(angle)];
   const along = scale(axis, dot(axis, a) * (1 - cos));
   return add(add(scale(a, cos), scale(cross(axis, a), sin)), along);
 }
 
-/** The middle of some points. */
 export function middle(points: readonly Vector[]): Vector {
   const sum = points.reduce(add, [0, 0, 0]);
   return scale(sum, 1 / Math.max(points.length, 1));

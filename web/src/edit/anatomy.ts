@@ -1,4 +1,4 @@
-/** Names of anatomy that are offered where a vessel is named; any other name can be typed. */
+/** Anatomical names offered when the user names a vessel. */
 
 const SIDED = [
   'common carotid artery',
@@ -51,7 +51,6 @@ const SINGLE = [
 
 const ANATOMY: readonly string[] = [...SINGLE, ...SIDED.flatMap((name) => [`Left ${name}`, `Right ${name}`])];
 
-/** The names to offer, in the order of the alphabet, without those that vessels have already. */
 export function namesToOffer(taken: readonly string[]): string[] {
   const used = new Set(taken.map((name) => name.trim().toLowerCase()));
   return ANATOMY.filter((name) => !used.has(name.toLowerCase())).sort((a, b) => a.localeCompare(b, 'en'));

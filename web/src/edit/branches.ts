@@ -1,31 +1,26 @@
-/** Many vessels at once: all of the scan, all branches from a seed, and the vessels of a mask. */
+/** Adding many vessels: of the scan, from a seed, or of a mask. */
 import type { Asked } from '../core/asked';
 import type { DocumentVessel, Edit, Edited, GivenFile, LineFacts, Vector } from '../core/messages';
 import { flyToAnswer } from '../state/flight';
 import { document_ } from '../state/history';
+import { showFailure } from '../state/message';
 import { camera, notes } from '../state/store';
-import { tellFailure } from '../state/telling';
 import { answered, commit, isDone } from './committing';
 import { openList } from './list-open';
 import { maskOf, namedBySegment } from './segmentation';
 import { pickOnceShown } from './shown';
 
-/** Adds all branches that a seed reaches; doubtful ones wait until they are accepted. */
+/** Doubtful branches wait until the user accepts them. */
 export const addBranches = (engine: Asked, seed: Vector): Promise<boolean> =>
   isDone(commit(engine, { kind: 'add_branches', seed }));
 
-/** Accepts branches that are doubtful. */
 export const accept = (engine: Asked, ids: readonly number[]): Promise<boolean> =>
   isDone(commit(engine, { kind: 'accept', ids }));
 
-/** Leaves branches out that are doubtful. */
 export const leaveOut = (engine: Asked, ids: readonly number[]): Promise<boolean> =>
   isDone(commit(engine, { kind: 'leave_out', ids }));
 
-/**
- * Adds all vessels of the scan, listed as a tree; doubtful ones wait until they are accepted. Where none is sure that is refused,
- * unless `doubtful` ones are wanted all the same.
- */
+/** Adds all vessels of the scan as a tree. Rejected if all are doubtful, unless `doubtful` allows them. */
 export async function findVessels(engine: Asked, doubtful = false): Promise<boolean> {
   const isFirst = sure().length === 0;
   const isFound = await addMany(engine, { kind: 'find_vessels', doubtful });
@@ -37,7 +32,7 @@ export async function findVessels(engine: Asked, doubtful = false): Promise<bool
 
 const sure = () => document_.value.vessels.filter((vessel) => vessel.doubt === null);
 
-/** Picks the widest vessel, and turns the view to where most of it is seen. */
+/** Picks the widest vessel and shows most of it. */
 async function showMain(engine: Asked): Promise<void> {
   try {
     const main = widest(answered.value?.facts ?? []);
@@ -47,40 +42,35 @@ async function showMain(engine: Asked): Promise<void> {
       await flyToAnswer(engine, engine.ask('best_view', { camera: camera.value, line: vessel.line }));
     }
   } catch (error) {
-    tellFailure(error);
+    showFailure(error);
   }
 }
 
-/** The widest of some lines, the longest where no width is known. */
 function widest(facts: readonly LineFacts[]): LineFacts | null {
   const isLess = (a: LineFacts, b: LineFacts) => (a.calibre ?? 0) - (b.calibre ?? 0) || a.length - b.length;
   return [...facts].sort(isLess).at(-1) ?? null;
 }
 
-/** Finds all vessels; what was found, and what of it is doubtful, is told in the list. */
 export async function findAndList(engine: Asked, doubtful = false): Promise<void> {
   if (await findVessels(engine, doubtful)) {
     openList();
   }
 }
 
-/** Adds the vessels of a mask. */
 export const addMask = (engine: Asked, mask: readonly GivenFile[]): Promise<boolean> =>
   addMany(engine, { kind: 'add_mask' }, mask);
 
-/** Adds the vessels of a segmentation of DICOM, by the names of its segments. */
 export async function addSegmentation(engine: Asked, file: GivenFile): Promise<boolean> {
   try {
-    const { mask, names, notes: told } = await maskOf(file);
-    notes.value = [...new Set([...notes.value, ...told])];
+    const { mask, names, notes: maskNotes } = await maskOf(file);
+    notes.value = [...new Set([...notes.value, ...maskNotes])];
     return await addMany(engine, { kind: 'add_mask' }, mask, (vessel) => namedBySegment(vessel, names));
   } catch (error) {
-    tellFailure(error);
+    showFailure(error);
     return false;
   }
 }
 
-/** Adds vessels; what is told of them comes among the notes. */
 function addMany(
   engine: Asked,
   edit: Edit,

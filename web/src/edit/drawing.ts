@@ -1,4 +1,4 @@
-/** The vessel that is being drawn: its clicks that are no vessel yet, and the way to the pointer. */
+/** The vessel being drawn: clicks before the first trace, and the live path to the pointer. */
 import { computed, effect, signal } from '@preact/signals';
 import type { Asked } from '../core/asked';
 import { Latest } from '../core/latest';
@@ -9,46 +9,40 @@ import { document_ } from '../state/history';
 import { nextColor } from '../state/palette';
 import { active, tool } from '../state/tool';
 
-/** The first point of a vessel that has no second one yet. */
+/** The first point of a vessel without a second one. */
 export const first = signal<Vector | null>(null);
-/** A place from a projection, which is looked at in the slices before it becomes a point. */
+/** A point from a projection that the user must confirm in the slices. */
 export const candidate = signal<Vector | null>(null);
-/** Where the pointer is, in the world. */
 export const target = signal<Vector | null>(null);
-/** A point that is being traced, and which vessel it is of. */
 interface Coming {
   readonly point: Vector;
   readonly drawing: number;
 }
-/** Points that are being traced, also of vessels that were ended meanwhile. */
+/** Includes points of vessels that have ended meanwhile. */
 export const coming = signal<readonly Coming[]>([]);
-/** Which vessel is drawn: it is counted on when one ends, so that what comes later is of another one. */
+/** Number of the vessel being drawn; late results of earlier ones are ignored. */
 export const drawing = signal(0);
 
-/** A click of a vessel that is being dragged, and where it is now. */
 export interface Dragged {
   readonly id: number;
   readonly number: number;
   readonly point: Vector;
 }
 export const dragged = signal<Dragged | null>(null);
-/** A stopper that is being dragged, by its number. */
 export const draggedStopper = signal<Omit<Dragged, 'id'> | null>(null);
 
-/** A way that a vessel would take; where none was found it is straight. */
+/** A path preview; straight if none was found. */
 export interface LivePath {
   readonly points: readonly Vector[];
   readonly isFound: boolean;
 }
 export const livePaths = signal<readonly LivePath[]>([]);
 
-/** The vessel that the next point belongs to; null where the next point begins one. */
+/** The vessel that the next point extends; null if it begins a new one. */
 export const drawn = computed(() => vesselOf(document_.value, active.value));
 
-/** The colour of the vessel that is drawn, also before there is one. */
 export const drawnColor = computed(() => drawn.value?.color ?? nextColor(document_.value.vessels));
 
-/** The point from which the vessel goes on. */
 export const anchor = computed<Vector | null>(
   () =>
     coming.value.findLast((one) => one.drawing === drawing.value)?.point ??
@@ -56,15 +50,14 @@ export const anchor = computed<Vector | null>(
     first.value,
 );
 
-/** Whether a vessel is being drawn. */
 export const isDrawing = computed(() => anchor.value !== null);
 
-/** Nearer than this the pointer is at the point itself (mm). */
-const SAME = 0.05;
+/** The pointer counts as on the point within this distance (mm). */
+const SAME_POINT_MM = 0.05;
 
 type Leg = readonly [from: Vector, to: Vector];
 
-/** The ways that are to be shown: to the pointer, or from both neighbours to a click that is dragged. */
+/** Path previews: to the pointer, or from both neighbours to a dragged click. */
 function legs(): readonly Leg[] {
   const moved = dragged.value;
   if (moved) {
@@ -73,17 +66,19 @@ function legs(): readonly Leg[] {
     return beside.filter((click) => click !== undefined).map((click) => [click, moved.point] as const);
   }
   const [from, to] = [anchor.value, candidate.value ?? target.value];
-  return tool.value === 'trace' && from && to && length(subtract(to, from)) > SAME ? [[from, to]] : [];
+  return tool.value === 'trace' && from && to && length(subtract(to, from)) > SAME_POINT_MM
+    ? [[from, to]]
+    : [];
 }
 
-/** The engine looks for so long at once, and goes on where it was when it is asked again: this often for a pointer that rests. */
+/** Retries for a resting pointer: the engine searches for a limited time and continues when asked again. */
 const MOST_TRIES = 40;
 
-/** Shows the live path from now on, always the latest; gives what ends it. */
+/** Shows the latest live path. Returns the function that ends it. */
 export function followPointer(engine: Asked): () => void {
   const latest = new Latest();
   let number = 0;
-  /** What was asked before this is of a vessel that is no longer drawn. */
+  /** Requests before this number belong to a vessel no longer drawn. */
   let ended = 0;
   return effect(() => {
     number += 1;
@@ -116,7 +111,6 @@ async function pathOf(
   return points ? { points, isFound: true } : { points: [from, to], isFound: false };
 }
 
-/** Forgets what is drawn but the vessels of the document. */
 export function forgetDrawing(): void {
   first.value = null;
   candidate.value = null;

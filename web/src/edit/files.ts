@@ -1,11 +1,11 @@
-/** The document's vessels as files of centerlines, and centerlines that come to a document. */
+/** Export of the vessels as centerline files, and import of centerlines. */
 import type { Asked } from '../core/asked';
 import type { CenterlineKind, NamedLine } from '../core/messages';
 import { nameOf } from '../state/changes';
 import { document_ } from '../state/history';
 import { commit, isDone } from './committing';
 
-/** All vessels that are not doubtful as a file, also those that are hidden. */
+/** All vessels except the doubtful ones, including hidden vessels. */
 export async function centerlineFile(engine: Asked, kind: CenterlineKind): Promise<Blob> {
   const vessels = document_.value.vessels.filter((vessel) => vessel.doubt === null);
   const lines = vessels.map((vessel) => ({ line: vessel.line, name: nameOf(vessel) }));
@@ -14,7 +14,6 @@ export async function centerlineFile(engine: Asked, kind: CenterlineKind): Promi
   });
 }
 
-/** Adds vessels that were read from files. */
 export function addLoaded(engine: Asked, vessels: readonly NamedLine[]): Promise<boolean> {
   const lines = vessels.map(({ line, name }) => ({ line, name }));
   return isDone(commit(engine, { kind: 'add_lines', lines }));

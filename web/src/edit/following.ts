@@ -1,4 +1,4 @@
-/** Everything that follows the document of edits as long as the page is open. */
+/** Starts everything that follows the document while the page is open. */
 import type { Asked } from '../core/asked';
 import { followPointer } from './drawing';
 import { followLines } from './lines';

@@ -1,4 +1,4 @@
-/** The content of the document's lines, for what is drawn over the views. */
+/** Content of the document's lines, drawn over the views. */
 import { effect, signal } from '@preact/signals';
 import type { Asked } from '../core/asked';
 import { Failure } from '../core/failure';
@@ -8,12 +8,12 @@ import { document_ } from '../state/history';
 import { problem } from '../state/store';
 import { answered } from './committing';
 
-/** By the numbers of the lines; lines never change. Those of a study that was closed are forgotten. */
+/** By line number; lines are immutable. Cleared with the study. */
 export const contents = signal<ReadonlyMap<LineId, LineContent>>(new Map());
 
 const asked = new Set<LineId>();
 
-/** Loads the content of lines as they come into the document; gives what ends it. */
+/** Loads lines as they enter the document. Returns the function that ends it. */
 export function followLines(engine: Asked): () => void {
   return effect(() => {
     const lines = document_.value.vessels.map((vessel) => vessel.line);
@@ -28,7 +28,6 @@ export function followLines(engine: Asked): () => void {
   });
 }
 
-/** Takes over the lines that came with an edit. */
 function take(given: readonly NumberedLine[], wanted: readonly LineId[]): void {
   const missing = given.filter(({ line }) => wanted.includes(line) && !asked.has(line));
   if (missing.length > 0) {
@@ -53,7 +52,7 @@ async function load(engine: Asked, lines: readonly LineId[]): Promise<void> {
       ...found.map((content, n) => [lines[n] ?? -1, content] as const),
     ]);
   } catch (error) {
-    // Lines of a study that is closed meanwhile were forgotten.
+    // A study closed meanwhile has no lines.
     const isAsked = lines.some((line) => asked.has(line));
     for (const line of lines) {
       asked.delete(line);
@@ -62,13 +61,12 @@ async function load(engine: Asked, lines: readonly LineId[]): Promise<void> {
   }
 }
 
-/** Another study has lines of its own. */
 export function forgetLines(): void {
   asked.clear();
   contents.value = new Map();
 }
 
-/** The length of a line (mm); 0 where it is not loaded yet. */
+/** Length of a line (mm); 0 until it is loaded. */
 export function lengthOf(line: LineId): number {
   const points = contents.value.get(line)?.points ?? [];
   const step = (n: number) => {

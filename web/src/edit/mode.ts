@@ -1,4 +1,4 @@
-/** While a vessel is traced the page shows slices in all directions and the brightest values along each ray. */
+/** While tracing, the page shows three slices and a maximum intensity projection. */
 import { batch, effect, signal, untracked } from '@preact/signals';
 import type { SettingValue } from '../core/messages';
 import { moveTo } from '../link/along';
@@ -9,12 +9,10 @@ import { forgetRefusal } from './committing';
 import { openList } from './list-open';
 import { endVessel } from './pointing';
 
-/** The doubtful branch that was clicked, which is to be accepted or left out. */
 export const chosenDoubt = signal<number | null>(null);
 
 const TRACING: readonly Tool[] = ['trace', 'stopper', 'seed'];
 
-/** Whether clicks set points, stoppers or the begin of a tree now. */
 export const isTracing = (): boolean => TRACING.includes(tool.value);
 
 interface Kept {
@@ -22,10 +20,10 @@ interface Kept {
   readonly context: SettingValue;
 }
 
-/** What was shown before; null while no vessel is traced. */
+/** The layout before tracing; null while no tool is active. */
 let before: Kept | null = null;
 
-/** Shows what a tool needs from now on, and afterwards what was shown before. */
+/** Shows the layout of a tool, and restores the previous one afterwards. */
 export function followTool(): () => void {
   return effect(() => {
     const isOn = isTracing();
@@ -38,15 +36,14 @@ export function followTool(): () => void {
       } else if (!isOn && before) {
         endVessel();
         forgetRefusal();
-        // What the user chose meanwhile stays.
+        // Keep what the user chose meanwhile.
         const isOurs = store.layout.peek() === 'four' && peekContext() === 'mip';
         if (isOurs) {
           show(before);
         }
-        // A slice that was shown alone would hide the vessel that was traced.
+        // A maximised slice would hide the traced vessel.
         store.maximised.value = null;
         before = null;
-        // The cross-hair was where the last click was.
         untracked(() => moveTo(store.pickedPlace.value));
       }
     });
@@ -62,7 +59,6 @@ function show({ layout, context }: Kept): void {
   untracked(() => setSetting('context', context));
 }
 
-/** Takes up a tool, or lays it down where it is in use. */
 export function toggleTool(wanted: Tool): void {
   tool.value = tool.value === wanted ? 'look' : wanted;
 }

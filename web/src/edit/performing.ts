@@ -1,4 +1,4 @@
-/** Does what a key or a button stands for: edits of vessels here, all else in the actions of the page. */
+/** Carries out keys and buttons: edits here, other actions in `state/actions.ts`. */
 import type { EngineClient } from '../client/engine';
 import type { Action } from '../input/bindings';
 import { perform } from '../state/actions';
@@ -23,7 +23,6 @@ export function performAny(engine: EngineClient, action: Action): void {
   }
 }
 
-/** Does an edit; says whether it was one. */
 function edit(engine: EngineClient, action: Action): boolean {
   switch (action) {
     case 'trace':
@@ -73,7 +72,7 @@ function point(engine: EngineClient, action: Action): boolean {
   return true;
 }
 
-/** Twice at one place takes the whole vessel where nothing else was clicked of it. */
+/** Pressing twice at one position takes the whole vessel, if it has no other click. */
 function pressEnter(engine: EngineClient): void {
   const isAgain = first.value !== null && !candidate.value && isAtCrossHair(first.value);
   if (!(isAgain && takeWhole(engine))) {
@@ -81,7 +80,7 @@ function pressEnter(engine: EngineClient): void {
   }
 }
 
-/** Deletes the picked vessel while the list is open, where one sees which one that is; not while its marks are worked on. */
+/** Deletes the picked vessel only while the list shows which one it is, and not while measuring. */
 function removePicked(engine: EngineClient): boolean {
   const id = pickedId();
   if (!isListOpen.value || layout.value === 'measure' || id === null) {
@@ -91,7 +90,7 @@ function removePicked(engine: EngineClient): boolean {
   return true;
 }
 
-/** All branches that the cross-hair's place reaches; where the reader did not put it there, a click says where the tree begins. */
+/** Finds all branches from the cross-hair; if the user did not place it, the next click is the seed. */
 export function branchesFromHere(engine: EngineClient): void {
   const seed = crossHair.value?.point;
   if (tool.value === 'seed' || !seed || seed === firstPlace.value) {
@@ -102,7 +101,7 @@ export function branchesFromHere(engine: EngineClient): void {
   }
 }
 
-/** Undoes the last step; what is under way is stopped first, and a point that is no vessel yet is taken back. */
+/** Undoes the last step; first stops running work or removes a pending point. */
 export function undoLast(engine: EngineClient): void {
   if (waiting.value > 0) {
     stopEdits(engine);
@@ -114,9 +113,8 @@ export function undoLast(engine: EngineClient): void {
   }
 }
 
-/** Escape: stops an edit, then closes what is told, then steps back out of the tool. */
+/** Escape: stops an edit, then closes messages, then leaves the tool. */
 function cancelEdit(engine: EngineClient): boolean {
-  // The way to the pointer is shown again when it moves.
   target.value = null;
   if (waiting.value > 0) {
     stopEdits(engine);

@@ -1,31 +1,29 @@
-/** What a click, Enter and Escape do with the tools that trace. */
+/** Clicks, Enter and Escape in the tracing tools. */
 import { batch } from '@preact/signals';
 import type { Asked } from '../core/asked';
 import { Failure } from '../core/failure';
 import type { AfterEdit, Pick, Vector } from '../core/messages';
 import { length, subtract } from '../core/vectors';
 import { document_ } from '../state/history';
+import { showMessage } from '../state/message';
 import { crossHair } from '../state/store';
-import { tell } from '../state/telling';
 import { active, tool } from '../state/tool';
 import { addBranches } from './branches';
 import { addClick, beginVessel, begunId, removeClick } from './clicks';
-import { forgetRefusal, refusal, searches, tellRefusal } from './committing';
+import { forgetRefusal, refusal, searches, showRefusal } from './committing';
 import { anchor, candidate, coming, drawing, drawn, first, forgetDrawing, isDrawing } from './drawing';
 import { addStopper } from './stoppers';
 import { checked, only, whole } from './whole-shown';
 
-/** Places as near as this are one place (mm). */
-const SAME = 0.05;
+const SAME_POINT_MM = 0.05;
 
-/** The vessel that is being begun, as long as it is traced for the first time. */
 let beginning: Promise<AfterEdit | null> | null = null;
 
-/** Sets a point of a vessel, a stopper, or where a tree begins; gives what lies there, or null where that was not told. */
+/** Sets a point, a stopper or a seed. Returns the value at the point, or null. */
 export async function setPoint(engine: Asked, point: Vector): Promise<Pick | null> {
   candidate.value = null;
   if (searches.value > 0) {
-    tell('No point was set: vessels are being looked for. Escape stops that.');
+    showMessage('No point was set: the search for vessels is still running. Press Escape to stop it.');
     return null;
   }
   if (tool.value === 'stopper') {
@@ -50,7 +48,7 @@ export async function setPoint(engine: Asked, point: Vector): Promise<Pick | nul
   return answer?.pick ?? null;
 }
 
-/** Looks for all branches from a place; where none are found another place can be clicked. */
+/** Searches branches from a seed; if none are found, the user can click again. */
 async function beginTree(engine: Asked, point: Vector): Promise<void> {
   if ((await addBranches(engine, point)) && tool.value === 'seed') {
     tool.value = 'look';
@@ -68,10 +66,9 @@ async function goOn(engine: Asked, point: Vector): Promise<AfterEdit | null> {
   return first.value && begin(engine, [first.value, point]);
 }
 
-/** Begins the vessel that goes on from its first point. */
 async function begin(engine: Asked, clicks: readonly [Vector, Vector]): Promise<AfterEdit | null> {
   const own = drawing.value;
-  // A vessel that was ended while it was traced does not go on.
+  // A vessel that ended during its trace does not continue.
   const goesOn = () => own === drawing.value;
   beginning = beginVessel(engine, clicks, (id) => {
     if (goesOn()) {
@@ -84,37 +81,33 @@ async function begin(engine: Asked, clicks: readonly [Vector, Vector]): Promise<
   const begun = await beginning;
   if (goesOn()) {
     beginning = null;
-    // Where the first point is to blame, another one is to be set: no second one would help.
+    // If the first point is at fault it must be set again: no second point would help.
     first.value = begun === null && !isBlamed(first.value) ? first.value : null;
   }
   return begun;
 }
 
-/**
- * Tells what a first point hit, and shows the whole vessel that it would add. One that no vessel can begin at is taken back at once: no
- * second one would make a vessel of it.
- */
+/** Checks a first point and previews its whole vessel. Removes the point if no vessel can begin there. */
 async function checkFirst(engine: Asked, point: Vector): Promise<Pick | null> {
   try {
-    const told = await engine.ask('first_click', { click: point, vessels: document_.value.vessels });
-    whole.value = first.value === point && only.value === point ? told.whole : whole.value;
-    return told.pick;
+    const answer = await engine.ask('first_click', { click: point, vessels: document_.value.vessels });
+    whole.value = first.value === point && only.value === point ? answer.whole : whole.value;
+    return answer.pick;
   } catch (error) {
     if (first.value === point) {
       first.value = null;
-      tellRefusal(Failure.of(error));
+      showRefusal(Failure.of(error));
     }
     return null;
   }
 }
 
-/** Whether a click was refused for a point, and not for what lies behind it. */
 function isBlamed(point: Vector | null): boolean {
   const place = refusal.value?.failure.place;
-  return Boolean(point && place && length(subtract(place, point)) < SAME);
+  return Boolean(point && place && length(subtract(place, point)) < SAME_POINT_MM);
 }
 
-/** Accepts the place of a projection; says whether there was one. */
+/** Confirms the point from a projection. Returns whether there was one. */
 export function acceptCandidate(engine: Asked): boolean {
   const point = candidate.value;
   if (point) {
@@ -123,7 +116,7 @@ export function acceptCandidate(engine: Asked): boolean {
   return point !== null;
 }
 
-/** Enter: accepts the place of a projection, else sets a point at the cross-hair; twice at one place ends the vessel. */
+/** Enter: confirms the projected point, or sets one at the cross-hair; twice at one position ends the vessel. */
 export function enter(engine: Asked): void {
   const place = crossHair.value?.point;
   if (acceptCandidate(engine) || !place) {
@@ -137,13 +130,12 @@ export function enter(engine: Asked): void {
   }
 }
 
-/** Whether a place is that of the cross-hair. */
 export function isAtCrossHair(place: Vector): boolean {
   const point = crossHair.value?.point;
-  return point !== undefined && length(subtract(place, point)) < SAME;
+  return point !== undefined && length(subtract(place, point)) < SAME_POINT_MM;
 }
 
-/** Ends the vessel that is drawn: points of it that are still traced come to it, and the next one begins another vessel. */
+/** Ends the vessel; points still being traced are added to it. */
 export function endVessel(): void {
   beginning = null;
   batch(() => {
@@ -153,7 +145,7 @@ export function endVessel(): void {
   });
 }
 
-/** One step back out of a tool: from a place of a projection, from a vessel, from the tool. Says whether there was one. */
+/** Leaves the projected point, the vessel, then the tool. Returns whether there was anything to leave. */
 export function leave(): boolean {
   if (tool.value === 'look') {
     return false;
@@ -168,7 +160,6 @@ export function leave(): boolean {
   return true;
 }
 
-/** Removes the last point that was set of the vessel that is drawn. */
 export function removeLast(engine: Asked): void {
   const clicks = drawn.value?.clicks;
   if (candidate.value) {

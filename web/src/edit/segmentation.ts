@@ -1,26 +1,23 @@
-/** A segmentation of DICOM (SEG) as a mask of vessels: the program that serves the page places its frames on the grid of the scan. */
+/** A DICOM segmentation (SEG) as a vessel mask; the server resamples it to the grid of the scan. */
 import type { DocumentVessel, GivenFile } from '../core/messages';
 import { inBase64, made } from '../core/server';
 import { report, scanStudy } from '../state/store';
 
-/** The classes of segmentations and of contours (RT Structure Set), which stand in the first bytes of a file. */
+/** SOP classes of segmentations and RT Structure Sets, within the first bytes of a file. */
 const CLASSES = /1\.2\.840\.10008\.5\.1\.4\.1\.1\.(66\.[47]|481\.3)[^.\d]/;
 const HEAD = 1024;
 
-/** A mask, and how its labels are called. */
 export interface NamedMask {
   readonly mask: readonly GivenFile[];
   readonly names: Readonly<Record<string, string>>;
   readonly notes: readonly string[];
 }
 
-/** Whether files are one segmentation, or contours, of DICOM. */
 export async function isSegmentation(files: readonly GivenFile[]): Promise<boolean> {
   const [only] = files;
   return files.length === 1 && only !== undefined && CLASSES.test(await only.file.slice(0, HEAD).text());
 }
 
-/** The mask of a segmentation on the grid of the scan that is open. */
 export async function maskOf({ file }: GivenFile): Promise<NamedMask> {
   const volume = report.value?.volume;
   const known = scanStudy.value;
@@ -39,7 +36,7 @@ export async function maskOf({ file }: GivenFile): Promise<NamedMask> {
   return { mask: [{ path, file: new File([bytes], path) }], names, notes };
 }
 
-/** A vessel by the name of its segment; the engine calls it by the number of its label where there are several. */
+/** Names a vessel by its segment; the engine names it by its label number if there are several. */
 export function namedBySegment(vessel: DocumentVessel, names: NamedMask['names']): DocumentVessel {
   const [only, ...others] = Object.values(names);
   const byLabel = () => vessel.name.replace(/^label (\d+)/, (words, label: string) => names[label] ?? words);

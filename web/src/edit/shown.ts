@@ -1,4 +1,4 @@
-/** The tree that is shown follows the document: the visible vessels, without the doubtful ones, whenever they change. */
+/** Keeps the displayed tree equal to the document's visible vessels, without doubtful ones. */
 import { batch, effect, signal, untracked } from '@preact/signals';
 import type { Asked } from '../core/asked';
 import { Failure } from '../core/failure';
@@ -11,20 +11,19 @@ import * as store from '../state/store';
 import { active } from '../state/tool';
 import { answered, dropEdits } from './committing';
 
-/** The vessels of the tree that is shown: those of `store.report`, in the same order. */
+/** Displayed vessels, in the order of `store.report`. */
 export const tree = signal<readonly DocumentVessel[]>([]);
 
-/** The lines that vessels are measured among, in their order: also those of vessels that are hidden. */
+/** Key of all lines that vessels are measured among, including hidden ones. */
 export const listedLines = signal('');
 const linesOf = (vessels: readonly DocumentVessel[]): string =>
   listOf(vessels)
     .map(({ line }) => line)
     .join();
 
-/** A vessel that is picked as soon as it is shown. */
 export const toPick = signal<number | null>(null);
 
-/** Picks a vessel of the document, at half its length: now where it is shown, else as soon as it is. */
+/** Picks a vessel at half its length, now or as soon as it is displayed. */
 export function pickOnceShown(id: number): void {
   const vessel = tree.value.findIndex((one) => one.id === id);
   batch(() => {
@@ -36,10 +35,8 @@ export function pickOnceShown(id: number): void {
   });
 }
 
-/** The vessel of the document that is picked. */
 export const pickedId = (): number | null => tree.value[store.pickedVessel.value ?? -1]?.id ?? null;
 
-/** What is asked of a list of vessels: lines and names, and which of them are hidden. */
 const listOf = (vessels: readonly DocumentVessel[]): readonly ListedLine[] =>
   vessels
     .filter((vessel) => vessel.doubt === null)
@@ -48,7 +45,7 @@ const textOf = (vessels: readonly DocumentVessel[]): string => JSON.stringify(li
 
 let shownText = textOf([]);
 
-/** Another study, or none: the document begins with its vessels, which are shown already, and nothing can be undone. */
+/** Begins the document of a study; its vessels are already displayed and there is no undo. */
 export function beginStudy(vessels: VesselDocument | null): void {
   dropEdits();
   const document = { ...EMPTY, ...vessels };
@@ -61,7 +58,7 @@ export function beginStudy(vessels: VesselDocument | null): void {
   });
 }
 
-/** Another document of the same study, as from a session: nothing can be undone. */
+/** Replaces the document of the same study, as by a session; there is no undo. */
 export function beginDocument(document: Document): void {
   dropEdits();
   batch(() => {
@@ -70,33 +67,31 @@ export function beginDocument(document: Document): void {
   });
 }
 
-/** The engine shows another tree than the document has: what the document has is shown again. */
 export function showAgain(engine: Asked): Promise<void> {
   shownText = '';
   return show(engine);
 }
 
-/** Shows the document's tree from now on; gives what ends it. */
+/** Displays the document's tree. Returns the function that ends it. */
 export function followDocument(engine: Asked): () => void {
-  let heard: AfterEdit | null = answered.peek();
+  let lastAnswer: AfterEdit | null = answered.peek();
   return effect(() => {
     const [document, answer] = [document_.value, answered.value];
-    if (answer && answer !== heard) {
+    if (answer && answer !== lastAnswer) {
       shownText = textOf(answer.edited.document.vessels);
     }
     if (textOf(document.vessels) !== shownText) {
       void show(engine);
-    } else if (answer && answer !== heard) {
+    } else if (answer && answer !== lastAnswer) {
       untracked(() => {
         const study = store.report.value?.volume;
-        takeUp(engine, answer.report, document).catch((error) => tellOf(study, error));
+        takeUp(engine, answer.report, document).catch((error) => reportError(study, error));
       });
     }
-    heard = answer;
+    lastAnswer = answer;
   });
 }
 
-/** The store tells what the engine shows of a document; the cross-hair goes on where its vessel is gone. */
 async function takeUp(engine: Asked, report: Report, document: Document): Promise<void> {
   const isLeft = batch(() => {
     listedLines.value = linesOf(document.vessels);
@@ -107,8 +102,7 @@ async function takeUp(engine: Asked, report: Report, document: Document): Promis
   }
 }
 
-/** Tells what went wrong, unless it was asked of a study that is closed meanwhile. */
-function tellOf(study: Report['volume'] | undefined, error: unknown): void {
+function reportError(study: Report['volume'] | undefined, error: unknown): void {
   if (study === store.report.value?.volume) {
     store.problem.value = Failure.of(error);
   }
@@ -116,14 +110,14 @@ function tellOf(study: Report['volume'] | undefined, error: unknown): void {
 
 let showing: Promise<void> | null = null;
 
-/** One tree is asked for at a time; where the document changes meanwhile, the latest one follows. Ends when that is shown. */
+/** Requests one tree at a time, until the latest document is displayed. */
 function show(engine: Asked): Promise<void> {
   showing ??= showLatest(engine);
   return showing;
 }
 
 async function showLatest(engine: Asked): Promise<void> {
-  // What is shown is known to be under way before it can end.
+  // `showing` must be set before this can end.
   await null;
   let study = store.report.value?.volume;
   try {
@@ -141,21 +135,18 @@ async function showLatest(engine: Asked): Promise<void> {
       study = store.report.value?.volume;
     }
   } catch (error) {
-    tellOf(study, error);
+    reportError(study, error);
   } finally {
-    // Here and not later: no change comes between the last look at the document and this.
+    // Cleared without a pause, so that no change can slip in after the last check.
     showing = null;
   }
 }
 
-/**
- * The store tells the new tree; camera and cross-hair stay, and so does the vessel that is picked. Gives whether the cross-hair was
- * on a vessel that is gone while another one is picked now.
- */
+/** Stores the new tree and keeps camera, cross-hair and pick. Returns whether the cross-hair lost its vessel. */
 function take(report: Report, vessels: readonly DocumentVessel[]): boolean {
   const picked = store.pickedVessel.value;
   const lengths = (report.vessels ?? []).map((vessel) => vessel.length);
-  // Where none was picked the longest is, unless one is being drawn.
+  // Picks the longest vessel if none was picked, unless one is being drawn.
   const isFirst = picked === null && vessels.every((vessel) => vessel.id !== active.value);
   const wanted = vessels.findIndex(({ id }) => id === toPick.value);
   const longest = () => lengths.indexOf(Math.max(...lengths));
@@ -170,7 +161,7 @@ function take(report: Report, vessels: readonly DocumentVessel[]): boolean {
     }
     const isSame = picked !== null && now !== null && tree.value[picked]?.id === vessels[now]?.id;
     tree.value = vessels;
-    // The volume stays the one that it was, so that views of it keep what they look at.
+    // Keeps the same volume object, so that views keep their position.
     followWindow(store.report.value?.windows?.main, report.windows?.main);
     store.report.value = { ...report, volume: store.report.value?.volume ?? report.volume };
     store.pickedVessel.value = now;
@@ -181,7 +172,7 @@ function take(report: Report, vessels: readonly DocumentVessel[]): boolean {
   return (hair?.vessel ?? null) !== null && store.crossHair.value?.vessel === null && now !== null;
 }
 
-/** The cross-hair goes on to the section of the vessel that is picked now, so that all views are of one vessel. */
+/** Moves the cross-hair to the section of the newly picked vessel. */
 async function goOn(engine: Asked): Promise<void> {
   const [vessel, at] = [store.pickedVessel.value, store.pickedPlace.value];
   if (vessel !== null) {
@@ -191,7 +182,7 @@ async function goOn(engine: Asked): Promise<void> {
   }
 }
 
-/** The window that the data suggest follows the vessels where the reader has chosen no other one. */
+/** Follows the suggested window unless the user chose another. */
 function followWindow(before: Window | undefined, after: Window | undefined): void {
   const isOwn = before === undefined || before.some((value, n) => value !== store.window_.value[n]);
   if (after && !isOwn) {
@@ -199,7 +190,7 @@ function followWindow(before: Window | undefined, after: Window | undefined): vo
   }
 }
 
-/** The vessel that is drawn; else the one that was picked, the next one that is still there, or the last one. */
+/** The vessel to pick: the drawn one, the previous one, its successor, or the last one. */
 export function successor(
   before: readonly DocumentVessel[],
   picked: number | null,

@@ -1,10 +1,9 @@
-/** Balls that no vessel may pass. */
+/** Stoppers: spheres that no vessel may pass. */
 import type { Asked } from '../core/asked';
 import type { AfterEdit, Vector } from '../core/messages';
 import { commit, isDone } from './committing';
 
-/** What a stopper is for. */
-export const STOPPER = 'A ball that no vessel may pass: set it where the line takes a wrong way';
+export const STOPPER = 'Sphere that no centerline may pass: place it where the centerline leaves the vessel';
 
 export const addStopper = (engine: Asked, center: Vector): Promise<AfterEdit | null> =>
   commit(engine, { kind: 'add_stopper', center });

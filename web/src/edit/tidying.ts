@@ -1,4 +1,4 @@
-/** Cleaning a tree: vessels that are short or thin go in one step, and so does what does not hang together with the picked one. */
+/** Cleaning a tree: removes short or thin vessels, or those not connected to the picked one, in one step. */
 import { computed, effect, signal } from '@preact/signals';
 import type { Asked } from '../core/asked';
 import { Latest } from '../core/latest';
@@ -13,7 +13,7 @@ import { remove } from './vessels';
 
 const facts = signal<ReadonlyMap<LineId, LineFacts>>(new Map());
 
-/** The vessels that can be tidied: doubtful ones are accepted or left out instead. */
+/** Vessels that can be cleaned up; doubtful ones are excluded. */
 export const sure = computed<readonly DocumentVessel[]>(() =>
   document_.value.vessels.filter((vessel) => vessel.doubt === null),
 );
@@ -22,7 +22,7 @@ export const factsOf = ({ line }: DocumentVessel): LineFacts | undefined => fact
 
 const latest = new Latest();
 
-/** Knows the facts of the lines from now on: an edit brings them, else they are asked for while the list is open. Gives what ends it. */
+/** Keeps facts of the lines up to date while the list is open. Returns the function that ends it. */
 export function followFacts(engine: Asked): () => void {
   return effect(() => {
     const lines = sure.value.map((vessel) => vessel.line);
@@ -37,27 +37,24 @@ export function followFacts(engine: Asked): () => void {
 
 async function ask(engine: Asked, lines: readonly LineId[]): Promise<void> {
   try {
-    const told = lines.length > 0 ? await engine.ask('line_facts', { lines }) : [];
-    facts.value = new Map(told.map((one) => [one.line, one]));
+    const found = lines.length > 0 ? await engine.ask('line_facts', { lines }) : [];
+    facts.value = new Map(found.map((one) => [one.line, one]));
   } catch (error) {
-    // Lines of a study that is closed meanwhile were forgotten.
+    // A study closed meanwhile has no lines.
     if (lines.every((line) => sure.value.some((vessel) => vessel.line === line))) {
       recover(error);
     }
   }
 }
 
-/** Which part of the values a slider of limits reaches: nobody removes all vessels by one. */
-const MOST = 0.95;
+/** Share of the values that a limit slider covers, so that none removes everything. */
+const SLIDER_SHARE = 0.95;
 
-/**
- * How far a slider of limits reaches: to what most of the values lie below, but no farther than `usual`, so that a pixel of it is
- * little; where most of them lie beyond that, to their middle.
- */
+/** Range of a limit slider: `SLIDER_SHARE` of the values but at most `usual`, for precision; the median if that is larger. */
 export function reachOf(values: readonly number[], usual: number): number {
   const ordered = [...values].sort((a, b) => a - b);
   const below = (part: number) => ordered[Math.round(part * (ordered.length - 1))] ?? 0;
-  return Math.min(below(MOST), Math.max(usual, below(0.5)));
+  return Math.min(below(SLIDER_SHARE), Math.max(usual, below(0.5)));
 }
 
 function isMarked(vessel: DocumentVessel): boolean {
@@ -65,13 +62,11 @@ function isMarked(vessel: DocumentVessel): boolean {
   return length < shorterThan.value || (calibre !== null && calibre < thinnerThan.value);
 }
 
-/** The ids of the vessels that are marked by the limits. */
 export const marked = computed<ReadonlySet<number>>(
   () => new Set(sure.value.filter(isMarked).map((vessel) => vessel.id)),
 );
 
-/** The ids of the vessels that do not hang together with the picked one; none where none is picked. */
-export const apart = computed<readonly number[]>(() => {
+export const unconnected = computed<readonly number[]>(() => {
   const picked = sure.value.find((vessel) => vessel.id === pickedId());
   const part = picked && factsOf(picked)?.part;
   return part === undefined
@@ -79,7 +74,6 @@ export const apart = computed<readonly number[]>(() => {
     : sure.value.filter((vessel) => (factsOf(vessel)?.part ?? part) !== part).map((vessel) => vessel.id);
 });
 
-/** Removes the marked vessels. */
 export async function removeMarked(engine: Asked): Promise<boolean> {
   const isDone = await remove(engine, [...marked.value]);
   if (isDone) {
@@ -88,5 +82,4 @@ export async function removeMarked(engine: Asked): Promise<boolean> {
   return isDone;
 }
 
-/** Keeps only what hangs together with the picked vessel. */
-export const keepPart = (engine: Asked): Promise<boolean> => remove(engine, apart.value);
+export const keepPart = (engine: Asked): Promise<boolean> => remove(engine, unconnected.value);

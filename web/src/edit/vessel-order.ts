@@ -1,29 +1,26 @@
-/** The order of the list of vessels: as they came, or as a tree in which branches stand under what they hang on, the widest first. */
+/** Order of the vessel list: as added, or as a tree with the widest branches first. */
 import { computed } from '@preact/signals';
 import type { DocumentVessel, LineFacts } from '../core/messages';
 import { treeChosen } from '../state/tidy';
 import { factsOf, sure } from './tidying';
 
-/** A row of the list. */
 export interface ListedVessel {
   readonly vessel: DocumentVessel;
-  /** How many others it hangs on, one on the other. */
   readonly depth: number;
 }
 
-/** Whether the list shows the vessels as a tree: by itself where some of them join. */
+/** Whether the list is a tree: by default if some vessels join. */
 export const isTreeShown = computed<boolean>(
   () =>
     sure.value.length > 1 &&
     (treeChosen.value ?? sure.value.some((vessel) => (factsOf(vessel)?.parent ?? null) !== null)),
 );
 
-/** The rows of the list. */
 export const listedVessels = computed<readonly ListedVessel[]>(() =>
   isTreeShown.value ? asTree(sure.value, factsOf) : sure.value.map((vessel) => ({ vessel, depth: 0 })),
 );
 
-/** Vessels as a tree; those of which nothing is known yet stand at its end. */
+/** Vessels as a tree; those without known facts come last. */
 export function asTree(
   vessels: readonly DocumentVessel[],
   facts: (vessel: DocumentVessel) => LineFacts | undefined,

@@ -1,4 +1,4 @@
-/** The whole vessel of one click as it is shown before it is taken, once the vessels of the scan are known. */
+/** Preview of the whole vessel of a single click. */
 import { computed, effect, signal } from '@preact/signals';
 import type { Asked } from '../core/asked';
 import { Latest } from '../core/latest';
@@ -7,20 +7,19 @@ import { document_ } from '../state/history';
 import { tool } from '../state/tool';
 import { candidate, coming, drawn, first } from './drawing';
 
-/** The place whose whole vessel can be taken: the only one that was clicked of a vessel. */
+/** The only click of a vessel, whose whole vessel can be taken. */
 export const only = computed<Vector | null>(() =>
   tool.value === 'trace' && !drawn.value && coming.value.length === 0
     ? (candidate.value ?? first.value)
     : null,
 );
 
-/** The vessel that would be taken; null where none is known. */
 export const whole = signal<WholeVessel | null>(null);
 
-/** A first point about which more is asked than its whole vessel: that comes with the answer. */
+/** A first point whose answer already includes the whole vessel. */
 export const checked = signal<Vector | null>(null);
 
-/** Shows what would be taken from now on; gives what ends it. */
+/** Updates the preview. Returns the function that ends it. */
 export function followWhole(engine: Asked): () => void {
   const latest = new Latest();
   return effect(() => {

@@ -1,4 +1,4 @@
-/** Taking the whole vessel of one click: by Enter, a double click or its button. */
+/** Takes the whole vessel of one click: by Enter, double click or button. */
 import type { Asked } from '../core/asked';
 import type { Edited } from '../core/messages';
 import { tool } from '../state/tool';
@@ -8,10 +8,7 @@ import { endVessel } from './pointing';
 import { toPick } from './shown';
 import { only } from './whole-shown';
 
-/**
- * Takes the whole vessel of the point that was clicked; says whether there was such a point. It stays where none is found and a
- * second point would help; one in a vessel that there is already is forgotten.
- */
+/** Returns whether there was a point. The point stays if no vessel is found but a second point could help. */
 export function takeWhole(engine: Asked): boolean {
   const click = only.value;
   if (click) {

@@ -1,4 +1,4 @@
-/** The guided try over the views: what to do next. It can be left at any time. */
+/** The guided tour over the views. */
 import { guideStep, leaveGuide, nextStep, STEPS, wordsOf } from './steps';
 
 export function Guide() {
@@ -9,7 +9,7 @@ export function Guide() {
   }
   const isLast = number === STEPS.length - 1;
   return (
-    <aside class="guide" aria-label="Guided try" aria-live="polite">
+    <aside class="guide" aria-label="Guided tour" aria-live="polite">
       <div class="guide-words">
         <h2>{`${number + 1} of ${STEPS.length}: ${step.title}`}</h2>
         <p>{wordsOf(step).join(' ')}</p>
@@ -21,7 +21,7 @@ export function Guide() {
           </button>
         )}
         <button type="button" onClick={leaveGuide}>
-          {isLast ? 'Finish' : 'Leave the guided try'}
+          {isLast ? 'Finish' : 'Leave the tour'}
         </button>
       </div>
     </aside>

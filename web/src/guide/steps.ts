@@ -1,4 +1,4 @@
-/** The guided try: a phantom, and one step after the other, each done once the user did it. */
+/** Steps of the guided tour with a phantom; each ends when the user has done it. */
 import { effect, signal } from '@preact/signals';
 import { engine } from '../client/shared';
 import type { Vector } from '../core/messages';
@@ -12,36 +12,34 @@ import { openPhantom } from '../study/study';
 
 export interface GuideStep {
   readonly title: string;
-  /** What to do, one sentence each. */
+  /** One sentence each. */
   readonly words: readonly string[] | (() => readonly string[]);
   readonly isDone: () => boolean;
 }
 
-/** The least turn that counts as one (cosine of 20°). */
-const TURNED = Math.cos(Math.PI / 9);
+/** Smallest turn that counts (cosine of 20°). */
+const COS_MIN_TURN = Math.cos(Math.PI / 9);
 
-/** The step that is under way, counted from 0; null where there is no guided try. */
+/** Current step, counted from 0; null without a tour. */
 export const guideStep = signal<number | null>(null);
 
-/** Where the camera looked as the step began. */
 let directionAtFirst: Vector | null = null;
 
 const isTraced = (): boolean => document_.value.vessels.some((vessel) => (vessel.clicks?.length ?? 0) >= 2);
 
-/** One thing after the other: the slices are shown only once the tool is in use. */
+/** The slices appear only once the tool is active. */
 function tracingWords(): readonly string[] {
   if (!isTracing()) {
-    return ['Press “Trace” first, or the key t.', 'Slices in three directions are shown then.'];
+    return ['Press “Trace” or the key t.', 'Three slice views open.'];
   }
   return isTraced()
-    ? ['The centerline was found between your points.', 'Now press “Done”.']
+    ? ['Lumencut found the centerline between your points.', 'Now press “Done”.']
     : [
         'In the coronal slice, click on the bright vessel near its upper end, then near its lower end.',
-        'Its centerline is found between the clicks; then press “Done”.',
+        'Lumencut finds the centerline between the clicks; then press “Done”.',
       ];
 }
 
-/** What to do in a step now. */
 export const wordsOf = ({ words }: GuideStep): readonly string[] =>
   typeof words === 'function' ? words() : words;
 
@@ -55,11 +53,13 @@ export const STEPS: readonly GuideStep[] = [
     title: 'Turn it',
     words: [
       'Drag in the view “Vessels”.',
-      'The vessel is cut open along its middle, whichever way you look at it.',
+      'The vessel is cut open along its centerline from every direction.',
     ],
     isDone: () => {
       const camera = store.camera.value;
-      return camera !== null && directionAtFirst !== null && dot(camera.direction, directionAtFirst) < TURNED;
+      return (
+        camera !== null && directionAtFirst !== null && dot(camera.direction, directionAtFirst) < COS_MIN_TURN
+      );
     },
   },
   {
@@ -71,25 +71,24 @@ export const STEPS: readonly GuideStep[] = [
     isDone: () => store.layout.value === 'measure',
   },
   {
-    title: 'Grade the narrowing',
+    title: 'Grade the stenosis',
     words: [
-      'The narrowest place and places to compare it with are suggested. They are no findings: look at them.',
-      'Drag them to where you want them, or press “Confirm the suggested places”.',
-      'This phantom was made with a narrowing of 50 %: see how near the percentage and its ± come.',
+      'The narrowest place and its references are suggested. They are not findings until you confirm them.',
+      'Check them, drag them where they belong, or press “Confirm the suggested places”.',
+      'This phantom has a stenosis of 50 %: compare the percentage and its ± with that.',
     ],
     isDone: () => Object.values(document_.value.marks).some((marks) => marks.at !== null),
   },
   {
-    title: 'Take it away',
+    title: 'Save it',
     words: [
-      'Open “Save” and choose the report: one page with pictures and numbers that opens without a network.',
-      'The session goes into a file of its own, to go on later.',
+      'Open “Save” and choose the report: one page with pictures and numbers that opens offline.',
+      'Save the session, a separate file, to continue later.',
     ],
     isDone: () => false,
   },
 ];
 
-/** Opens the phantom without its centerlines, and begins. */
 export async function startGuide(): Promise<void> {
   await openPhantom(engine, 'stenosis');
   if (store.report.value) {
@@ -102,7 +101,6 @@ export function leaveGuide(): void {
   guideStep.value = null;
 }
 
-/** Goes on to the next step, or ends after the last one. */
 export function nextStep(): void {
   const step = guideStep.peek();
   if (step !== null) {
@@ -110,7 +108,7 @@ export function nextStep(): void {
   }
 }
 
-/** Goes on by itself whenever the user has done what a step asks for; the try ends with its study. */
+/** Continues when the user has completed a step; the tour ends with its study. */
 export function followGuide(): void {
   effect(() => {
     const step = guideStep.value;
@@ -122,7 +120,7 @@ export function followGuide(): void {
       if (store.report.value === null) {
         leaveGuide();
       } else if (guideStep.peek() === step && STEPS[step]?.isDone()) {
-        // Where several things change at once this is asked again before the next step takes its place.
+        // May run again before the next step starts if several signals change at once.
         nextStep();
       }
     });

@@ -1,6 +1,6 @@
-/** The one table of what mouse, touch and keys do. The views ask it, and the help is made from it. */
+/** Table of all mouse, touch and key bindings; the help is generated from it. */
 
-/** A view, all of the page, any view while a tool is in use that sets points, or a marker that has the focus. */
+/** A view, the whole page, any view while tracing, or a focused marker. */
 export type Where = 'turning' | 'flat' | 'everywhere' | 'tracing' | 'marks';
 export type Gesture =
   | 'drag'
@@ -13,7 +13,7 @@ export type Gesture =
   | 'key';
 export type Button = 'left' | 'middle' | 'right';
 export type Modifier = '' | 'Shift' | 'Ctrl' | 'Alt';
-/** Edits of vessels, which `edit/performing.ts` does. */
+/** Edits, carried out by `edit/performing.ts`. */
 export type EditAction =
   | 'trace'
   | 'branches'
@@ -67,10 +67,8 @@ export interface Binding {
   readonly gesture: Gesture;
   readonly button?: Button;
   readonly modifier?: Modifier;
-  /** Of a key: what `KeyboardEvent.key` says. */
   readonly key?: string;
   readonly action: Action;
-  /** What it does, in the help. */
   readonly words: string;
 }
 
@@ -108,7 +106,7 @@ const withCtrl = (name: string, action: Action, words: string): Binding => ({
   modifier: 'Ctrl',
 });
 
-/** Keys of the view that has the focus, which it hears itself. */
+/** Keys that the focused view handles itself. */
 const pane = (where: Where, name: string, words: string): Binding => ({
   where,
   gesture: 'key',
@@ -120,20 +118,20 @@ const pane = (where: Where, name: string, words: string): Binding => ({
 export const BINDINGS: readonly Binding[] = [
   mouse('turning', 'left', '', 'rotate', 'rotate'),
   mouse('turning', 'left', 'Alt', 'rotate about vessel', 'rotate about the axis of the picked vessel'),
-  mouse('turning', 'left', 'Ctrl', 'window', 'window: across its width, up and down its level'),
+  mouse('turning', 'left', 'Ctrl', 'window', 'window: drag across for width, up or down for level'),
   mouse('turning', 'left', 'Shift', 'pan', 'pan'),
   mouse('turning', 'middle', '', 'pan', 'pan'),
-  mouse('turning', 'right', '', 'window', 'window: across its width, up and down its level'),
+  mouse('turning', 'right', '', 'window', 'window: drag across for width, up or down for level'),
   other('turning', 'wheel', '', 'zoom', 'zoom at the pointer'),
   other('turning', 'wheel', 'Ctrl', 'zoom', 'zoom at the pointer'),
   other('turning', 'wheel', 'Shift', 'zoom', 'zoom at the pointer'),
   other('turning', 'touch drag', '', 'rotate', 'rotate'),
   mouse('flat', 'left', '', 'pan', 'pan'),
-  mouse('flat', 'left', 'Ctrl', 'window', 'window: across its width, up and down its level'),
+  mouse('flat', 'left', 'Ctrl', 'window', 'window: drag across for width, up or down for level'),
   mouse('flat', 'left', 'Shift', 'pan', 'pan'),
   mouse('flat', 'middle', '', 'pan', 'pan'),
-  mouse('flat', 'right', '', 'window', 'window: across its width, up and down its level'),
-  other('flat', 'wheel', '', 'scroll', 'scroll, one slice a notch, or turn the straightened vessel'),
+  mouse('flat', 'right', '', 'window', 'window: drag across for width, up or down for level'),
+  other('flat', 'wheel', '', 'scroll', 'scroll by one slice, or rotate the straightened vessel'),
   other('flat', 'wheel', 'Shift', 'scroll by ten', 'scroll by ten'),
   other('flat', 'wheel', 'Ctrl', 'zoom', 'zoom at the pointer'),
   other('flat', 'touch drag', '', 'scroll', 'scroll'),
@@ -153,9 +151,13 @@ export const BINDINGS: readonly Binding[] = [
   key(
     'Enter',
     'enter',
-    'while tracing, set a point at the cross-hair; again takes the whole vessel, or ends one of several points',
+    'while tracing, set a point at the cross-hair; press again for the whole vessel, or to end a vessel with several points',
   ),
-  key('Delete', 'remove', 'while tracing, remove the last point; else delete the picked vessel of the list'),
+  key(
+    'Delete',
+    'remove',
+    'while tracing, remove the last point; otherwise delete the picked vessel in the list',
+  ),
   key('Backspace', 'remove point', 'while tracing, remove the last point'),
   other('everywhere', 'two-finger drag', '', 'pan', 'pan'),
   other('everywhere', 'pinch', '', 'zoom', 'zoom'),
@@ -163,14 +165,14 @@ export const BINDINGS: readonly Binding[] = [
   other('everywhere', 'double click', '', 'maximise', 'show this view alone, or all views again'),
   pane('turning', 'Arrow keys', 'rotate; with Shift pan'),
   pane('turning', '+ and -', 'zoom'),
-  pane('turning', 'Drag to the side', 'while the view turns about a place: sweep the cut about it'),
+  pane('turning', 'Drag to the side', 'while turning about a place: rotate the cut around it'),
   pane('flat', 'Up and down', 'scroll'),
   pane('flat', 'Page up and down', 'scroll by ten'),
   pane('flat', '+ and -', 'zoom'),
   pane('marks', 'Arrow keys', 'move it along the vessel, with Shift ten times as far'),
   pane('marks', 'Enter', 'confirm a suggested place'),
   pane('marks', 'Delete', 'remove it; a right click does so too'),
-  key('Escape', 'cancel', 'cancel what is under way, end the vessel and the tool, show all views again'),
+  key('Escape', 'cancel', 'cancel the current action, end the vessel and the tool, show all views'),
   key('a', 'view anterior', 'view from the front (anterior)'),
   key('p', 'view posterior', 'view from the back (posterior)'),
   key('l', 'view left', "view from the patient's left"),
@@ -189,19 +191,19 @@ export const BINDINGS: readonly Binding[] = [
   key('8', 'preset 7', 'window for stent'),
   key('c', 'context', 'context on and off'),
   key('s', 'silhouettes', 'silhouettes on and off'),
-  key('m', 'measure', 'measure the picked vessel, or back to the layout before'),
-  key('e', 'report', 'report: what was found on all vessels, or back to the layout before'),
+  key('m', 'measure', 'measure the picked vessel, or return to the previous layout'),
+  key('e', 'report', 'report the findings on all vessels, or return to the previous layout'),
   key('f', 'best view', 'best view of the picked vessel'),
-  key('o', 'turn about place', 'turn about the place of the section, or end that'),
+  key('o', 'turn about place', 'turn the view about the section, or stop'),
   key(' ', 'turn', 'turn slowly, or stop'),
   key('t', 'trace', 'trace vessels by clicks, or stop'),
   key('w', 'whole vessel', 'while tracing, take the whole vessel of the point that was clicked'),
   key('b', 'branches', 'find all branches from the cross-hair'),
   key('v', 'vessels', 'list of the vessels'),
   key('.', 'next doubt', 'show the next doubtful branch'),
-  key(',', 'previous doubt', 'show the doubtful branch before'),
+  key(',', 'previous doubt', 'show the previous doubtful branch'),
   key('y', 'accept doubt', 'accept the doubtful branch that is shown'),
-  key('n', 'leave doubt out', 'leave the doubtful branch that is shown out'),
+  key('n', 'leave doubt out', 'leave out the doubtful branch that is shown'),
   withCtrl('z', 'undo', 'undo'),
   withCtrl('Z', 'redo', 'redo'),
   withCtrl('y', 'redo', 'redo'),
@@ -210,7 +212,7 @@ export const BINDINGS: readonly Binding[] = [
   key('?', 'help', 'show these keys'),
 ];
 
-/** What a drag, wheel or click does in a view; nothing where the table has no row for it. */
+/** Action of a drag, wheel or click in a view; null if unbound. */
 export function actionOf(
   where: Where,
   gesture: Gesture,
@@ -225,14 +227,13 @@ export function actionOf(
   return BINDINGS.find(fits)?.action ?? null;
 }
 
-/** What a key does; a capital without a row of its own does what the small letter does. */
+/** Action of a key; an unbound capital acts as its small letter. */
 export function actionOfKey(name: string, modifier: Modifier = ''): Action | null {
   const rowOf = (key: string) =>
     BINDINGS.find((row) => row.gesture === 'key' && row.key === key && (row.modifier ?? '') === modifier);
   return (rowOf(name) ?? rowOf(name.toLowerCase()))?.action ?? null;
 }
 
-/** How a row's input is called in the help. */
 export function inputName(row: Binding): string {
   const name = row.gesture === 'key' ? keyName(row.key ?? '') : buttonName(row);
   return row.modifier ? `${row.modifier}+${name}` : name;

@@ -1,12 +1,11 @@
-/** Files out of a drop or a choice, with the folders that they are in. */
+/** Files of a drop or a choice, with their paths. */
 import type { GivenFile } from '../core/messages';
 
-/** The files that were chosen. */
 export function chosen(list: FileList): GivenFile[] {
   return [...list].map((file) => ({ path: file.webkitRelativePath || file.name, file }));
 }
 
-/** The files that were dropped, with those of dropped folders. To be called while the event is handled. */
+/** Dropped files, including those of folders. Call it while the event is handled. */
 export async function dropped(transfer: DataTransfer): Promise<GivenFile[]> {
   const items = [...transfer.items].filter((item) => item.kind === 'file');
   const entries = items.map((item) => item.webkitGetAsEntry());
@@ -35,7 +34,7 @@ async function below(entry: FileSystemEntry): Promise<GivenFile[]> {
   return found;
 }
 
-/** The entries of a folder, which a browser gives some at a time. */
+/** Entries of a folder; browsers return them in batches. */
 async function entriesOf(folder: FileSystemDirectoryEntry): Promise<FileSystemEntry[]> {
   const reader = folder.createReader();
   const found: FileSystemEntry[] = [];

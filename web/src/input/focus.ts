@@ -1,9 +1,9 @@
-/** Where the focus goes by itself: a key that shows other views takes it to the one that is worked in next. */
+/** Moves the focus to the view that a key opened. */
 
-/** A view that is shown is drawn after some frames; one that does not come is not waited for. */
+/** A view appears after some frames; stop waiting after these. */
 const MOST_FRAMES = 30;
 
-/** Moves the focus to what a selector finds, once it is there, unless the user moved it meanwhile. */
+/** Focuses an element once it exists, unless the user moved the focus. */
 export function focusSoon(selector: string): void {
   const before = document.activeElement;
   const look = (frames: number) => {

@@ -1,21 +1,20 @@
-/** Gestures of mouse, pen and touch on an element. A press becomes a drag only beyond 4 pixels; else it is a click. */
+/** Gestures of mouse, pen and touch. A press becomes a drag after 4 pixels; otherwise it is a click. */
 import { type Action, actionOf, type Button, type Modifier, type Where } from './bindings';
 import { alongWheel, Steps } from './wheel';
 
-/** How far a pointer moves before a press is a drag (CSS pixels). */
+/** Movement that turns a press into a drag (CSS pixels). */
 const DRAG_FROM = 4;
-/** Zoom per pixel of the wheel: a trackpad sends many small steps. */
+/** Zoom per wheel pixel; trackpads send many small steps. */
 const ZOOM_PER_WHEEL = 0.0016;
 const MOST_WHEEL = 120;
-/** The pixels that a line of the wheel stands for, in browsers that count lines. */
+/** Pixels per wheel line, in browsers that report lines. */
 const LINE = 40;
-/** With Shift the wheel goes so many slices at once. */
-const MANY = 10;
-/** Within which time a second click makes a double click (ms), and how near (pixels). */
+const SLICES_WITH_SHIFT = 10;
+/** Maximum time (ms) and distance (pixels) of a double click. */
 export const DOUBLE_WITHIN = 350;
 export const DOUBLE_NEAR = 6;
 
-/** What a view does with gestures; places are CSS pixels within the element, from its top left. */
+/** Handlers of a view; positions are CSS pixels from its top left. */
 export interface Handlers {
   drag(action: Action, by: readonly [number, number], at: readonly [number, number]): void;
   zoom(factor: number, at: readonly [number, number]): void;
@@ -24,19 +23,18 @@ export interface Handlers {
   hover(at: readonly [number, number], shift: boolean): void;
   begin(): void;
   end(): void;
-  /** Further rows of the table that hold now, before those of the view. */
+  /** Bindings that take precedence over those of the view. */
   rows?(): Where | null;
-  /** Steps through what lies one behind the other under the pointer. */
+  /** Steps through the objects behind each other under the pointer. */
   step?(by: number): void;
-  /** The pointer is over the view no longer, or what is under it has changed. */
+  /** The pointer left the view, or the content under it changed. */
   leave?(): void;
-  /** Escape while a drag is under way: all is as it was when it began. */
+  /** Escape during a drag: restores the state at its start. */
   putBack(): void;
 }
 
-type Place = [number, number];
+type Pixel = [number, number];
 
-/** Listens on an element until the function that it gives is called. */
 export function listen(element: HTMLElement, where: Where, handlers: Handlers): () => void {
   const gestures = new Pointers(element, where, handlers);
   const stop = new AbortController();
@@ -62,14 +60,14 @@ function modifierOf(event: MouseEvent): Modifier {
 }
 
 class Pointers {
-  private readonly held = new Map<number, Place>();
-  private start: Place = [0, 0];
+  private readonly held = new Map<number, Pixel>();
+  private start: Pixel = [0, 0];
   private action: Action | null = null;
   private clickAction: Action | null = null;
   private isDragging = false;
   private spread = 0;
   private readonly steps = new Steps();
-  private lastClick = { time: Number.NEGATIVE_INFINITY, at: [0, 0] as Place };
+  private lastClick = { time: Number.NEGATIVE_INFINITY, at: [0, 0] as Pixel };
 
   constructor(
     private readonly element: HTMLElement,
@@ -77,13 +75,12 @@ class Pointers {
     private readonly handlers: Handlers,
   ) {}
 
-  private placeOf(event: MouseEvent): Place {
+  private placeOf(event: MouseEvent): Pixel {
     const box = this.element.getBoundingClientRect();
     return [event.clientX - box.left, event.clientY - box.top];
   }
 
   down(event: PointerEvent): void {
-    // What lies over the view and can be pressed hears it itself.
     if ((event.target as Partial<Element> | null)?.closest?.('button, input, select')) {
       return;
     }
@@ -94,7 +91,7 @@ class Pointers {
       event.preventDefault();
     }
     if (this.held.size > 1) {
-      // The distance of two fingers counts; a third one only rests there.
+      // A third finger is ignored.
       this.beginTwo();
       return;
     }
@@ -135,7 +132,7 @@ class Pointers {
       this.handlers.hover(at, event.shiftKey);
       return;
     }
-    const by: Place = [at[0] - before[0], at[1] - before[1]];
+    const by: Pixel = [at[0] - before[0], at[1] - before[1]];
     if (this.held.size > 1) {
       this.held.set(event.pointerId, at);
       this.moveTwo(by);
@@ -153,7 +150,7 @@ class Pointers {
     this.dragged(by, at);
   }
 
-  private moveTwo(by: Place): void {
+  private moveTwo(by: Pixel): void {
     const middle = this.middle();
     const spread = this.distance();
     if (this.spread > 0 && spread > 0) {
@@ -163,12 +160,12 @@ class Pointers {
     this.handlers.drag('pan', [by[0] / 2, by[1] / 2], middle);
   }
 
-  private middle(): Place {
+  private middle(): Pixel {
     const [a, b] = [...this.held.values()];
     return a && b ? [(a[0] + b[0]) / 2, (a[1] + b[1]) / 2] : this.start;
   }
 
-  private dragged(by: Place, at: Place): void {
+  private dragged(by: Pixel, at: Pixel): void {
     if (this.action === 'scroll') {
       this.scrollBy(this.steps.ofPixels(by[1] * 4));
     } else if (this.action) {
@@ -192,7 +189,7 @@ class Pointers {
     }
   }
 
-  private click(at: Place, { timeStamp: time, button }: PointerEvent): void {
+  private click(at: Pixel, { timeStamp: time, button }: PointerEvent): void {
     const last = this.lastClick;
     const isNear = Math.hypot(at[0] - last.at[0], at[1] - last.at[1]) <= DOUBLE_NEAR;
     if (time - last.time < DOUBLE_WITHIN && isNear && button === 0) {
@@ -229,7 +226,7 @@ class Pointers {
 
   wheel(event: WheelEvent): void {
     event.preventDefault();
-    // A pinch on a trackpad comes as a wheel with Ctrl.
+    // Browsers report a trackpad pinch as a wheel with Ctrl.
     const rows = this.handlers.rows?.() ?? null;
     const modifier = modifierOf(event);
     const action =
@@ -244,7 +241,7 @@ class Pointers {
       const bounded = Math.max(-MOST_WHEEL, Math.min(MOST_WHEEL, pixels));
       this.handlers.zoom(Math.exp(-bounded * ZOOM_PER_WHEEL), this.placeOf(event));
     } else if (action === 'scroll' || action === 'scroll by ten') {
-      this.scrollBy(this.steps.ofWheel(event) * (action === 'scroll' ? 1 : MANY));
+      this.scrollBy(this.steps.ofWheel(event) * (action === 'scroll' ? 1 : SLICES_WITH_SHIFT));
     }
   }
 

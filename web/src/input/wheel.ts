@@ -1,17 +1,16 @@
-/** How many steps a wheel goes: a notch of a mouse is one step, and the small movements of a trackpad add up to steps. */
+/** Converts wheel movements to steps: one per mouse notch; trackpad movements add up. */
 
-/** From here on (pixels) one event is notches of a mouse: browsers tell 100 to 120 pixels for each, trackpads far fewer at a time. */
+/** Threshold between mouse and trackpad (pixels): a notch is 100 to 120, a trackpad event far less. */
 const NOTCH_FROM = 60;
 const NOTCH = 110;
-/** The lines of one notch, in browsers that count lines. */
 const NOTCH_LINES = 3;
-/** The pixels of a trackpad, or of a finger, that are one step. */
+/** Pixels of a trackpad or finger per step. */
 const STEP = 40;
 
 export class Steps {
   private rest = 0;
 
-  /** Whole steps of an event of the wheel; what is left of smaller movements is kept for the next. */
+  /** Whole steps of a wheel event; the remainder is kept. */
   ofWheel(event: WheelEvent): number {
     const by = alongWheel(event);
     const isInPixels = event.deltaMode === WheelEvent.DOM_DELTA_PIXEL;
@@ -23,7 +22,6 @@ export class Steps {
     return Math.sign(by) * Math.max(1, Math.round(notches));
   }
 
-  /** Whole steps of a movement in pixels. */
   ofPixels(pixels: number): number {
     this.rest += pixels;
     const steps = Math.trunc(this.rest / STEP);
@@ -32,6 +30,6 @@ export class Steps {
   }
 }
 
-/** With Shift browsers tell the wheel as one across. */
+/** With Shift, browsers report horizontal movement. */
 export const alongWheel = ({ deltaX, deltaY, shiftKey }: WheelEvent): number =>
   shiftKey && deltaY === 0 ? deltaX : deltaY;

@@ -1,9 +1,9 @@
-/** A volume of which every second voxel along each axis is kept while it comes: an eighth of its memory. */
+/** Keeps every second voxel along each axis while a volume is read: an eighth of its memory. */
 import { Failure } from '../core/failure';
 import type { Study } from './study';
 import type { Size } from './volume-file';
 
-/** What takes a study, and lets the one before go. */
+/** A study that can release the previous one. */
 interface Closable extends Study {
   close(): void;
 }
@@ -14,7 +14,6 @@ interface Header {
   readonly world_from_index: readonly (readonly number[])[];
 }
 
-/** Arrays of the types that the engine has. */
 export const ARRAYS = {
   uint8: Uint8Array,
   int16: Int16Array,
@@ -23,7 +22,6 @@ export const ARRAYS = {
 } as const;
 
 export class EverySecond implements Study {
-  /** The part of the voxels that is kept. */
   readonly share = 1 / 8;
   private size: Size = [0, 0, 0];
   private Voxels: (typeof ARRAYS)[keyof typeof ARRAYS] = Uint8Array;
@@ -52,10 +50,9 @@ export class EverySecond implements Study {
     this.study.begin_volume(JSON.stringify({ ...header, ...halved(header) }));
   }
 
-  /** Keeps the voxels with three even indices; whole voxels come in the order in which they are stored. */
+  /** Keeps voxels with three even indices; voxels arrive in storage order. */
   take_voxels(offset: number, bytes: Uint8Array): void {
     const unit = this.Voxels.BYTES_PER_ELEMENT;
-    // Views of wide numbers begin at multiples of their size.
     const whole = bytes.byteOffset % unit === 0 ? bytes : bytes.slice();
     const voxels = new this.Voxels(whole.buffer as ArrayBuffer, whole.byteOffset, whole.length / unit);
     const first = offset / unit;
@@ -74,7 +71,7 @@ export class EverySecond implements Study {
     }
   }
 
-  /** The rows with even j and k among the voxels from `first` to `end`, with their first i and the one after their last. */
+  /** Rows with even j and k between two voxels, with their first i and the i after their last. */
   private *rows(first: number, end: number): Generator<[row: number, from: number, to: number]> {
     const [ni, nj] = this.size;
     for (let row = Math.floor(first / ni); row * ni < end; row += 1) {
@@ -84,7 +81,6 @@ export class EverySecond implements Study {
     }
   }
 
-  /** How many voxels are kept before a row. */
   private keptBefore(row: number): number {
     const [ni, nj] = this.size;
     const rows = (Math.floor(row / nj) / 2) * Math.ceil(nj / 2) + (row % nj) / 2;
@@ -92,7 +88,7 @@ export class EverySecond implements Study {
   }
 }
 
-/** Size and grid of every second voxel; the first one stays where it is. */
+/** Size and grid of every second voxel; the first voxel stays in place. */
 function halved({ size, world_from_index }: Header): Pick<Header, 'size' | 'world_from_index'> {
   const doubled = (row: readonly number[]) => row.map((value, column) => (column < 3 ? 2 * value : value));
   const [ni, nj, nk] = size;

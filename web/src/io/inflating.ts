@@ -1,22 +1,21 @@
-/** Compressed streams (gzip, zlib, bare deflate), unpacked in pieces of bounded size whatever they would like to become. */
+/** Decompresses gzip, zlib and raw deflate in pieces of bounded size. */
 import { Z_BUF_ERROR, Z_NO_FLUSH, Z_OK, Z_STREAM_END, ZStream, zlibInflate, zlibInflateInit2 } from 'pako';
 import type { Source } from './source';
 import { damaged } from './words';
 
-/** What the stream is wrapped in: `wrapped` for gzip or zlib, whichever it turns out to be. */
+/** `wrapped` is gzip or zlib, detected by content. */
 export type Wrapping = 'wrapped' | 'bare';
 
 const WINDOW_BITS: Readonly<Record<Wrapping, number>> = { wrapped: 47, bare: -15 };
 const CHUNK = 1 << 18;
 const PIECE = 1 << 20;
-/** Parts of a stream that hold nothing: real files have one at most, for a good end. */
+/** Limit of empty parts: real files have at most one, at the end. */
 const MOST_EMPTY = 1000;
 const MAGIC = 2;
 
-/** One part of a compressed stream: takes input where it is hungry, gives output in bounded pieces. */
 export class Part {
   private readonly stream = new ZStream();
-  /** Whether the part is whole, its check sum right. */
+  /** Whether the part ended with a valid checksum. */
   hasEnded = false;
 
   constructor(
@@ -30,7 +29,6 @@ export class Part {
     return this.stream.avail_in === 0;
   }
 
-  /** Input behind the end. */
   get rest(): Uint8Array {
     return this.stream.input.subarray(this.stream.next_in, this.stream.next_in + this.stream.avail_in);
   }
@@ -46,21 +44,16 @@ export class Part {
     this.stream.output = new Uint8Array(limit);
     this.stream.next_out = 0;
     this.stream.avail_out = limit;
-    const told = zlibInflate(this.stream, Z_NO_FLUSH);
-    if (told !== Z_OK && told !== Z_STREAM_END && told !== Z_BUF_ERROR) {
+    const status = zlibInflate(this.stream, Z_NO_FLUSH);
+    if (status !== Z_OK && status !== Z_STREAM_END && status !== Z_BUF_ERROR) {
       throw damaged(this.subject, 'a compressed stream that is damaged', 'a whole one');
     }
-    this.hasEnded = told === Z_STREAM_END;
+    this.hasEnded = status === Z_STREAM_END;
     return this.stream.output.subarray(0, this.stream.next_out);
   }
 }
 
-/**
- * Unpacks up to `wanted` bytes of the stream that begins at byte `start`.
- *
- * A stream may have several parts, one after the other; what follows the last is not looked at, nor is what follows
- * the wanted bytes. A part that ends with them has its check sum looked at.
- */
+/** Unpacks up to `wanted` bytes of all parts from byte `start`; checks the checksum of a part that ends with them. */
 export async function* inflated(
   source: Source,
   start: number,
@@ -74,7 +67,7 @@ export async function* inflated(
       at += chunk.length;
       part.give(chunk);
     }
-    // One byte more than is wanted: it leads a part that ends there to its check sum.
+    // One byte more, so that a part ending there verifies its checksum.
     const piece = part.take(Math.min(left + 1, PIECE));
     if (piece.length > 0 && left > 0) {
       yield piece.subarray(0, left);
@@ -102,7 +95,7 @@ export async function* inflated(
   }
 }
 
-/** Bytes behind a part, with some more of the file where they are too few to tell whether another part begins. */
+/** Adds bytes of the file until they show whether another part begins. */
 async function withMore(
   rest: Uint8Array,
   source: Source,
@@ -122,10 +115,9 @@ function begins(bytes: Uint8Array): boolean {
   return bytes[0] === 0x1f && bytes[1] === 0x8b;
 }
 
-/** Whether the bytes are gzipped. */
 export const isGzip = begins;
 
-/** Up to `count` first bytes of a file, unpacked where it is gzipped; it may break off behind them. */
+/** First bytes of a file, unpacked if gzipped; the file may be truncated after them. */
 export async function firstBytes(source: Source, count: number): Promise<Uint8Array<ArrayBuffer>> {
   const head = await source.slice(0, count);
   if (!begins(head)) {
@@ -139,7 +131,7 @@ export async function firstBytes(source: Source, count: number): Promise<Uint8Ar
       length += piece.length;
     }
   } catch {
-    // What was unpacked before the damage tells what the file is; whoever reads on meets the damage again.
+    // The bytes before the damage identify the file; reading on fails again.
   }
   return found.subarray(0, length);
 }

@@ -1,4 +1,4 @@
-/** What a file is: by its content, by its name only where the content does not tell. */
+/** Identifies files by content, or by name if the content is ambiguous. */
 import { isDicom } from './dicom/recognising';
 import { firstBytes } from './inflating';
 import { niftiKind } from './nifti-header';
@@ -6,11 +6,9 @@ import { fileName, type Source } from './source';
 
 export type Kind = 'nifti' | 'nrrd' | 'metaimage' | 'dicom' | 'zip' | 'centerlines' | 'empty' | 'other';
 
-/** A file with what it is, and what would make it readable where it is not. */
 export interface Known {
   readonly source: Source;
   readonly kind: Kind;
-  /** In words, such as `a NIfTI volume`. */
   readonly words: string;
   readonly mend: string;
 }
@@ -27,7 +25,6 @@ const WORDS: Readonly<Record<string, string>> = {
   empty: 'an empty file',
 };
 
-/** Looks at the first bytes of a file. */
 export async function known(source: Source): Promise<Known> {
   if (source.size === 0) {
     return { source, kind: 'empty', words: WORDS.empty ?? '', mend: '' };
@@ -58,11 +55,11 @@ function ofBytes(head: Uint8Array, name: string): Kind | null {
   return niftiKind(head) !== null ? 'nifti' : null;
 }
 
-type Told = Omit<Known, 'source'>;
+type FileKind = Omit<Known, 'source'>;
 
-const NOTHING: Told = { kind: 'other', words: 'a file of no known format', mend: '' };
+const NOTHING: FileKind = { kind: 'other', words: 'a file of no known format', mend: '' };
 
-function ofText(head: Uint8Array): Told | null {
+function ofText(head: Uint8Array): FileKind | null {
   const text = new TextDecoder('latin1')
     .decode(head)
     .replace(/^\xef\xbb\xbf/, '')
@@ -78,7 +75,7 @@ function ofText(head: Uint8Array): Told | null {
     : null;
 }
 
-function ofVtk(kind: string): Told | null {
+function ofVtk(kind: string): FileKind | null {
   if (kind === 'ImageData' || kind === 'STRUCTURED_POINTS') {
     return { kind: 'other', words: 'a VTK image, which is not read', mend: CONVERT };
   }
@@ -86,7 +83,7 @@ function ofVtk(kind: string): Told | null {
   return isLines ? { kind: 'centerlines', words: 'VTK PolyData', mend: '' } : null;
 }
 
-function ofJson(text: string): Told | null {
+function ofJson(text: string): FileKind | null {
   const kind = /"vtkClass"\s*:\s*"(\w+)"/.exec(text)?.[1];
   if (kind === 'vtkImageData') {
     return { kind: 'other', words: 'an image in the JSON of vtk.js, which is not read', mend: CONVERT };
@@ -96,7 +93,7 @@ function ofJson(text: string): Told | null {
     : null;
 }
 
-function ofName(name: string): Told {
+function ofName(name: string): FileKind {
   const ending = LINES.find((one) => name.endsWith(one));
   if (ending) {
     return { kind: 'centerlines', words: `a ${ending} file`, mend: '' };

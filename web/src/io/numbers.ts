@@ -1,4 +1,4 @@
-/** Stored numbers: their types, and bytes of a file as arrays of them. */
+/** Types of stored numbers, and conversion of file bytes to typed arrays. */
 
 export const ARRAYS = {
   int8: Int8Array,
@@ -13,22 +13,18 @@ export const ARRAYS = {
   float64: Float64Array,
 } as const;
 
-/** A type of numbers, as NumPy calls it. */
 export type Kind = keyof typeof ARRAYS;
 
 export type Numbers = InstanceType<(typeof ARRAYS)[Kind]>;
 
-/** A type of numbers in a file. */
 export interface StoredKind {
   readonly kind: Kind;
-  /** Whether the highest byte comes first. */
   readonly isBig: boolean;
 }
 
-/** The types that the engine computes with. */
 const OF_THE_ENGINE: readonly Kind[] = ['uint8', 'int16', 'uint16', 'float32'];
 
-/** The type that the engine has for numbers of another one: bytes exactly, wide numbers to 24 bits. */
+/** Engine type for a file type: bytes exactly, wider numbers to 24 bits. */
 export function inTheEngine(kind: Kind): Kind {
   return OF_THE_ENGINE.includes(kind) ? kind : kind === 'int8' ? 'int16' : 'float32';
 }
@@ -41,7 +37,7 @@ export function isInteger(kind: Kind): boolean {
   return !kind.startsWith('float');
 }
 
-/** Whole numbers that the bytes hold; they may become the array's own. */
+/** Converts the whole numbers in the bytes, possibly in place. */
 export function numbersOf({ kind, isBig }: StoredKind, bytes: Uint8Array<ArrayBuffer>): Numbers {
   const unit = byteCount(kind);
   const aligned = bytes.byteOffset % unit === 0 && !isBig ? bytes : bytes.slice();
@@ -52,7 +48,6 @@ export function numbersOf({ kind, isBig }: StoredKind, bytes: Uint8Array<ArrayBu
   return new ARRAYS[kind](aligned.buffer, aligned.byteOffset, count);
 }
 
-/** The bytes of an array. */
 export function bytesOf(numbers: Numbers): Uint8Array<ArrayBuffer> {
   return new Uint8Array(numbers.buffer as ArrayBuffer, numbers.byteOffset, numbers.byteLength);
 }
@@ -63,13 +58,11 @@ function swapBytes(bytes: Uint8Array, unit: number): void {
   }
 }
 
-/** The type of an array. */
 export function kindName(numbers: Numbers): Kind {
   const found = (Object.keys(ARRAYS) as Kind[]).find((kind) => numbers instanceof ARRAYS[kind]);
   return found ?? 'float64';
 }
 
-/** The limits of an integer type. */
 export function limits(kind: Kind): readonly [bigint, bigint] {
   const bits = BigInt(8 * byteCount(kind));
   return kind.startsWith('u') ? [0n, (1n << bits) - 1n] : [-(1n << (bits - 1n)), (1n << (bits - 1n)) - 1n];
@@ -77,7 +70,7 @@ export function limits(kind: Kind): readonly [bigint, bigint] {
 
 const HOLDING: readonly Kind[] = ['int16', 'uint16', 'int32', 'uint32', 'int64'];
 
-/** The first integer type that holds every value from `low` to `high`, null where there is none. */
+/** First integer type that holds `low` to `high`; null if none. */
 export function holding(low: number, high: number, first?: Kind): Kind | null {
   const candidates = first === undefined ? HOLDING : [first, ...HOLDING];
   const holds = (kind: Kind) => {

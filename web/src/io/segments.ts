@@ -1,9 +1,9 @@
-/** The segments that 3D Slicer describes in the header of a `.seg.nrrd`, and the label map that they make. */
+/** Segments of a 3D Slicer `.seg.nrrd`, and their conversion to a label map. */
 import { ARRAYS, bytesOf, type Kind, numbersOf, type StoredKind } from './numbers';
 import type { Bytes } from './payload';
 import { formatFailure, printable } from './words';
 
-/** One segment: its number in the label map, its name, and the layer and value that its voxels have. */
+/** A segment: its label number, name, and the layer and value of its voxels. */
 export interface Segment {
   readonly number: number;
   readonly name: string;
@@ -11,22 +11,20 @@ export interface Segment {
   readonly value: number;
 }
 
-/** Labels that come with a volume: their names, and how layers of segments become one label map. */
+/** Label names of a volume, and how its layers become one label map. */
 export interface Labels {
   readonly names: Readonly<Record<number, string>>;
-  /** How many values each voxel has in the file. */
   readonly layers: number;
-  /** Makes labels of voxels and refuses overlaps; null where the values are labels already. */
+  /** Null if the values already are labels. */
   readonly map: LabelMap | null;
 }
 
 const FIELD = /^Segment(\d{1,6})_(ID|Name|LabelValue|Layer):=(.*)$/;
 const LARGEST_NUMBER = 65535;
 
-/** Whether a line of a header describes a segment. */
 export const isOfSegment = (line: string): boolean => FIELD.test(line);
 
-/** The segments of a header: each has the number of its label, unless several share one; then they count from 1. */
+/** Segments of a header. They keep their label numbers unless shared; then they count from 1. */
 export function segmentsOf(lines: readonly string[], layers: number): Segment[] {
   const stated = new Map<number, Map<string, string>>();
   for (const line of lines) {
@@ -48,7 +46,6 @@ export function segmentsOf(lines: readonly string[], layers: number): Segment[] 
   return isUnique ? segments : segments.map((one, place) => ({ ...one, number: place + 1 }));
 }
 
-/** What is made of segments; refuses those in a layer that is not there, and labels that cannot be. */
 export function labelsOf(
   path: string,
   stored: StoredKind,
@@ -70,9 +67,7 @@ export function labelsOf(
   return { names, layers, map: isAsStored ? null : new LabelMap(path, stored, segments, layers) };
 }
 
-/** Makes one label of the values that each voxel has in the layers. */
 export class LabelMap {
-  /** The type of the labels. */
   readonly kind: Kind;
   private readonly overlaps = new Map<string, number>();
 
@@ -85,7 +80,6 @@ export class LabelMap {
     this.kind = Math.max(0, ...segments.map((one) => one.number)) > 255 ? 'uint16' : 'uint8';
   }
 
-  /** The labels of whole voxels. */
   convert(bytes: Bytes): Bytes {
     const values = numbersOf(this.stored, bytes);
     const labels = new ARRAYS[this.kind as 'uint16'](values.length / this.layers);
@@ -108,7 +102,7 @@ export class LabelMap {
     labels[voxel] = number;
   }
 
-  /** Refuses segments that share voxels; in a label map each voxel has one number. */
+  /** Rejects overlapping segments, because a label map holds one number per voxel. */
   refuseOverlaps(): void {
     const [most, ...others] = [...this.overlaps].sort((one, other) => other[1] - one[1]);
     if (!most) {
@@ -120,7 +114,7 @@ export class LabelMap {
     });
     const more = others.length > 0 ? ` and ${others.length} more pairs` : '';
     const found = `segments that overlap: ${named.join(' and ')} in ${most[1]} voxels${more}`;
-    const mend = 'trace segments that do not, by `lumencut trace --mask` with --label, or save them apart';
+    const mend = 'trace other segments with `lumencut trace --mask` and --label, or save them separately';
     throw formatFailure(this.path, found, 'at most one segment in each voxel', mend);
   }
 }

@@ -1,4 +1,4 @@
-/** What was dropped, chosen or fetched becomes the study: one volume, its centerlines, or both. */
+/** Opens dropped, chosen or fetched files as one volume, its centerlines, or both. */
 
 import type { Judge } from '../core/judge';
 import type { States } from '../core/messages';
@@ -13,42 +13,37 @@ import type { Steps } from './steps';
 import { load, type Sink } from './volume-file';
 import { formatFailure } from './words';
 
-/** What takes a study: the engine, or a test. */
+/** Receives a study: the engine, or a test double. */
 export interface Study extends Sink {
-  /** Gives notes. */
   openCenterlines(bytes: Uint8Array, name: string): readonly string[];
-  /** What must be known of the sides of a straightened volume, by a text of its file. */
   sideNotes?(text: string): readonly string[];
 }
 
-/** What files are opened with. */
-export interface Means {
+export interface LoadContext {
   readonly study: Study;
   readonly loadJudge: () => Promise<Judge>;
   readonly steps: Steps;
 }
 
 export interface Opened {
-  /** What is told of the volume, null where there was none. */
   readonly volume: Volume | null;
   readonly notes: readonly string[];
 }
 
 interface Volume {
-  /** The study of DICOM that it belongs to; null where it is no DICOM. */
+  /** The DICOM study; null otherwise. */
   readonly study: ScanStudy | null;
   readonly name: string;
   readonly notes: readonly string[];
   readonly states: States;
 }
 
-/** DICOM states both, or is refused. */
+/** DICOM always states both. */
 const STATED: States = { spacing: true, orientation: true };
 const VOLUMES =
   'a DICOM folder, file or zip archive, NIfTI (.nii, .nii.gz, .hdr + .img), NRRD (.nrrd, .nhdr) or MetaImage (.mha, .mhd)';
 const LINES = 'centerlines (.vtp, .vtk, .mrk.json, .fcsv, .swc, .csv, .pth)';
 
-/** What the files are, one by one. */
 interface Sorted {
   readonly volumes: readonly Known[];
   readonly dicom: readonly Source[];
@@ -57,26 +52,26 @@ interface Sorted {
   readonly others: readonly Known[];
 }
 
-/** Opens files: a volume in the place of all that is open, centerlines beside it. */
+/** Opens files: a volume replaces everything, centerlines are added. */
 export async function openFiles(
   sources: readonly Source[],
   beside: Beside,
   wanted: Wanted,
-  means: Means,
+  context: LoadContext,
 ): Promise<Opened> {
-  const sorted = await sort(sources, means.steps);
+  const sorted = await sort(sources, context.steps);
   requireOne(sorted);
-  const volume = await openVolume(sorted, sources, { beside, wanted, ...means });
+  const volume = await openVolume(sorted, sources, { beside, wanted, ...context });
   const [lines] = sorted.lines;
-  const notes = lines ? await openLines(lines.source, means) : [];
+  const notes = lines ? await openLines(lines.source, context) : [];
   return { volume, notes: [...(volume?.notes ?? []), ...notes] };
 }
 
-/** Opens centerlines beside the volume; gives notes. */
-export async function openLines(source: Source, { study, steps }: Means): Promise<readonly string[]> {
+/** Adds centerlines. Returns notes. */
+export async function openLines(source: Source, { study, steps }: LoadContext): Promise<readonly string[]> {
   const found = await known(source);
   if (['nifti', 'nrrd', 'metaimage', 'dicom', 'zip'].includes(found.kind)) {
-    const mend = 'trace the lines of a mask by `lumencut trace` and open what it writes';
+    const mend = 'trace a mask with `lumencut trace` and open the result';
     throw formatFailure(source.path, found.words, LINES, mend);
   }
   if (found.kind === 'empty') {
@@ -102,7 +97,7 @@ async function sort(sources: readonly Source[], steps: Steps): Promise<Sorted> {
   };
 }
 
-/** Whether a file is the second one of a pair, whatever its voxels look like. */
+/** Whether a file holds the voxels of a header among the files. */
 function isVoxelsOf({ source }: Known, every: readonly Known[]): boolean {
   const stem = /^(.*)\.img(\.gz)?$/i.exec(source.path)?.[1];
   return (
@@ -111,13 +106,12 @@ function isVoxelsOf({ source }: Known, every: readonly Known[]): boolean {
   );
 }
 
-/** Refuses what would leave open which file is meant. */
 function requireOne({ volumes, dicom, archives, lines, others }: Sorted): void {
   const every = [...volumes.map((one) => one.source), ...archives, ...dicom.slice(0, 1)];
   const [first, second] = every;
   if (first && second) {
     const found = `${every.length} volumes, ${fileName(first.path)} and ${fileName(second.path)}${every.length > 2 ? ' among them' : ''}`;
-    const mend = 'choose the scan alone; the lines of a mask are traced by `lumencut trace`';
+    const mend = 'choose the scan alone; trace a mask with `lumencut trace`';
     throw formatFailure('files', found, 'one volume and its centerlines', mend);
   }
   if (lines.length > 1) {
@@ -139,7 +133,7 @@ function unknown(others: readonly Known[]): Error {
   return formatFailure(first.source.path, `${first.words}${hasMore}`, `${VOLUMES}, or ${LINES}`, mend);
 }
 
-interface Asked extends Means {
+interface Asked extends LoadContext {
   readonly beside: Beside;
   readonly wanted: Wanted;
 }
@@ -179,7 +173,7 @@ async function openFile({ source, kind }: Known, { beside, study, steps }: Asked
 
 const sideNotes = (study: Study, text = ''): readonly string[] => (text && study.sideNotes?.(text)) || [];
 
-/** The folder in which all files are; the name of a single one. */
+/** Common folder of the files; the name of a single file. */
 function commonName(sources: readonly Source[]): string {
   const [first] = sources;
   if (!first || sources.length === 1) {

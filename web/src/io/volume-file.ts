@@ -1,4 +1,4 @@
-/** A volume whose header is read, and the way of its voxels into the engine. */
+/** A volume with a parsed header, and the transfer of its voxels to the engine. */
 import { Failure } from '../core/failure';
 import type { States } from '../core/messages';
 import { byteCount, numbersOf, type StoredKind } from './numbers';
@@ -12,25 +12,22 @@ export type Size = readonly [number, number, number];
 /** World (LPS, mm) from voxel indices, row by row. */
 export type Affine = readonly (readonly number[])[];
 
-/** What the engine is told before the voxels. */
 interface Grid {
   readonly size: Size;
   readonly world_from_index: Affine;
-  /** How the scan was made, where a file tells it. */
   readonly scan?: object;
-  /** The names of the labels of a mask. */
   readonly label_names?: object;
 }
 
-/** What takes the voxels: the engine, or a test. */
+/** Receives voxels: the engine, or a test double. */
 export interface Sink {
   begin_volume(header: string): void;
   take_voxels(offset: number, bytes: Uint8Array): void;
-  /** The part of the voxels that it keeps; all of them where it says nothing. */
+  /** Share of the voxels it keeps; all if absent. */
   readonly share?: number;
 }
 
-/** A volume whose header is read and checked and whose voxels are still in their file. */
+/** A volume with a checked header and unread voxels. */
 export interface VolumeFile {
   readonly path: string;
   readonly format: string;
@@ -41,13 +38,12 @@ export interface VolumeFile {
   readonly place: Place;
   readonly notes: readonly string[];
   readonly states: States;
-  /** What the file says that it holds, which may name a patient: the engine alone reads it. */
+  /** Description in the file, which may name a patient: only the engine reads it. */
   readonly content?: string;
-  /** Of a label map whose file describes its labels. */
   readonly labels?: Labels | null;
 }
 
-/** Makes room for a volume; what is no grid is refused in the name of its file. */
+/** Allocates a volume; grid errors name the file. */
 export function begin(sink: Sink, path: string, grid: Grid, dtype: string): void {
   try {
     sink.begin_volume(JSON.stringify({ ...grid, dtype }));
@@ -60,7 +56,6 @@ export function begin(sink: Sink, path: string, grid: Grid, dtype: string): void
   }
 }
 
-/** Reads the voxels of a file into the engine. */
 export async function load(file: VolumeFile, sink: Sink, steps: Steps): Promise<void> {
   requireNumbers(file);
   const needed = file.size.reduce((count, side) => count * side, storedBytes(file));
@@ -83,11 +78,10 @@ export async function load(file: VolumeFile, sink: Sink, steps: Steps): Promise<
   map?.refuseOverlaps();
 }
 
-/** The bytes that a voxel takes in the file. */
 const storedBytes = ({ stored, labels }: VolumeFile): number =>
   byteCount(stored.kind) * (labels?.layers ?? 1);
 
-/** JSON has no NaN: without this it would become 0. */
+/** JSON has no NaN; it would become 0. */
 function requireNumbers(file: VolumeFile): void {
   if (!file.worldFromIndex.flat().every(Number.isFinite)) {
     const found = 'world_from_index with numbers that are not finite';
@@ -95,7 +89,7 @@ function requireNumbers(file: VolumeFile): void {
   }
 }
 
-/** Numbers that stand as text in a file are in the order of this machine once they are parsed. */
+/** Values parsed from text are in native byte order. */
 function orderInMemory({ stored, place }: VolumeFile): StoredKind {
   return place.codec === 'text' ? { ...stored, isBig: false } : stored;
 }
@@ -113,7 +107,6 @@ async function rangeOf(file: VolumeFile, needed: number, steps: Steps): Promise<
   return [low, high];
 }
 
-/** The bytes of voxels in pieces of whole ones. */
 async function* wholeVoxels(file: VolumeFile, needed: number): AsyncGenerator<Bytes> {
   const unit = storedBytes(file);
   let begun: Bytes = new Uint8Array();

@@ -1,4 +1,4 @@
-/** The place of the section on the picked vessel, which the views share. */
+/** The section position on the picked vessel, shared by the views. */
 import { engine } from '../client/shared';
 import { Latest } from '../core/latest';
 import { recover } from '../state/device';
@@ -7,7 +7,6 @@ import { placeCrossHair } from './cross-hair';
 
 const latest = new Latest();
 
-/** Moves the section and the cross-hair to an arc length of the picked vessel (mm). */
 export function moveTo(place: number): void {
   const vessel = pickedVessel.value;
   const length = vessel === null ? 0 : (report.value?.vessels?.[vessel]?.length ?? 0);
@@ -21,7 +20,6 @@ export function moveTo(place: number): void {
     try {
       const [center] = await engine.ask('across', { vessel, at: at });
       const pick = { ...(await engine.ask('at', center)), vessel, arc_length: at };
-      // Another study has other places.
       if (report.value?.volume === study) {
         placeCrossHair(pick, 'section');
       }
@@ -31,5 +29,4 @@ export function moveTo(place: number): void {
   });
 }
 
-/** Moves it by a length (mm). */
 export const moveAlong = (by: number): void => moveTo(pickedPlace.value + by);

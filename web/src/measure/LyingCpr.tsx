@@ -1,4 +1,4 @@
-/** The straightened CPR of the picked vessel, lying with its first point on the left. */
+/** Straightened CPR of the picked vessel, horizontal, first point on the left. */
 import { useCallback, useState } from 'preact/hooks';
 import { engine } from '../client/shared';
 import type { Cpr, Pair } from '../core/messages';
@@ -13,7 +13,6 @@ import { type Axis, valueAt } from './scale';
 interface LyingCprProps {
   readonly x: Axis;
   readonly lying: Lying;
-  /** CSS pixels that the pane has for it. */
   readonly height: number;
 }
 

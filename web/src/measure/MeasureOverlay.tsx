@@ -1,4 +1,4 @@
-/** What is measured, over the turning view and over slices. */
+/** Measurements drawn over the turning view and the slices. */
 
 import { engine } from '../client/shared';
 import { pixelOf } from '../core/camera';
@@ -11,10 +11,9 @@ import { PlaceHandles } from './PlaceHandles';
 import { RulerLayer } from './RulerLayer';
 import { centerAt, seenNearest } from './sections';
 
-/** How near to a slice a point lies in it (mm). */
+/** Points closer to a slice than this lie in it (mm). */
 const IN_SLICE = 1;
 
-/** Places on the picked vessel, which are dragged along it, and rulers. */
 export function TurningMeasures({ camera }: { readonly camera: Camera }) {
   const profile = currentProfile.value;
   const seen = (point: Vector) => pixelOf(camera, point);
@@ -48,11 +47,10 @@ export function TurningMeasures({ camera }: { readonly camera: Camera }) {
 
 interface SliceMeasuresProps {
   readonly plane: Plane;
-  /** Where that is, such as `in the section`. */
+  /** Such as `in the section`. */
   readonly where: string;
 }
 
-/** Rulers whose ends lie in a slice. */
 export function SliceMeasures({ plane, where }: SliceMeasuresProps) {
   const normal = cross(plane.right, plane.down);
   const isSeen = (point: Vector) => Math.abs(dot(subtract(point, plane.center), normal)) <= IN_SLICE;

@@ -1,4 +1,4 @@
-/** What stands in the place of a profile that is not there yet, or that cannot be. */
+/** Placeholder for a profile that is missing or cannot be measured. */
 import type { Pair } from '../core/messages';
 import { beingMeasured, measureAgain, stopped } from '../state/profiles';
 import * as store from '../state/store';
@@ -14,7 +14,7 @@ export function NoProfile({ size }: { readonly size: Pair }) {
 
 function Why() {
   const failure = currentFailure.value;
-  const told = store.progress.value;
+  const progress = store.progress.value;
   if (failure) {
     return (
       <p>
@@ -25,11 +25,11 @@ function Why() {
     );
   }
   if (!store.hasVolume.value) {
-    return <p>There is no volume to measure in.</p>;
+    return <p>No scan is open to measure in.</p>;
   }
   if (beingMeasured.value !== null) {
-    const share = told?.total ? ` ${((100 * told.done) / told.total).toFixed(0)} %` : '';
-    return <p>{`measuring…${share} Escape stops it.`}</p>;
+    const share = progress?.total ? ` ${((100 * progress.done) / progress.total).toFixed(0)} %` : '';
+    return <p>{`Measuring…${share} Press Escape to stop.`}</p>;
   }
   return stopped.value === null ? null : (
     <p>

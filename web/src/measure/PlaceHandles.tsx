@@ -1,16 +1,15 @@
-/** The places of the picked vessel as handles over a picture: the same in the profile, the CPR and the turning view. */
+/** Handles of the marked places, in the profile, the CPR and the turning view. */
 import type { Pair, ReportPlace } from '../core/messages';
 import { Handle } from '../pane/Handle';
 import { currentPlaces } from './current';
 import { beginMove, confirm, endMove, isCrossed, move, putBack, remove } from './editing';
-import type { Kind, Place } from './marks';
+import type { Kind, VesselPlace } from './marks';
 import { mm, placeName } from './words';
 
-/** The colour of a place of a report, whose names are the engine's. */
+/** Colour of a place in a report; the names come from the engine. */
 export const colorOfPlace = ({ is_reference: isReference, name }: ReportPlace): string =>
   COLORS[isReference ? 'reference' : name === 'noted diameter' ? 'diameter' : 'place'];
 
-/** By what they mark; on the dark ground of pictures. */
 export const COLORS: Readonly<Record<Kind, string>> = {
   place: '#ff6b6b',
   reference: '#7ee787',
@@ -19,20 +18,19 @@ export const COLORS: Readonly<Record<Kind, string>> = {
   diameter: '#79c0ff',
 };
 
-/** The way of one arrow key along the vessel (mm); ten times as far with Shift. */
+/** Movement per arrow key (mm); ten times with Shift. */
 const STEP = 0.5;
 
 interface PlaceHandlesProps {
-  /** Where they are, such as `in the profile`. */
   readonly view: string;
-  /** Where a place is seen; none where it is not. */
-  pixelAt(at: number, place: Place): Pair | null;
-  /** The arc length at a pixel; `before` is where the place was. */
+  /** Null if the place is not visible. */
+  pixelAt(at: number, place: VesselPlace): Pair | null;
+  /** Arc length at a pixel; `before` is the previous one. */
   atOf(pixel: Pair, before: number): number;
 }
 
-/** A grip for each place; a reference that passes the stenosis keeps its grip, and grips keep their order, so that none is let go. */
-function grips(): { readonly key: string; readonly place: Place }[] {
+/** Handles in a stable order: a reference dragged past the stenosis keeps its handle, so the drag continues. */
+function grips(): { readonly key: string; readonly place: VesselPlace }[] {
   return currentPlaces.value
     .map((place) => {
       const isSwapped = place.kind === 'reference' && isCrossed.value;

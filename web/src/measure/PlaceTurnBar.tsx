@@ -1,4 +1,4 @@
-/** The bar over the vessels while the view is turned about a place: the angle, and the diameters that were cut. */
+/** Bar shown while the view turns about a place: the angle, and the diameters in the cut. */
 import { useEffect, useRef } from 'preact/hooks';
 import { focusSoon } from '../input/focus';
 import { diameterAfter, endPlaceTurn, type PlaceTurn, placeTurn, turnTo } from '../state/place-turn';
@@ -12,7 +12,7 @@ export function PlaceTurnBar() {
     if (isOn) {
       focusSoon('[data-testid="place-turn"] input');
     } else if (wasOn.current && document.activeElement === document.body) {
-      // The bar had the focus and is gone: keys that follow are meant for the view.
+      // The focused bar is gone; keys go to the view.
       focusSoon('[data-testid="turning"]');
     }
     wasOn.current = isOn;
@@ -33,20 +33,21 @@ function Bar({ turn }: { readonly turn: PlaceTurn }) {
         step="1"
         value={String(turn.angle)}
         aria-label="Angle of the turn (degrees)"
-        title="A drag in the view turns it too"
+        title="Or drag in the view"
         onInput={(event) => turnTo(Number(event.currentTarget.value))}
       />
       <span class="place-turn-degrees">{`${turn.angle}°`}</span>
-      <button type="button" onClick={endPlaceTurn} title="The view stays as it is (Escape)">
+      <button type="button" onClick={endPlaceTurn} title="Keeps the view as it is (Escape)">
         Done
       </button>
-      <p role="status">
-        <b>{`this cut ${told(cut)}`}</b>
-        {turn.least !== null && ` · least so far ${told(turn.least)} · largest so far ${told(turn.largest)}`}
+      <p role="status" title="Diameter halfway between lumen and surroundings, for orientation only">
+        <b>{`this cut: ${diameterText(cut)}`}</b>
+        {turn.least !== null &&
+          ` · smallest so far ${diameterText(turn.least)} · largest so far ${diameterText(turn.largest)}`}
       </p>
     </section>
   );
 }
 
-/** A diameter as the moving pictures of the command line tell it. */
-const told = (diameter: number | null): string => (diameter === null ? 'not seen' : mm(diameter, 1));
+const diameterText = (diameter: number | null): string =>
+  diameter === null ? 'wall not visible' : mm(diameter, 1);

@@ -1,4 +1,4 @@
-/** The marked and suggested places of a vessel with their numbers, and the widest place. */
+/** Table of marked and suggested places, with the longest diameter. */
 import { engine } from '../client/shared';
 import type { Profile } from '../core/messages';
 import { cut } from '../edit/vessels';
@@ -9,12 +9,12 @@ import * as store from '../state/store';
 import { currentMarks, currentPlaces, currentVessel } from './current';
 import { confirm, remove } from './editing';
 import { meanings } from './flags';
-import type { Kind, Place } from './marks';
+import type { Kind, VesselPlace } from './marks';
 import { COLORS } from './PlaceHandles';
 import { sectionNumbers } from './sections';
-import { area, doubtWords, mm, NOTHING, placeName, spread, told } from './words';
+import { area, doubtWords, mm, NOTHING, placeName, spread, withKnownUnits } from './words';
 
-/** Places with a diameter of their own; stretches have a part of their own. */
+/** Kinds with a diameter; stretches are listed in their own part. */
 const LISTED: readonly Kind[] = ['place', 'reference', 'diameter'];
 
 export function PlacesTable({ profile }: { readonly profile: Profile }) {
@@ -46,14 +46,14 @@ export function PlacesTable({ profile }: { readonly profile: Profile }) {
   );
 }
 
-/** The stretches of the vessel that were not measured, with what makes the rest of it a vessel of its own. */
+/** Unmeasured parts of the vessel, with a button that cuts off the rest. */
 function NotMeasured({ profile }: { readonly profile: Profile }) {
   const id = document_.value.vessels.find(({ line }) => line === currentVessel.value?.line)?.id;
   return (
     <>
       {profile.not_measured.map(({ cut_mm: at, words }) => (
         <p key={at} class="refused" data-testid="not-measured">
-          {told(words)}{' '}
+          {withKnownUnits(words)}{' '}
           {id !== undefined && (
             <button type="button" class="small" onClick={() => void cut(engine, id, at)}>
               Cut here
@@ -65,12 +65,12 @@ function NotMeasured({ profile }: { readonly profile: Profile }) {
   );
 }
 
-/** Why no place is suggested. */
 function NotSuggested({ reasons }: { readonly reasons: readonly string[] }) {
-  return reasons.length > 0 ? <p data-testid="not-suggested">{reasons.map(told).join(' ')}</p> : null;
+  return reasons.length > 0 ? (
+    <p data-testid="not-suggested">{reasons.map(withKnownUnits).join(' ')}</p>
+  ) : null;
 }
 
-/** Turns the view about the place of the section. */
 function TurnButton() {
   const turn = placeTurn.value;
   return (
@@ -78,7 +78,7 @@ function TurnButton() {
       type="button"
       class="small"
       aria-pressed={turn !== null}
-      title="The cut sweeps the diameters of the lumen, while the place stays where it is (o)"
+      title="Rotates the cut around this place, to show every diameter of the lumen (o)"
       onClick={() => void togglePlaceTurn(engine)}
     >
       {`Turn about ${mm(turn?.at ?? store.pickedPlace.value, 1)}`}
@@ -86,7 +86,7 @@ function TurnButton() {
   );
 }
 
-function PlaceRow({ place, profile }: { readonly place: Place; readonly profile: Profile }) {
+function PlaceRow({ place, profile }: { readonly place: VesselPlace; readonly profile: Profile }) {
   const section = sectionNumbers(profile, place.at);
   const { diameter, uncertainty, shortest, longest, area: size, flags } = section;
   const doubts = doubtWords(section).join(', ');
@@ -97,7 +97,7 @@ function PlaceRow({ place, profile }: { readonly place: Place; readonly profile:
         class="link"
         style={{ color: COLORS[place.kind] }}
         onClick={() => moveTo(place.at)}
-        title="Show its section"
+        title="Shows its section"
       >
         {placeName(place)}
       </button>

@@ -1,12 +1,11 @@
-/** The diameter of a vessel by its arc length, drawn in the page. */
+/** Chart of the diameter by arc length. */
 import type { Profile } from '../core/messages';
 import type { ChartLayout } from './chart-layout';
-import { bandPath, counted, DEVIATIONS, linePath, lonely, spreadOf } from './curves';
+import { bandPath, counted, DEVIATIONS, isolated, linePath, spreadOf } from './curves';
 import { flagsIn, runs } from './flags';
 import type { Kind } from './marks';
 import { pixelAt, ticks } from './scale';
 
-/** The colours of curves and words on the dark ground of the page. */
 const COLORS = {
   line: '#7db0ff',
   leftOut: '#9aa3ad',
@@ -15,7 +14,6 @@ const COLORS = {
   grid: '#ffffff1c',
 } as const;
 
-/** A place as it is drawn in the chart. */
 export interface ChartMark {
   readonly kind: Kind;
   readonly at: number;
@@ -26,7 +24,7 @@ export interface ChartMark {
 interface ProfileChartProps {
   readonly profile: Profile;
   readonly layout: ChartLayout;
-  /** Whether lengths are known in mm. */
+  /** Whether the voxel spacing is known. */
   readonly hasUnits: boolean;
 }
 
@@ -97,7 +95,7 @@ function Curves({ profile, layout, hasUnits }: ProfileChartProps) {
       <path d={bandPath(x, y, at, range)} fill={COLORS.line} fill-opacity="0.16" class="range" />
       <path d={bandPath(x, y, at, spreadOf(profile))} fill={COLORS.line} fill-opacity="0.4" class="band" />
       <path d={linePath(x, y, at, width)} fill="none" stroke={COLORS.line} stroke-width="1.6" class="width" />
-      {lonely(width).map((n) => (
+      {isolated(width).map((n) => (
         <circle
           key={n}
           cx={pixelAt(x, at[n] ?? 0)}
@@ -135,7 +133,7 @@ function Curves({ profile, layout, hasUnits }: ProfileChartProps) {
   );
 }
 
-/** A row for each flag that is set somewhere, under the line where the diameter is 0. */
+/** One row per flag that occurs, below the line of diameter 0. */
 function Flags({ profile, layout }: ProfileChartProps) {
   const { x, y, row, wordRow, bottom } = layout;
   const flags = flagsIn(profile);

@@ -1,4 +1,4 @@
-/** The picked vessel lying, and under it, along the same axis, its diameter; with the places that are marked on it. */
+/** The picked vessel, horizontal, above its diameter chart with the same axis and the marked places. */
 import { useMemo, useRef, useState } from 'preact/hooks';
 import type { Pair, Profile } from '../core/messages';
 import { usePaneSize } from '../pane/pane-size';
@@ -17,10 +17,9 @@ import { SectionTools, TOOLS } from './SectionTools';
 import { type Axis, pixelAt, valueAt } from './scale';
 import { fittingSide, sectionNumbers, UNKNOWN_SIDE } from './sections';
 
-/** The part of the height that the vessel takes at most. */
-const PART = 0.4;
-/** Where the grips on the vessel lie, below its upper edge: beside the lumen, which stays free. */
-const GRIP = 9;
+const VESSEL_HEIGHT_SHARE = 0.4;
+/** Distance of the handles from the edge, clear of the lumen. */
+const HANDLE_INSET_PX = 9;
 
 export function ProfilePane() {
   const pane = useRef<HTMLDivElement>(null);
@@ -40,12 +39,12 @@ function ProfileContent({ size }: { readonly size: Pair }) {
   if (!vessel) {
     const hint = store.hasTree.value
       ? 'Pick a vessel: click on it in the view above.'
-      : 'There is no vessel yet: trace one, or open centerlines.';
+      : 'No vessel yet: trace one, or open centerlines.';
     return <p class="no-profile">{hint}</p>;
   }
   const x = axisAlong(vessel.length, size[0]);
   const lying = lyingIn(x, {
-    height: PART * size[1],
+    height: VESSEL_HEIGHT_SHARE * size[1],
     density: Math.min(window.devicePixelRatio || 1, 2),
     fitting: profile ? fittingSide(profile) : UNKNOWN_SIDE,
   });
@@ -108,17 +107,16 @@ function Chart({ profile, size, x, lying }: ChartProps) {
 
 const isStretch = (kind: string): boolean => kind === 'stretch' || kind === 'secondStretch';
 
-/** Places have their grips at the upper edge of the vessel, stretches at the lower one. */
-const gripOf = (kind: string, height: number): number => (isStretch(kind) ? height - GRIP : GRIP);
+/** Places have handles at the upper edge, stretches at the lower. */
+const gripOf = (kind: string, height: number): number =>
+  isStretch(kind) ? height - HANDLE_INSET_PX : HANDLE_INSET_PX;
 
 interface PlaceLinesProps {
   readonly x: Axis;
-  /** Where the vessel ends and its profile begins, and where that ends (CSS pixels). */
   readonly top: number;
   readonly bottom: number;
 }
 
-/** Lines across vessel and profile: one for each place, and one for the section. */
 function PlaceLines({ x, top, bottom }: PlaceLinesProps) {
   const section = pixelAt(x, store.pickedPlace.value);
   const places = currentPlaces.value;

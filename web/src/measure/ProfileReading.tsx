@@ -1,4 +1,4 @@
-/** What is read off a profile: the numbers under the pointer, or those of the section; a click moves the section there. */
+/** Read-out of a profile under the pointer or at the section; a click moves the section. */
 import type { ComponentChildren, TargetedPointerEvent } from 'preact';
 import type { Profile } from '../core/messages';
 import { moveAlong, moveTo } from '../link/along';
@@ -7,13 +7,12 @@ import { type Axis, valueAt } from './scale';
 import { sectionNumbers, snapped } from './sections';
 import { sectionWords } from './words';
 
-/** The way of an arrow key (mm); ten times as far with Shift. */
+/** Movement per arrow key (mm); ten times with Shift. */
 const STEP = 0.5;
 
 interface ProfileReadingProps {
   readonly profile: Profile;
   readonly x: Axis;
-  /** Where it begins below the upper edge of the pane (CSS pixels). */
   readonly top: number;
   readonly hovered: number | null;
   onHover(at: number | null): void;

@@ -1,4 +1,4 @@
-/** Rulers over a picture: those of which both ends are seen there, and the first point of one that is drawn. */
+/** Rulers over a picture: those with both ends visible, and the one being drawn. */
 import { useLayoutEffect, useRef } from 'preact/hooks';
 import { Latest } from '../core/latest';
 import type { Pair, Vector } from '../core/messages';
@@ -21,17 +21,14 @@ import { tool } from '../state/tool';
 import { mm } from './words';
 
 const COLOR = '#ffdc00';
-/** How far a pointer moves before a press is no click (CSS pixels). */
+/** Movement beyond this is not a click (CSS pixels). */
 const CLICK_WITHIN = 4;
 
-/** How a picture shows points of the world. */
+/** Projection of world points in a picture. */
 export interface Seen {
-  /** Where that is, such as `on the vessels`. */
   readonly where: string;
   pixelOf(point: Vector): Pair;
-  /** The point that is seen at a pixel. */
   pointAt(pixel: Pair): Promise<Vector>;
-  /** Whether a point lies in the picture, and not before or behind it. */
   isSeen(point: Vector): boolean;
 }
 
@@ -40,7 +37,7 @@ export function RulerLayer({ seen }: { readonly seen: Seen }) {
   const current = useRef(seen);
   current.current = seen;
   const isDrawing = tool.value === 'ruler';
-  // Before the button is seen pressed: a click that follows at once is heard.
+  // A layout effect, so that an immediate click is not missed.
   useLayoutEffect(() => {
     const pane = place.current?.closest<HTMLElement>('.pane-body');
     return isDrawing && pane ? listenToClicks(pane, (pixel) => current.current.pointAt(pixel)) : undefined;
@@ -51,7 +48,6 @@ export function RulerLayer({ seen }: { readonly seen: Seen }) {
       <span ref={place} hidden />
       {document_.value.rulers.map((ruler, number) =>
         seen.isSeen(ruler.from) && seen.isSeen(ruler.to) ? (
-          // Rulers have no names: their place among the others is what tells them apart.
           <RulerView key={`ruler ${number}`} ruler={ruler} number={number} seen={seen} />
         ) : null,
       )}
@@ -90,7 +86,7 @@ function RulerView({ ruler, number, seen }: RulerViewProps) {
     last.current = { end, pixel };
     latest.current.run(follow);
   };
-  // The end of a drag takes the place of a move that waits: it goes to the last place itself.
+  // The end of a drag replaces a pending move.
   const finish = () =>
     latest.current.run(async () => {
       await follow();
@@ -127,7 +123,7 @@ function RulerView({ ruler, number, seen }: RulerViewProps) {
   );
 }
 
-/** Hears the clicks on a picture: presses of the left button that do not become drags. */
+/** Listens to left clicks that do not become drags. */
 function listenToClicks(pane: HTMLElement, pointAt: (pixel: Pair) => Promise<Vector>): () => void {
   const stop = new AbortController();
   let pressed: Pair | null = null;

@@ -1,4 +1,4 @@
-/** Distances between two points that are picked in slices or in the turning view. */
+/** Distances between two points picked in slices or the turning view. */
 import { document_ } from '../state/history';
 import { firstEnd, removeRuler, rulerLength, toggleRuler } from '../state/rulers';
 import { tool } from '../state/tool';

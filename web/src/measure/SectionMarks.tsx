@@ -1,4 +1,4 @@
-/** The lumen of a measured section: its contour, its shortest and its longest diameter, and its numbers. */
+/** Contour, diameters and numbers of a measured section. */
 import { useEffect, useRef, useState } from 'preact/hooks';
 import { engine } from '../client/shared';
 import { Latest } from '../core/latest';
@@ -10,11 +10,10 @@ import { meanings } from './flags';
 import { nearestSection, sectionNumbers } from './sections';
 import { area, doubtWords, mm, spread } from './words';
 
-/** Contours of sections that count, and of those that are left out; as in the pictures of `lumencut measure`. */
+/** Contour colours, as in the pictures of `lumencut measure`. */
 export const CONTOUR = { counts: '#00e5ff', leftOut: '#ff9f1a' } as const;
 const AXES = { shortest: '#ffdc00', longest: '#ffffff' } as const;
 
-/** A section, and the line that it is of. */
 interface Found {
   readonly line: LineId;
   readonly section: MeasuredSection;
@@ -40,7 +39,7 @@ export function SectionMarks({ plane }: { readonly plane: Plane }) {
     return null;
   }
   const numbers = sectionNumbers(profile, at);
-  // The contour of a section that was left meanwhile is not drawn on another one.
+  // The section may have moved before its contour arrived.
   const isShown = found?.line === vessel?.line && found?.section.number === nearestSection(profile, at);
   const section = isShown ? found?.section : null;
   const pixels = (points: readonly Vector[]): Pair[] => points.map((point) => pixelOn(plane, point));

@@ -1,4 +1,4 @@
-/** What can be marked at the section that is shown: a small bar at its line, always within reach. */
+/** Buttons at the section line, to mark what is shown there. */
 import { useLayoutEffect, useRef, useState } from 'preact/hooks';
 import { pickedPlace } from '../state/store';
 import { leftOf } from './chart-layout';
@@ -7,10 +7,8 @@ import { beginLength, endLength, lengthFrom, markHere, noteDiameter } from './ed
 import { isFull } from './marks';
 import { mm } from './words';
 
-/** The height of the bar (CSS pixels). */
 export const TOOLS = 28;
 interface SectionToolsProps {
-  /** Where the line of the section is, and how wide the pane is (CSS pixels). */
   readonly column: number;
   readonly width: number;
   readonly top: number;
@@ -20,7 +18,7 @@ export function SectionTools({ column, width, top }: SectionToolsProps) {
   const marks = currentMarks.value;
   const bar = useRef<HTMLDivElement>(null);
   const [wide, setWide] = useState(0);
-  // A length that is begun makes the bar wider: so it is asked after every drawing.
+  // The bar widens when a length begins, so it is measured after every render.
   useLayoutEffect(() => setWide(bar.current?.offsetWidth ?? 0));
   if (!marks) {
     return null;
@@ -37,7 +35,7 @@ export function SectionTools({ column, width, top }: SectionToolsProps) {
       <button
         type="button"
         class="small"
-        title={`The stenosis is at ${at}`}
+        title={`Marks the narrowest place of the stenosis at ${at}`}
         onClick={() => markHere('place')}
       >
         Narrowest here
@@ -45,12 +43,12 @@ export function SectionTools({ column, width, top }: SectionToolsProps) {
       <button
         type="button"
         class="small"
-        title={`The vessel is normal at ${at}: a reference of the stenosis`}
+        title={`Marks a normal place at ${at} as a reference of the stenosis`}
         onClick={() => markHere('reference')}
       >
         Reference here
       </button>
-      <button type="button" class="small" title={`Note the diameter at ${at}`} onClick={noteDiameter}>
+      <button type="button" class="small" title={`Notes the diameter at ${at}`} onClick={noteDiameter}>
         Diameter here
       </button>
       <LengthButton hasRoom={!isFull(marks)} />
@@ -58,13 +56,13 @@ export function SectionTools({ column, width, top }: SectionToolsProps) {
   );
 }
 
-/** The first press begins a length at the section, the second one ends it where the section is by then. */
+/** The first press starts a length at the section, the second ends it there. */
 function LengthButton({ hasRoom }: { readonly hasRoom: boolean }) {
   const from = lengthFrom.value;
   if (from === null) {
     const title = hasRoom
-      ? 'Then move the section to the other end'
-      : 'Two stretches are marked: remove one of them first';
+      ? 'Starts a length here; then move the section to the other end'
+      : 'Two stretches are marked: remove one first';
     return (
       <button type="button" class="small" disabled={!hasRoom} title={title} onClick={beginLength}>
         Length from here

@@ -1,4 +1,4 @@
-/** A marked stretch of a vessel: its lengths, and how a C-arm is turned that shows it in its whole length. */
+/** Marked stretches of a vessel: length, and C-arm angles without foreshortening. */
 
 import { engine } from '../client/shared';
 import type { Pair, Profile, Stretch } from '../core/messages';
@@ -88,7 +88,6 @@ function Numbers({ which, ends, stretch, profile }: NumbersProps) {
   );
 }
 
-/** Shows the stretch as the C-arm sees it. */
 function turnThere({ view }: Stretch, ends: Pair, profile: Profile): void {
   const camera = store.camera.value;
   const points = ends.map((at) => centerAt(profile, at)).filter((point) => point !== null);

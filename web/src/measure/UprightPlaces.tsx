@@ -1,11 +1,10 @@
-/** The places of a vessel that is measured, as lines with grips across the straightened vessel that stands. */
+/** Place lines with handles over the vertical straightened vessel. */
 import type { Pair } from '../core/messages';
 import { currentPlaces, currentVessel } from './current';
 import { COLORS, PlaceHandles } from './PlaceHandles';
 import { pixelAt, valueAt } from './scale';
 
-/** How far the grips are from the right edge (CSS pixels). */
-const GRIP = 16;
+const HANDLE_INSET_PX = 16;
 
 export function UprightPlaces({ size, spacing }: { readonly size: Pair; readonly spacing: number }) {
   const length = currentVessel.value?.length ?? 0;
@@ -27,7 +26,7 @@ export function UprightPlaces({ size, spacing }: { readonly size: Pair; readonly
       </svg>
       <PlaceHandles
         view="in the CPR"
-        pixelAt={(at) => [size[0] - GRIP, pixelAt(y, at)]}
+        pixelAt={(at) => [size[0] - HANDLE_INSET_PX, pixelAt(y, at)]}
         atOf={([, row]) => valueAt(y, row)}
       />
     </>

@@ -1,4 +1,4 @@
-/** Asks the engine what the marks measure, whenever they or the vessel change. */
+/** Requests measurements from the engine whenever marks or vessel change. */
 import { untracked, useSignalEffect } from '@preact/signals';
 import { useRef } from 'preact/hooks';
 import { engine } from '../client/shared';
@@ -14,17 +14,17 @@ import { beingMeasured, forgetProfiles, measure, profiles, stopped } from '../st
 import { rulerLength } from '../state/rulers';
 import * as store from '../state/store';
 import { type Answers, answers, currentMarks, currentProfile, currentVessel, NO_ANSWERS } from './current';
-import { listedFindings, markedVessel, stated, toldFindings } from './findings';
+import { findingSentences, listedFindings, markedVessel, stated } from './findings';
 import { comparedIn, mainPlace, NOTHING_SUGGESTED, placesOf, type Suggested } from './marks';
 
-/** Keeps profile and answers of the picked vessel up to date; the layout uses it once. */
+/** Keeps profile and answers of the picked vessel up to date; used once, by the layout. */
 export function useMeasuring(): void {
   const latest = useRef(new Latest());
   const latestFindings = useRef(new Latest());
   const answered = useRef<LineId | null>(null);
   const lines = useRef('');
   useSignalEffect(() => {
-    // The other vessels tell where branches are, hidden ones too: a profile holds among the vessels that it was measured among.
+    // A profile depends on all vessels, including hidden ones, because they define the branches.
     const now = listedLines.value;
     if (now !== lines.current) {
       lines.current = now;
@@ -34,25 +34,25 @@ export function useMeasuring(): void {
   useSignalEffect(() => {
     const known = profiles.value;
     const line = wantedLines().find((one) => !known.has(one));
-    // Read here, so that each of them lets the effect run again.
+    // Read here, so that each signal triggers the effect.
     const isFree = beingMeasured.value === null && store.hasVolume.value;
     if (line !== undefined && isFree && stopped.value !== line) {
       void measure(engine, line);
     }
   });
   useSignalEffect(arrive);
-  useSignalEffect(() => tellFindings(latestFindings.current));
+  useSignalEffect(() => askForSentences(latestFindings.current));
   useSignalEffect(() => {
     const [vessel, profile, marks] = [currentVessel.value, currentProfile.value, currentMarks.value];
     if (vessel?.line !== answered.current) {
-      // No number of a vessel is shown beside the name of another one.
+      // Never shows numbers next to the name of another vessel.
       answered.current = vessel?.line ?? null;
       answers.value = NO_ANSWERS;
     }
     if (vessel && profile && marks) {
       latest.current.run(async () => {
         const found = await asked(vessel.line, profile, marks).catch(unlessGone);
-        // What another vessel is called by now is not overwritten.
+        // The pick may have changed meanwhile.
         if (found && currentVessel.value?.line === vessel.line) {
           answers.value = found;
         }
@@ -63,7 +63,7 @@ export function useMeasuring(): void {
   });
 }
 
-/** The lines whose profiles are shown: that of the picked vessel while it is measured, those of all findings in the report. */
+/** Lines to measure: the picked vessel while measuring, all findings in the report. */
 function wantedLines(): readonly LineId[] {
   if (store.layout.value === 'report') {
     return listedFindings.value.map(({ line }) => line);
@@ -72,8 +72,7 @@ function wantedLines(): readonly LineId[] {
   return vessel && store.layout.value === 'measure' ? [vessel.line] : [];
 }
 
-/** Asks for what is told of the findings that are measured already, while the report is shown. */
-function tellFindings(latest: Latest): void {
+function askForSentences(latest: Latest): void {
   if (store.layout.value !== 'report') {
     return;
   }
@@ -83,13 +82,14 @@ function tellFindings(latest: Latest): void {
     stated: stated(),
   };
   latest.run(async () => {
-    toldFindings.value = (await engine.ask('findings', message).catch(unlessGone)) ?? toldFindings.value;
+    findingSentences.value =
+      (await engine.ask('findings', message).catch(unlessGone)) ?? findingSentences.value;
   });
 }
 
 const isMeasured = (line: LineId): boolean => 'profile' in (profiles.value.get(line) ?? {});
 
-/** Shows the narrowest place, marked or suggested, as soon as it is known after measuring was opened. */
+/** Shows the narrowest place as soon as it is known after measuring was opened. */
 function arrive(): void {
   const [profile, marks] = [currentProfile.value, currentMarks.value];
   if (isArriving.value && store.layout.value === 'measure' && profile && marks) {
@@ -103,7 +103,7 @@ function arrive(): void {
   }
 }
 
-/** Nothing of a line that an edit has replaced meanwhile; the marks of the new one are asked for once the page knows of it. */
+/** Ignores lines that an edit replaced meanwhile. */
 function unlessGone(error: unknown): null {
   if (Failure.of(error).kind === 'vessel tree') {
     return null;
@@ -111,7 +111,6 @@ function unlessGone(error: unknown): null {
   throw error;
 }
 
-/** All that the engine says of marks. */
 export async function asked(line: LineId, profile: Profile, marks: VesselMarks): Promise<Answers> {
   const [suggested, { stenosis, not_graded }, stretches] = await Promise.all([
     offeredBeside(line, marks),
@@ -131,7 +130,7 @@ async function offeredBeside(line: LineId, marks: VesselMarks): Promise<Suggeste
   try {
     return await engine.ask('offered_references', { line, marks });
   } catch {
-    // A place where nothing was measured has no suggestions: grading says why.
+    // An unmeasured place has no suggestions; grading reports why.
     return NOTHING_SUGGESTED;
   }
 }

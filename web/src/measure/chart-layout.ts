@@ -1,36 +1,33 @@
-/** Where things lie in the picture of a profile (CSS pixels). The picture of the vessel above it has the same axis `x`. */
+/** Layout of the profile chart (CSS pixels), with the x axis of the vessel above it. */
 import type { Pair, Profile } from '../core/messages';
 import { topOf } from './curves';
 import { flagsIn } from './flags';
 import type { Axis } from './scale';
 import { lengthOf } from './sections';
 
-/** Room for the numbers at the left, and for words at the right. */
+/** Margins for the tick labels on the left and the flag labels on the right. */
 export const LEFT = 56;
 export const RIGHT = 104;
-/** Room for the legend and the reading above, a line for each, and for the ticks below. */
+/** Margins for legend and read-out above, and ticks below. */
 const ABOVE = 38;
 const BELOW = 34;
-/** The height of a row of flags. */
 export const ROW = 12;
-/** The height of a word beside the rows: where rows are lower, the words spread upwards beside the curve. */
+/** Height of a flag label; with lower rows the labels spread upwards. */
 const WORD = 11;
-/** Rows never take more than this part of the height. */
+/** Largest share of the height for the flag rows. */
 const MOST_ROWS = 0.45;
 
 export interface ChartLayout {
   readonly size: Pair;
   readonly x: Axis;
   readonly y: Axis;
-  /** The height of a row of flags, the first of which begins where the diameter is 0. */
+  /** Height of a flag row; the first begins at diameter 0. */
   readonly row: number;
-  /** How far the words beside these rows are apart: the last one stands at the last row. */
+  /** Spacing of the flag labels; the last one aligns with the last row. */
   readonly wordRow: number;
-  /** Where the plot ends below the rows of flags. */
   readonly bottom: number;
 }
 
-/** The axis along the vessel in a picture of this width. */
 export function axisAlong(length: number, width: number): Axis {
   return { low: 0, high: length, start: LEFT, end: Math.max(width - RIGHT, LEFT + 20) };
 }
@@ -49,9 +46,9 @@ export function chartLayout(profile: Profile, size: Pair): ChartLayout {
   };
 }
 
-/** How far a bar over the chart stays away from both edges (CSS pixels). */
+/** Distance of the bar from both edges (CSS pixels). */
 const EDGE = 4;
 
-/** Where a bar of a width begins that stands over a column as long as it has room on both sides (CSS pixels). */
+/** Left edge of a bar centred on a column, within the pane (CSS pixels). */
 export const leftOf = (column: number, wide: number, room: number): number =>
   Math.max(Math.min(column - wide / 2, room - wide - EDGE), EDGE);

@@ -1,4 +1,4 @@
-/** The vessel that is measured: the one that is picked, with its profile and what is marked on it. */
+/** The picked vessel with its profile and marks. */
 import { computed, signal } from '@preact/signals';
 import type { Failure } from '../core/failure';
 import type { LineId, Profile, Stenosis, Stretch } from '../core/messages';
@@ -10,17 +10,16 @@ import {
   type ComparedPlaces,
   comparedIn,
   NOTHING_SUGGESTED,
-  type Place,
   placesOf,
   type Suggested,
+  type VesselPlace,
 } from './marks';
 import { marksOf } from './vessels';
 
 export interface CurrentVessel {
   readonly line: LineId;
-  /** Its name; its number, counted from 1, where it has none. */
+  /** Falls back to its number, counted from 1. */
   readonly name: string;
-  /** mm */
   readonly length: number;
 }
 
@@ -42,7 +41,6 @@ export const currentProfile = computed<Profile | null>(() => {
   return found && 'profile' in found ? found.profile : null;
 });
 
-/** Why the vessel cannot be measured. */
 export const currentFailure = computed<Failure | null>(() => {
   const found = measured.value;
   return found && 'failure' in found ? found.failure : null;
@@ -53,13 +51,11 @@ export const currentMarks = computed<VesselMarks | null>(() => {
   return vessel && marksOf(document_.value, vessel.line);
 });
 
-/** What the engine said of the marks. */
 export interface Answers {
   readonly suggested: Suggested;
   readonly stenosis: Stenosis | null;
-  /** Why a marked place has no percentage. */
   readonly notGraded: string | null;
-  /** What makes the percentage doubtful, or would make that of the places that are offered so. */
+  /** Doubts about the percentage, or about that of the suggested places. */
   readonly doubts: readonly string[];
   readonly stretch: Stretch | null;
   readonly secondStretch: Stretch | null;
@@ -79,11 +75,11 @@ export const NO_ANSWERS: Answers = {
 
 export const answers = signal<Answers>(NO_ANSWERS);
 
-/** The places of the vessel, marked or suggested; none before it is measured. */
-export const currentPlaces = computed<readonly Place[]>(() => {
+/** Marked and suggested places; empty before the vessel is measured. */
+export const currentPlaces = computed<readonly VesselPlace[]>(() => {
   const [profile, marks] = [currentProfile.value, currentMarks.value];
   return profile && marks ? placesOf(profile, marks, answers.value.suggested) : [];
 });
 
-/** The narrowest place and its references among them, marked or suggested. */
+/** The narrowest place and its references, marked or suggested. */
 export const comparedPlaces = computed<ComparedPlaces | null>(() => comparedIn(currentPlaces.value));

@@ -1,18 +1,17 @@
-/** The curves of a profile as paths of an SVG. */
+/** Curves of a profile as SVG paths. */
 import type { Profile } from '../core/messages';
 import { type Axis, pixelAt } from './scale';
 
-/** How many standard deviations the band reaches to both sides. */
+/** Half width of the band in standard deviations. */
 export const DEVIATIONS = 2;
-/** The largest diameter that counts takes this share more. */
-const ROOM = 1.12;
+const AXIS_HEADROOM = 1.12;
 
-/** Values that belong to sections which count; the others are none. */
+/** Values of valid sections; others become null. */
 export function counted({ counts }: Profile, values: readonly (number | null)[]): (number | null)[] {
   return values.map((value, n) => (counts[n] ? value : null));
 }
 
-/** Stretches of sections that have a value, as their numbers. */
+/** Runs of sections with a value, as indices. */
 export function stretches(values: readonly (number | null)[]): number[][] {
   const found: number[][] = [];
   values.forEach((value, n) => {
@@ -28,15 +27,15 @@ export function stretches(values: readonly (number | null)[]): number[][] {
   return found;
 }
 
-/** The largest diameter (mm) that has room. */
+/** Upper end of the diameter axis (mm). */
 export function topOf(profile: Profile): number {
   const some = (values: readonly (number | null)[]) => values.filter((value) => value !== null);
   const wide = some(counted(profile, profile.diameter_max));
   const all = wide.length > 0 ? wide : some(profile.diameter_max);
-  return all.length > 0 ? ROOM * Math.max(...all) : 1;
+  return all.length > 0 ? AXIS_HEADROOM * Math.max(...all) : 1;
 }
 
-/** A line through the values; sections between two without one are no line. */
+/** A line through the values, interrupted where they are missing. */
 export function linePath(
   x: Axis,
   y: Axis,
@@ -49,7 +48,6 @@ export function linePath(
     .join('');
 }
 
-/** The area between two lines. */
 export function bandPath(
   x: Axis,
   y: Axis,
@@ -67,15 +65,13 @@ export function bandPath(
     .join('');
 }
 
-/** The numbers of sections that stand alone. */
-export const lonely = (values: readonly (number | null)[]): number[] =>
+export const isolated = (values: readonly (number | null)[]): number[] =>
   stretches(values).flatMap((run) => (run.length === 1 ? run : []));
 
 function pointOf(x: Axis, y: Axis, at = 0, value: number | null = 0): string {
   return `${pixelAt(x, at).toFixed(2)} ${pixelAt(y, value ?? 0).toFixed(2)}`;
 }
 
-/** The diameters less and more a number of standard deviations. */
 export function spreadOf(profile: Profile): readonly [(number | null)[], (number | null)[]] {
   const widths = counted(profile, profile.diameter);
   const by = (sign: number) =>

@@ -1,4 +1,4 @@
-/** Changes marks in the document: a drag is previewed and becomes one step that can be undone. */
+/** Edits of marks; a drag is previewed and becomes one undo step. */
 import { batch, computed, signal } from '@preact/signals';
 import { moveTo } from '../link/along';
 import { type Document, NO_MARKS, type VesselMarks } from '../state/document';
@@ -9,10 +9,10 @@ import { answers, comparedPlaces, currentMarks, currentProfile, currentVessel } 
 import {
   allConfirmed,
   moved,
-  type Place,
   placeAfter,
   removed,
   taken,
+  type VesselPlace,
   withDiameter,
   withReference,
   withStretch,
@@ -21,9 +21,8 @@ import { snapped } from './sections';
 import { withMarks } from './vessels';
 import { placeName } from './words';
 
-/** A drag under way, as it began: one drag moves one place, on whichever side of the stenosis it is by now. */
 interface Drag {
-  readonly place: Place;
+  readonly place: VesselPlace;
   readonly marks: VesselMarks;
   readonly document: Document;
   readonly wasCrossed: boolean;
@@ -31,16 +30,14 @@ interface Drag {
 
 let drag: Drag | null = null;
 
-/** Whether a reference passed the stenosis, so that each one goes on with the grip that it was held by. */
+/** Whether the dragged reference passed the stenosis, which swaps the handles. */
 export const isCrossed = signal(false);
 
-/** The document with other marks of the picked vessel. */
 function documentWith(marks: VesselMarks): Document {
   const vessel = currentVessel.value;
   return vessel ? withMarks(document_.value, vessel.line, marks) : document_.value;
 }
 
-/** Changes the marks of the picked vessel, as a step that can be undone. */
 export function changeMarks(words: string, how: (marks: VesselMarks) => VesselMarks): void {
   const before = currentMarks.value ?? NO_MARKS;
   const after = how(before);
@@ -49,12 +46,12 @@ export function changeMarks(words: string, how: (marks: VesselMarks) => VesselMa
   }
 }
 
-export function beginMove(place: Place): void {
+export function beginMove(place: VesselPlace): void {
   const marks = currentMarks.value;
   drag = marks && { place, marks, document: document_.value, wasCrossed: isCrossed.value };
 }
 
-/** Moves the place of the drag to the section nearest to an arc length; the section view goes with it. */
+/** Moves the dragged place to the nearest section, and the section view with it. */
 export function move(to: number): void {
   const profile = currentProfile.value;
   if (profile && drag) {
@@ -76,7 +73,6 @@ export function endMove(): void {
   }
 }
 
-/** The drag is taken back. */
 export function putBack(): void {
   if (drag) {
     isCrossed.value = drag.wasCrossed;
@@ -85,7 +81,6 @@ export function putBack(): void {
   }
 }
 
-/** Marks the place of a stenosis, or a reference of it, at the section that is shown. */
 export function markHere(kind: 'place' | 'reference'): void {
   const profile = currentProfile.value;
   if (profile) {
@@ -96,7 +91,6 @@ export function markHere(kind: 'place' | 'reference'): void {
   }
 }
 
-/** Notes the diameter of the section that is shown. */
 export function noteDiameter(): void {
   const profile = currentProfile.value;
   if (profile) {
@@ -104,12 +98,11 @@ export function noteDiameter(): void {
   }
 }
 
-/** Where the length begins on the picked vessel that has no end yet (mm). */
+/** Start of an unfinished length on the picked vessel (mm). */
 export const lengthFrom = computed<number | null>(() =>
   begunLength.value && begunLength.value.line === currentVessel.value?.line ? begunLength.value.at : null,
 );
 
-/** Begins a length at the section that is shown. */
 export function beginLength(): void {
   const [vessel, profile] = [currentVessel.value, currentProfile.value];
   if (vessel && profile) {
@@ -117,7 +110,6 @@ export function beginLength(): void {
   }
 }
 
-/** Ends it at the section that is shown: a stretch is marked. */
 export function endLength(): void {
   const [from, profile] = [lengthFrom.value, currentProfile.value];
   if (from !== null && profile) {
@@ -127,8 +119,7 @@ export function endLength(): void {
   }
 }
 
-/** Takes a suggestion as a mark. */
-export function confirm(place: Place): void {
+export function confirm(place: VesselPlace): void {
   if (place.isSuggestion) {
     changeMarks(`take the ${placeName({ ...place, isSuggestion: false })}`, (marks) => taken(marks, place));
   }
@@ -141,13 +132,12 @@ export function confirmAll(): void {
     changeMarks('take the suggested places', (marks) =>
       allConfirmed(profile, marks, answers.value.suggested),
     );
-    // What was confirmed is to be looked at.
     if (compared) {
       moveTo(compared.at);
     }
   }
 }
 
-export function remove(place: Place): void {
+export function remove(place: VesselPlace): void {
   changeMarks(`remove the ${placeName(place)}`, (marks) => removed(marks, place));
 }

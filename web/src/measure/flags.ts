@@ -1,21 +1,19 @@
-/** What there is to know of sections, in words. The engine's table has their order, words, meanings and colours. */
+/** Flags of sections. Order, words, meanings and colours come from the engine. */
 
 import type { FlagLook, Pair, Profile } from '../core/messages';
 
-/** Flags with what they mean, a line for each. */
 export const meanings = ({ flag_table }: Profile, words: readonly string[]): string =>
   flag_table
     .filter(({ word }) => words.includes(word))
     .map(({ word, meaning }) => `${word}: ${meaning}`)
     .join('\n');
 
-/** The flags that are set somewhere, in their order. */
 export function flagsIn({ flags, flag_table }: Profile): readonly FlagLook[] {
   const found = new Set(flags.flat());
   return flag_table.filter(({ word }) => found.has(word));
 }
 
-/** Stretches with a flag: they begin half a step before their first section and end half a step behind the last (mm). */
+/** Intervals with a flag (mm), extended by half a step at both ends. */
 export function runs(profile: Profile, word: string): Pair[] {
   const { arc_length: places, flags } = profile;
   const half = ((places[1] ?? 1) - (places[0] ?? 0)) / 2;

@@ -1,31 +1,28 @@
-/** The whole line of a place is its grip: a drag that begins near it moves the place, a click there is one of the picture beneath. */
+/** Drags that begin near a place line move the place; clicks there go to the picture below. */
 import { useRef } from 'preact/hooks';
 import { currentPlaces } from './current';
 import { beginMove, endMove, move, putBack } from './editing';
-import type { Place } from './marks';
+import type { VesselPlace } from './marks';
 import { type Axis, pixelAt, valueAt } from './scale';
 
-/** How near to a line a drag may begin (CSS pixels). */
-export const HIT = 22;
-/** A press that moves no farther is a click (CSS pixels). */
-const STILL = 4;
+export const GRAB_DISTANCE_PX = 22;
+const CLICK_MOVE_PX = 4;
 
-/** The place whose line is nearest to a column, if any is near enough. */
-export function nearestLine(places: readonly Place[], x: Axis, column: number): Place | null {
-  const away = (place: Place) => Math.abs(pixelAt(x, place.at) - column);
-  const [nearest] = [...places].sort((a, b) => away(a) - away(b));
-  return nearest && away(nearest) <= HIT ? nearest : null;
+export function nearestLine(places: readonly VesselPlace[], x: Axis, column: number): VesselPlace | null {
+  const distance = (place: VesselPlace) => Math.abs(pixelAt(x, place.at) - column);
+  const [nearest] = [...places].sort((a, b) => distance(a) - distance(b));
+  return nearest && distance(nearest) <= GRAB_DISTANCE_PX ? nearest : null;
 }
 
 interface Grip {
-  readonly place: Place;
-  /** The column where the pointer went down, and that of the line beside it. */
+  readonly place: VesselPlace;
+  /** Column of the pointer at the start, and of the line. */
   readonly from: number;
   readonly beside: number;
   isMoving: boolean;
 }
 
-/** What the pane of a lying vessel hears before its pictures do; nothing where the vessel has no axis yet. */
+/** Handlers in the capture phase of the pane; none before the vessel has an axis. */
 export function useLineGrips(x: Axis | null) {
   const grip = useRef<Grip | null>(null);
   const columnOf = (event: PointerEvent) =>
@@ -53,7 +50,7 @@ export function useLineGrips(x: Axis | null) {
         return;
       }
       const column = columnOf(event);
-      if (!held.isMoving && Math.abs(column - held.from) > STILL) {
+      if (!held.isMoving && Math.abs(column - held.from) > CLICK_MOVE_PX) {
         held.isMoving = true;
         beginMove(held.place);
       }

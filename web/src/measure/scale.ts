@@ -1,6 +1,6 @@
-/** The way between lengths and pixels, and where an axis has its ticks. */
+/** Linear axes: mapping between lengths and pixels, and ticks. */
 
-/** A straight axis: `low` lies at the pixel `start`, `high` at `end`. */
+/** `low` lies at pixel `start`, `high` at `end`. */
 export interface Axis {
   readonly low: number;
   readonly high: number;
@@ -12,13 +12,13 @@ export function pixelAt({ low, high, start, end }: Axis, value: number): number 
   return start + ((value - low) / (high - low)) * (end - start);
 }
 
-/** The value at a pixel; beyond the ends that of the end. */
+/** The value at a pixel, clamped to the axis. */
 export function valueAt({ low, high, start, end }: Axis, pixel: number): number {
   const value = low + ((pixel - start) / (end - start)) * (high - low);
   return Math.min(Math.max(value, low), high);
 }
 
-/** Steps of 1, 2 and 5 times a power of ten; at most `most` of them lie between both ends, which may be among them. */
+/** Ticks in steps of 1, 2 or 5 times a power of ten, at most `most`. */
 export function ticks(low: number, high: number, most: number): number[] {
   const span = high - low;
   if (!(span > 0) || most < 1) {
@@ -28,6 +28,6 @@ export function ticks(low: number, high: number, most: number): number[] {
   const step = [1, 2, 5, 10].map((factor) => factor * power).find((size) => span / size <= most) ?? span;
   const first = Math.ceil(low / step - 1e-9);
   const last = Math.floor(high / step + 1e-9);
-  // Multiples, and no sum: so that no rounding adds up.
+  // Multiples, so that rounding errors do not add up.
   return Array.from({ length: last - first + 1 }, (_, n) => Number(((first + n) * step).toPrecision(12)));
 }

@@ -1,8 +1,8 @@
-/** Sections of a profile by their place. */
+/** Access to the sections of a profile by arc length. */
 
 import type { Pair, Profile, Vector } from '../core/messages';
 
-/** The number of the section that is nearest to an arc length, the first of two. */
+/** Nearest section; the first of two equally near. */
 export function nearestSection({ arc_length: places }: Profile, at: number): number {
   let best = 0;
   places.forEach((place, n) => {
@@ -13,15 +13,13 @@ export function nearestSection({ arc_length: places }: Profile, at: number): num
   return best;
 }
 
-/** The arc length of the nearest section: places are marked where there is one. */
 export function snapped(profile: Profile, at: number): number {
   return profile.arc_length[nearestSection(profile, at)] ?? at;
 }
 
-/** The arc length of the last section (mm). */
+/** Arc length of the last section (mm). */
 export const lengthOf = (profile: Profile): number => profile.arc_length.at(-1) ?? 0;
 
-/** Sections whose numbers are all there. */
 export interface SectionNumbers {
   readonly at: number;
   readonly diameter: number | null;
@@ -31,25 +29,25 @@ export interface SectionNumbers {
   readonly area: number | null;
   readonly counts: boolean;
   readonly flags: readonly string[];
-  /** What calcium or metal beside the lumen leaves open, in words. */
+  /** What calcium or metal leaves uncertain, in words. */
   readonly bounds: string | null;
 }
 
-/** The side of pictures of sections: a multiple of the lumen, within these (mm); that of a vessel that is not measured. */
-const ROOM = 2.5;
+/** Picture side as a multiple of the lumen, its limits, and its value for an unmeasured vessel (mm). */
+const SIDE_PER_DIAMETER = 2.5;
 const SIZES: Pair = [12, 120];
 export const UNKNOWN_SIDE = 30;
 
-/** The side of pictures in which nearly all sections of a vessel that count have room (mm). */
 export function fittingSide({ counts, diameter_max: longest }: Profile): number {
   const all = longest.flatMap((value, n) => (value === null ? [] : [{ value, counts: counts[n] }]));
   const counted = all.filter((section) => section.counts);
   const wide = (counted.length > 0 ? counted : all).map(({ value }) => value).sort((a, b) => a - b);
   const most = wide[Math.floor(0.9 * (wide.length - 1))];
-  return most === undefined ? UNKNOWN_SIDE : Math.min(Math.max(Math.ceil(ROOM * most), SIZES[0]), SIZES[1]);
+  return most === undefined
+    ? UNKNOWN_SIDE
+    : Math.min(Math.max(Math.ceil(SIDE_PER_DIAMETER * most), SIZES[0]), SIZES[1]);
 }
 
-/** The numbers of the section that is nearest to an arc length. */
 export function sectionNumbers(profile: Profile, at: number): SectionNumbers {
   const n = nearestSection(profile, at);
   return {
@@ -65,7 +63,6 @@ export function sectionNumbers(profile: Profile, at: number): SectionNumbers {
   };
 }
 
-/** The middle of the lumen at an arc length, between the sections on both sides. */
 export function centerAt({ arc_length: places, center }: Profile, at: number): Vector | null {
   const after = places.findIndex((place) => place >= at);
   const [b, place] = [center[after], places[after]];
@@ -82,30 +79,30 @@ export function centerAt({ arc_length: places, center }: Profile, at: number): V
   ) as unknown as Vector;
 }
 
-/** Places that are about as near as the nearest one (pixels): of those the one that is next to the former place counts. */
-const AS_NEAR = 6;
+/** Sections within this distance of the nearest are equally near (pixels). */
+const EQUALLY_NEAR_PX = 6;
 
-/** The section whose middle is seen nearest to a pixel; where the vessel crosses itself, the one next to `before` (mm). */
+/** The section seen nearest to a pixel; where the vessel overlaps itself, the one closest to `before` (mm). */
 export function seenNearest(
   profile: Profile,
   seen: (point: Vector) => Pair,
   pixel: Pair,
   before: number,
 ): number {
-  const away = profile.center.map((point) => {
+  const distances = profile.center.map((point) => {
     const [x, y] = seen(point);
     return Math.hypot(x - pixel[0], y - pixel[1]);
   });
-  const limit = Math.min(...away) + AS_NEAR;
+  const limit = Math.min(...distances) + EQUALLY_NEAR_PX;
   let best = before;
   let least = Number.POSITIVE_INFINITY;
   profile.arc_length.forEach((place, n) => {
-    // Of those that are about as near, a little nearer to the pointer beats a little nearer along the vessel.
-    const distance = away[n] ?? Number.POSITIVE_INFINITY;
+    // Among these, distance along the vessel decides.
+    const distance = distances[n] ?? Number.POSITIVE_INFINITY;
     if (distance > limit) {
       return;
     }
-    const cost = distance + 0.5 * Math.max(Math.abs(place - before) - 2 * AS_NEAR, 0);
+    const cost = distance + 0.5 * Math.max(Math.abs(place - before) - 2 * EQUALLY_NEAR_PX, 0);
     if (cost < least) {
       [least, best] = [cost, place];
     }

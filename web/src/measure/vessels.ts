@@ -9,7 +9,6 @@ export function marksOf(document: Document, line: LineId): VesselMarks {
   return (vessel && document.marks[vessel.id]) ?? NO_MARKS;
 }
 
-/** The document with other marks of the vessel that has a line; the same where none has it. */
 export function withMarks(document: Document, line: LineId, marks: VesselMarks): Document {
   const id = byLine(document, line)?.id;
   return id === undefined ? document : { ...document, marks: { ...document.marks, [id]: marks } };

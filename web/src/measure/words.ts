@@ -1,25 +1,22 @@
-/** Measured numbers as words. Where the file does not state its spacing, no length has a unit. */
+/** Measurements as text, without units if the voxel spacing is unknown. */
 import type { Stenosis } from '../core/messages';
 import { hasMillimetres } from '../state/millimetres';
-import type { Place } from './marks';
+import type { VesselPlace } from './marks';
 import type { SectionNumbers } from './sections';
 
 export const NOTHING = '–';
 
 const unit = (name: string): string => (hasMillimetres.value ? ` ${name}` : '');
 
-/** Why lengths have no unit; nothing where they have one. */
+/** Why lengths have no unit; empty if they have one. */
 export const unitless = (): string =>
-  hasMillimetres.value
-    ? ''
-    : 'The scan does not say how far its voxels lie apart: 1 mm is assumed, and lengths have no unit.';
+  hasMillimetres.value ? '' : 'This scan has no voxel spacing: 1 mm is assumed, and lengths have no unit.';
 
-/** A length, such as `3.02 mm`. */
+/** Such as `3.02 mm`. */
 export function mm(value: number | null, digits = 2): string {
   return value === null ? NOTHING : `${value.toFixed(digits)}${unit('mm')}`;
 }
 
-/** A diameter with its standard deviation, such as `3.02 ± 0.05 mm`. */
 export function spread(diameter: number | null, uncertainty: number | null): string {
   if (diameter === null) {
     return NOTHING;
@@ -31,20 +28,18 @@ export function area(value: number | null): string {
   return value === null ? NOTHING : `${value.toFixed(1)}${unit('mm²')}`;
 }
 
-/** What the engine says, without units where lengths have none. */
-export function told(words: string): string {
+/** Engine text, without units if lengths have none. */
+export function withKnownUnits(words: string): string {
   return hasMillimetres.value ? words : words.replaceAll(' mm²', '').replaceAll(' mm', '');
 }
 
-/** A graded stenosis in one line. */
-export const stenosisWords = (stenosis: Stenosis): string => told(stenosis.words);
+export const stenosisWords = (stenosis: Stenosis): string => withKnownUnits(stenosis.words);
 
-/** Why a marked place has no percentage; the engine has not answered yet where it does not say. */
+/** Why there is no percentage; null means that the engine has not answered yet. */
 export const notGradedWords = ({ notGraded }: { readonly notGraded: string | null }): string =>
-  notGraded === null ? 'Grading…' : `No percentage: ${told(notGraded)}`;
+  notGraded === null ? 'Grading…' : `No percentage: ${withKnownUnits(notGraded)}`;
 
-/** How a place is called. */
-export function placeName({ kind, slot, isSuggestion, isBefore }: Place): string {
+export function placeName({ kind, slot, isSuggestion, isBefore }: VesselPlace): string {
   const end = slot === 0 ? 'start' : 'end';
   const names = {
     place: isSuggestion ? 'narrowest place' : 'marked place',
@@ -56,11 +51,10 @@ export function placeName({ kind, slot, isSuggestion, isBefore }: Place): string
   return `${names[kind]}${isSuggestion ? ' (suggestion)' : ''}`;
 }
 
-/** The flags of a section, and what calcium or metal beside it leaves open. */
+/** Flags, and the uncertainty due to calcium or metal. */
 export const doubtWords = ({ flags, bounds }: SectionNumbers): readonly string[] =>
-  bounds === null ? flags : [...flags, told(bounds)];
+  bounds === null ? flags : [...flags, withKnownUnits(bounds)];
 
-/** A section in one line. */
 export function sectionWords(section: SectionNumbers): string {
   const { at, diameter, uncertainty, shortest, longest, counts } = section;
   const parts = [`${mm(at, 1)}:`];
@@ -75,5 +69,4 @@ export function sectionWords(section: SectionNumbers): string {
   return `${parts.join(' ')}${words ? ` · ${words}` : ''}`;
 }
 
-/** An angle (radians) in whole degrees. */
 export const degrees = (radians: number): string => `${Math.round((radians * 180) / Math.PI)}°`;

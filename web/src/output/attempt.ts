@@ -1,4 +1,4 @@
-/** Saving, whose failures are told. */
+/** Runs a save and reports its failure. */
 import { Failure } from '../core/failure';
 import { problem } from '../state/store';
 

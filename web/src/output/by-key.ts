@@ -1,11 +1,11 @@
-/** What is saved by keys. */
+/** Saving by keyboard shortcuts. */
 import { Failure } from '../core/failure';
 import type { Action } from '../input/bindings';
 import { problem, report } from '../state/store';
 import { saveReport } from './report';
 import { saveSession } from './session';
 
-/** Saves what a key stands for; says whether it stands for that. Whether the report names the scan is chosen in the menu. */
+/** Saves what the action names. Returns whether it named anything. */
 export function saveByKey(action: Action): boolean {
   const save = { 'save session': saveSession, 'save report': saveReport }[action as string];
   if (save && report.value) {

@@ -1,4 +1,4 @@
-/** The vessels as a file of centerlines. */
+/** Saves the vessels as a centerline file. */
 import { engine } from '../client/shared';
 import type { CenterlineKind } from '../core/messages';
 import { centerlineFile } from '../edit/files';
@@ -6,12 +6,10 @@ import { document_, markSaved } from '../state/history';
 import { saveAs } from './pictures';
 import { studyFileName } from './study-file-names';
 
-/** Saves all vessels of the list, without the doubtful ones. */
 export async function saveCenterlines(kind: CenterlineKind): Promise<void> {
   const document = document_.value;
   saveAs(await centerlineFile(engine, kind), studyFileName({ content: 'centerlines', ending: kind }));
   markSaved(document);
 }
 
-/** Whether there is a vessel to save. */
 export const hasCenterlines = (): boolean => document_.value.vessels.some((vessel) => vessel.doubt === null);

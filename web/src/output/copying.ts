@@ -1,20 +1,18 @@
-/** What is copied to the clipboard: sentences and pictures. */
+/** Copies sentences and pictures to the clipboard. */
 import { Failure } from '../core/failure';
-import { tell } from '../state/telling';
+import { showMessage } from '../state/message';
 
-/** Copies words, and says so. */
 export async function copyWords(words: string): Promise<void> {
   await copied(() => navigator.clipboard.writeText(words));
-  tell('The sentence is copied');
+  showMessage('The sentence is copied');
 }
 
-/** Copies a picture, which may still be drawn meanwhile, and says so. */
+/** The picture may still be pending, as the clipboard API allows. */
 export async function copyPicture(picture: Promise<Blob>): Promise<void> {
   await copied(() => navigator.clipboard.write([new ClipboardItem({ 'image/png': picture })]));
-  tell('The picture is copied');
+  showMessage('The picture is copied');
 }
 
-/** Where a browser refuses its clipboard, what would mend it. */
 async function copied(copy: () => Promise<void>): Promise<void> {
   try {
     await copy();

@@ -1,18 +1,15 @@
-/** Names of the files that are saved: scan, content, side of the view and time, so that one is told from another. */
+/** Names of saved files: scan, content, side of the view, and time. */
 import type { Vector } from '../core/messages';
 
-/** What a name tells, in this order. */
 export interface Named {
-  /** As the study is called; null where the file must not tell it. */
+  /** Null if the file must not identify the scan. */
   readonly scan: string | null;
   readonly content: string;
-  /** The side of a view. */
   readonly side?: string | null;
-  /** Without its dot. */
   readonly ending: string;
 }
 
-/** No name is longer than this before its content, because systems of files refuse long ones. */
+/** Longest scan name; file systems reject long names. */
 const LONGEST_SCAN = 60;
 const ENDINGS = /\.(nii|nrrd|nhdr|mha|mhd|dcm|zip|gz|npz|raw)$/i;
 
@@ -22,7 +19,7 @@ export function fileName({ scan, content, side = null, ending }: Named, now = ne
   return `${parts.filter((part) => part !== null && part !== '').join('-')}.${ending}`;
 }
 
-/** A name without the endings of its format, and without what systems of files refuse. */
+/** Removes format extensions and characters that file systems reject. */
 function plainScan(name: string): string {
   const bare = name.replace(ENDINGS, '').replace(ENDINGS, '');
   const plain = bare.replace(/[^\p{L}\p{N}_]+/gu, '-').replace(/^-+|-+$/g, '');
@@ -35,16 +32,16 @@ function timeWords(now: Date): string {
   return `${day}-${two(now.getHours())}${two(now.getMinutes())}`;
 }
 
-/** Each axis (LPS): the side towards its low end, then towards its high end. */
+/** Per LPS axis: the side at its low end, then at its high end. */
 const SIDES = [
   ['right', 'left'],
   ['anterior', 'posterior'],
   ['inferior', 'superior'],
 ] as const;
-/** A side is named where the view is turned to it by more than half of the 45 degrees between two sides. */
+/** A side is named if the view faces it within 67.5°. */
 const NAMED_FROM = Math.sin(Math.PI / 8);
 
-/** From which sides a view looks at the patient, the most facing one first: `anterior`, `anterior-left`. */
+/** Viewing sides, the most facing first: `anterior`, `anterior-left`. */
 export function sideOf(direction: Vector): string {
   const length = Math.hypot(...direction);
   return direction

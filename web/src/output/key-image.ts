@@ -1,4 +1,4 @@
-/** The key image of a finding: the straightened vessel with its marked places, and beneath it the section at each of them. */
+/** Key image of a finding: straightened vessel with marks, above the sections at the marks. */
 import { engine } from '../client/shared';
 import { Failure } from '../core/failure';
 import type { Pair, Profile, ReportPlace } from '../core/messages';
@@ -10,20 +10,18 @@ import { profileOfLine } from '../state/profiles';
 import { canvasOf, SIDE, sectionPair, straightenedCanvas } from './report-pictures';
 import { fittingSize } from './wrapping';
 
-/** So many sections stand side by side (pixels: three times their side). */
 const COLUMNS = 3;
 const WIDTH = COLUMNS * SIDE;
-/** The straightened vessel is no higher than this, and a line of words this high (pixels). */
-const HIGHEST = 260;
+/** Greatest height of the vessel, and line height of text (pixels). */
+const MAX_VESSEL_HEIGHT = 260;
 const LINE = 36;
 
-/** Draws the key image of a finding. */
 export async function keyImage(finding: Finding): Promise<HTMLCanvasElement> {
   const profile = await profileOfLine(engine, finding.line);
   const plan = await engine.ask('report_plan', markedVessel(finding));
   const places = plan.places.filter((place) => !place.is_suggestion);
   const strip = await straightenedCanvas(finding.vessel, plan);
-  const scale = Math.min(WIDTH / strip.width, HIGHEST / strip.height);
+  const scale = Math.min(WIDTH / strip.width, MAX_VESSEL_HEIGHT / strip.height);
   const [width, height] = [strip.width * scale, strip.height * scale];
   const rows = Math.ceil(places.length / COLUMNS);
   const [canvas, context] = canvasOf(WIDTH, Math.ceil(LINE + height + rows * (SIDE + LINE)));
@@ -37,14 +35,13 @@ export async function keyImage(finding: Finding): Promise<HTMLCanvasElement> {
   for (const [number, place] of places.entries()) {
     const pair = await sectionPair({ ...finding, side: plan.side }, profile, place.at);
     const [x, y] = [(number % COLUMNS) * SIDE, LINE + height + Math.floor(number / COLUMNS) * (SIDE + LINE)];
-    const told = `${place.name} ${diameterAt(profile, place.at)}`;
-    words(context, told, [x + 8, y + LINE - 11], colorOfPlace(place), SIDE - 16);
+    const label = `${place.name} ${diameterAt(profile, place.at)}`;
+    words(context, label, [x + 8, y + LINE - 11], colorOfPlace(place), SIDE - 16);
     context.drawImage(pair, 0, 0, SIDE, SIDE, x, y + LINE, SIDE, SIDE);
   }
   return canvas;
 }
 
-/** The same as a PNG. */
 export async function keyPicture(finding: Finding): Promise<Blob> {
   const canvas = await keyImage(finding);
   const blob = await new Promise<Blob | null>((resolve) => canvas.toBlob(resolve, 'image/png'));
@@ -59,7 +56,7 @@ function diameterAt(profile: Profile, at: number): string {
   return spread(profile.diameter[number] ?? null, profile.uncertainty[number] ?? null);
 }
 
-/** A line of words, drawn narrower where it would be wider than it may be (pixels): beside it stands another one. */
+/** A line of text, narrowed to fit (pixels). */
 function words(
   context: CanvasRenderingContext2D,
   text: string,
@@ -76,7 +73,6 @@ function words(
   context.fillText(text, x, y, widest);
 }
 
-/** Where a place lies along the straightened vessel: at both edges, so that the lumen stays free. */
 function line(
   context: CanvasRenderingContext2D,
   { place, x, height }: { readonly place: ReportPlace; readonly x: number; readonly height: number },

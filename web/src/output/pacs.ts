@@ -1,15 +1,15 @@
-/** What is put beside the scan in a PACS: the server makes DICOM objects of it, which come back as a zip archive. Nothing is sent elsewhere. */
+/** DICOM objects for a PACS: the server creates them and returns a zip archive. Nothing is sent elsewhere. */
 import { signal } from '@preact/signals';
 import { engine } from '../client/shared';
 import type { GivenFile } from '../core/messages';
 import { inBase64, made, placeOf } from '../core/server';
 import { type Finding, markedVessel } from '../measure/findings';
 import { settingOf } from '../state/actions';
+import { showMessage } from '../state/message';
 import { isMillimetreAssumed } from '../state/millimetres';
 import { profileOfLine } from '../state/profiles';
 import { reformationKind } from '../state/reformation';
 import * as store from '../state/store';
-import { tell } from '../state/telling';
 import { fileName } from './file-names';
 import { keyImage } from './key-image';
 import { drawnPane } from './pane-picture';
@@ -18,53 +18,44 @@ import { reported, reportOf } from './report';
 import { pngOf, straightenedCanvas } from './report-pictures';
 
 const SUBJECT = 'Save for PACS';
-/** The version of what is sent. */
 const VERSION = 1;
 const UPRIGHT =
   'Straightened CPR. Rows: distance along the vessel, its first point on top. Columns: distance across it.';
 const LYING =
   'Straightened CPR. Columns: distance along the vessel, its first point on the left. Rows: distance across it.';
-/** The width of the straightened vessel where no pane shows it, and the side of its finest pixels (mm). */
+/** Width of the straightened vessel without a pane, and the finest pixel (mm). */
 const [WIDTH, FINEST] = [50, 0.25];
-/** The most columns of it. */
 const MOST_COLUMNS = 2000;
 
-/** Into which study objects are put: that of the scan, one without a patient, or that of a file. */
 export type PacsStudy = 'scan' | 'anonymous' | GivenFile;
 
-/** A DICOM file that was chosen for its study, with what its reader is to see before objects are put there. */
 export interface ChosenFile {
   readonly file: GivenFile;
-  /** Name, ID, date, modality and body part, each with its label. */
+  /** Name, ID, date, modality and body part with their labels. */
   readonly facts: ReadonlyArray<readonly [string, string]>;
-  /** What speaks against it, in sentences. */
   readonly doubts: readonly string[];
-  /** Why it is refused; null where it is not. */
+  /** Why the file is rejected; null if it is not. */
   readonly refusal: string | null;
 }
 
-/** Whether the page asks into which study objects are put. */
 export const isPacsAsked = signal(false);
 
-/** The chosen file that the page asks about. */
 export const chosenFile = signal<ChosenFile | null>(null);
 
-/** Asks about a chosen file before anything is put into its study. */
 export async function askAboutFile(file: GivenFile): Promise<void> {
   const content = { study: await studyPart(file), fingerprint: fingerprint() };
   const response = await made('study', SUBJECT, content);
   chosenFile.value = { ...(await response.json()), file };
 }
 
-/** Asks into which study; refuses where no program serves the page that could make objects. */
+/** Opens the question; throws if the server cannot create objects. */
 export async function askForPacs(): Promise<void> {
   placeOf('objects', SUBJECT);
   isPacsAsked.value = true;
 }
 
-/** Saves the objects of what is shown. */
 export async function savePacs(study: PacsStudy): Promise<void> {
-  tell('Making the DICOM objects …');
+  showMessage('Making the DICOM objects …');
   const response = await made('objects', SUBJECT, await requestOf(study));
   const scan = study === 'anonymous' ? null : store.studyName.value;
   saveAs(await response.blob(), fileName({ scan, content: 'pacs', ending: 'zip' }), 'Nothing was sent');
@@ -72,7 +63,7 @@ export async function savePacs(study: PacsStudy): Promise<void> {
 
 async function requestOf(study: PacsStudy): Promise<object> {
   const isAnonymous = study === 'anonymous';
-  // Readers type names of vessels: without a patient they are left out, of pictures too.
+  // Vessel names are typed by users and may identify a patient, so anonymous objects omit them.
   const findings = reported().map((one) => (isAnonymous ? { ...one, name: '' } : one));
   const parts: object[] = [];
   for (const finding of findings) {
@@ -92,7 +83,7 @@ async function requestOf(study: PacsStudy): Promise<object> {
   };
 }
 
-/** What tells scans apart and names nobody. */
+/** Identifies a scan without naming anyone. */
 function fingerprint(): string {
   const volume = store.report.value?.volume;
   return JSON.stringify([volume?.size, volume?.world_from_index, store.histogram.value]);
@@ -115,7 +106,6 @@ async function studyPart(study: PacsStudy): Promise<object> {
   };
 }
 
-/** The turning view as it is shown. */
 async function viewPart(): Promise<object> {
   const canvas = await composed('labels');
   const camera = store.camera.value;
@@ -129,7 +119,7 @@ async function viewPart(): Promise<object> {
   };
 }
 
-/** The reformation beside it; where none is shown, the picked vessel straightened, and nothing where none is picked. */
+/** The displayed reformation, otherwise the picked vessel straightened; null if none is picked. */
 async function panePart(): Promise<object | null> {
   const vessel = store.pickedVessel.value;
   const length = store.report.value?.vessels?.[vessel ?? -1]?.length ?? 0;
@@ -151,11 +141,10 @@ const withWords = (shown: HTMLCanvasElement, axes: string): object => ({
   axes,
 });
 
-/** How large a pixel is, where the scan tells it: no ruler of a viewer is true across such a picture. */
+/** States the pixel size, because viewers' rulers are not valid in such a picture. */
 const pixelWords = (spacing: number): string =>
   store.states.value.spacing ? ` A pixel is ${spacing.toFixed(3)} mm.` : '';
 
-/** A finding with its key image, and the contours of what is marked on it. */
 async function partOf(finding: Finding): Promise<object> {
   const { line, marks } = finding;
   await profileOfLine(engine, line);

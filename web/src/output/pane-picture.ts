@@ -1,4 +1,4 @@
-/** The picture of a flat view as a file, with what its axes are below it. */
+/** Saves the picture of a flat view with a caption. */
 import { Failure } from '../core/failure';
 import { isInverted, type ViewName } from '../state/store';
 import { saveAs } from './pictures';
@@ -7,12 +7,9 @@ import { studyFileName } from './study-file-names';
 import { wrapped } from './wrapping';
 
 const FONT = '13px system-ui, sans-serif';
-/** The height of a line of words, and what stays free around them (pixels). */
 const [LINE, MARGIN] = [17, 8];
-/** A narrower picture gets this much room, so that its words need not be broken after each of them. */
 const LEAST_WIDTH = 320;
 
-/** Saves the picture that a view shows as a PNG. */
 export async function savePane(name: ViewName, content: string, words: string): Promise<void> {
   const shown = document.querySelector<HTMLCanvasElement>(`[data-testid=${name}] canvas.flat`);
   if (!shown || shown.width < 2) {
@@ -25,7 +22,6 @@ export async function savePane(name: ViewName, content: string, words: string): 
   }
 }
 
-/** A picture with words below it. */
 export function drawnPane(shown: HTMLCanvasElement, words: string): HTMLCanvasElement {
   const [canvas, context] = canvasOf(Math.max(shown.width, LEAST_WIDTH), shown.height);
   context.font = FONT;

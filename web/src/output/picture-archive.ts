@@ -1,11 +1,10 @@
-/** Pictures as PNGs in a zip archive, numbered from 0. */
+/** Numbered PNGs in a zip archive. */
 import { BlobReader, BlobWriter, configure, ZipWriter } from '@zip.js/zip.js/lib/zip-core-custom.js';
 
-// Its workers would come from blobs, which the page does not allow.
+// The content security policy forbids its blob workers.
 configure({ useWebWorkers: false });
 
 export class PictureArchive {
-  // PNGs are packed already.
   private readonly zip = new ZipWriter(new BlobWriter('application/zip'), { level: 0 });
   private count = 0;
 

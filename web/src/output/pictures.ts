@@ -1,21 +1,20 @@
-/** Pictures of the turning view as files: with or without labels. */
+/** Saves pictures of the turning view, with or without labels. */
 
 import { engine } from '../client/shared';
 import { rightOf } from '../core/camera';
 import { Failure } from '../core/failure';
 import type { Camera, PictureLabels } from '../core/messages';
 import { negate } from '../core/vectors';
+import { showMessage } from '../state/message';
 import * as store from '../state/store';
-import { tell } from '../state/telling';
 import { sideOf } from './file-names';
 import { studyFileName } from './study-file-names';
 
-/** The canvas of the turning view as it is shown, with its labels where they are wanted. */
 export async function composed(labels: 'labels' | 'plain'): Promise<HTMLCanvasElement> {
   const shown = document.querySelector<HTMLCanvasElement>('[data-testid=turning] canvas.picture');
   const camera = store.camera.value;
   if (!shown || !camera || shown.width === 0) {
-    throw new Failure('picture', 'picture', 'no view', 'a scan that is open');
+    throw new Failure('picture', 'picture', 'no view', 'an open scan');
   }
   const canvas = document.createElement('canvas');
   [canvas.width, canvas.height] = [shown.width, shown.height];
@@ -27,7 +26,7 @@ export async function composed(labels: 'labels' | 'plain'): Promise<HTMLCanvasEl
   context.drawImage(shown, 0, 0);
   context.filter = 'none';
   if (labels === 'labels') {
-    // In pixels of the picture, which are finer than those of the page on dense screens.
+    // Picture pixels are finer than CSS pixels on dense screens.
     const density = canvas.height / camera.size[1];
     drawLabels(context, await labelsOf(camera, density), density);
   }
@@ -42,7 +41,7 @@ const labelsOf = (camera: Camera, density: number): Promise<PictureLabels> =>
     pixel_spacing: camera.pixel_spacing / density,
   });
 
-/** Letters and scale bar, where the scan states its orientation and its spacing. */
+/** Letters and scale bar, if orientation and spacing are known. */
 function drawLabels(
   context: CanvasRenderingContext2D,
   { letters, bar }: PictureLabels,
@@ -85,7 +84,6 @@ function outlined(
   context.fillText(text, x, y);
 }
 
-/** Saves a picture as a PNG. */
 export async function savePng(labels: 'labels' | 'plain'): Promise<void> {
   const canvas = await composed(labels);
   const blob = await new Promise<Blob | null>((resolve) => canvas.toBlob(resolve, 'image/png'));
@@ -94,18 +92,17 @@ export async function savePng(labels: 'labels' | 'plain'): Promise<void> {
   }
 }
 
-/** From where the turning view looks at the patient; null where the scan does not tell how the patient lies. */
+/** Viewing side of the patient; null if the orientation is unknown. */
 export function sideOfView(): string | null {
   const camera = store.camera.value;
   return camera && store.states.value.orientation ? sideOf(camera.direction) : null;
 }
 
-/** Hands a file to the browser's downloads, and says so, with a remark where there is one. */
 export function saveAs(blob: Blob, name: string, remark = ''): void {
   const link = document.createElement('a');
   link.href = URL.createObjectURL(blob);
   link.download = name;
   link.click();
-  tell(`Saved as ${name}${remark ? `. ${remark}` : ''}`);
+  showMessage(`Saved as ${name}${remark ? `. ${remark}` : ''}`);
   window.setTimeout(() => URL.revokeObjectURL(link.href), 1000);
 }

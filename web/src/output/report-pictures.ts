@@ -1,4 +1,4 @@
-/** The pictures of a report and of its findings, drawn on canvases. */
+/** Pictures of the report and its findings. */
 
 import { engine } from '../client/shared';
 import { pixelOf } from '../core/camera';
@@ -22,7 +22,7 @@ import { centerAt, nearestSection } from '../measure/sections';
 import * as store from '../state/store';
 import { composed } from './pictures';
 
-/** The side of a picture of a section (pixels). */
+/** Side of a section picture (pixels). */
 export const SIDE = 300;
 
 export function canvasOf(width: number, height: number): [HTMLCanvasElement, CanvasRenderingContext2D] {
@@ -37,10 +37,8 @@ export function canvasOf(width: number, height: number): [HTMLCanvasElement, Can
 
 const pixelsOf = ({ size, bytes }: Picture): ImageData => new ImageData(bytes, size[0], size[1]);
 
-/** The content of a canvas as a PNG in base64. */
 export const pngOf = (canvas: HTMLCanvasElement): string => canvas.toDataURL('image/png').split(',')[1] ?? '';
 
-/** The turning view as it is shown, with its labels and with the marked places. */
 export async function viewPicture(profile: Profile, places: readonly ReportPlace[]): Promise<string> {
   const camera = store.camera.value;
   const canvas = await composed('labels');
@@ -63,13 +61,11 @@ export async function viewPicture(profile: Profile, places: readonly ReportPlace
   return pngOf(canvas);
 }
 
-/** The straightened vessel from left to right. */
 export async function straightened(vessel: number, plan: ReportPlan): Promise<ReportStrip> {
   const canvas = await straightenedCanvas(vessel, plan);
   return { picture: pngOf(canvas), size: [canvas.width, canvas.height], spacing: plan.spacing };
 }
 
-/** The straightened vessel from left to right, as a canvas. */
 export async function straightenedCanvas(
   vessel: number,
   { width, spacing }: Pick<ReportPlan, 'width' | 'spacing'>,
@@ -88,7 +84,7 @@ export async function straightenedCanvas(
   return canvas;
 }
 
-/** The section at a place, with its contour on the left and without it on the right. */
+/** The section with its contour on the left and without it on the right. */
 export async function sectionPair(
   { vessel, line, side }: { readonly vessel: number; readonly line: LineId; readonly side: number },
   profile: Profile,
@@ -120,7 +116,6 @@ export async function sectionPair(
   return canvas;
 }
 
-/** The plane that was measured, with the lumen in its middle. */
 async function planeOf(
   vessel: number,
   profile: Profile,
@@ -136,7 +131,6 @@ async function planeOf(
   };
 }
 
-/** The scale bar in both pictures. */
 function drawBar(context: CanvasRenderingContext2D, bar: PictureLabels['bar']): void {
   if (!bar) {
     return;

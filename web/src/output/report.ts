@@ -1,4 +1,4 @@
-/** The report of the findings: the engine writes it, the page gives its pictures. */
+/** The report of the findings: the engine writes it, the page adds pictures. */
 import { signal } from '@preact/signals';
 import { engine } from '../client/shared';
 import { Failure } from '../core/failure';
@@ -14,25 +14,20 @@ import { fileName } from './file-names';
 import { saveAs } from './pictures';
 import { pngOf, sectionPair, straightened, viewPicture } from './report-pictures';
 
-/** Whether reports name their scan. */
 export const isScanNamed = signal(false);
 
-/** Saves the report. */
 export async function saveReport(): Promise<void> {
   const findings = reported();
   if (findings.length === 0) {
-    const mend = 'press m to measure the picked vessel, or take a finding into the report';
-    throw new Failure('picture', 'report', 'no vessel that is measured', 'one', mend);
+    const mend = 'press m to measure the picked vessel, or include a finding';
+    throw new Failure('picture', 'report', 'no measured vessel', 'one', mend);
   }
   const html = await reportOf(findings);
   const name = fileName({ scan: namedScan(), content: 'report', ending: 'html' });
   saveAs(new Blob([html], { type: 'text/html' }), name, await remarkOn(findings));
 }
 
-/**
- * The vessels of the report: those on which something is marked, but for those that the reader leaves out. The picked vessel comes
- * with them where it is what is measured now, or where nothing is marked at all.
- */
+/** Vessels of the report: included findings, plus the picked vessel if it is being measured or nothing is marked. */
 export function reported(): readonly Finding[] {
   const marked = listedFindings.value.filter(({ line }) => !leftOut.value.has(line));
   const picked = findingOf(store.pickedVessel.value ?? -1);
@@ -44,7 +39,6 @@ export function reported(): readonly Finding[] {
     : [...marked, picked].sort((a, b) => a.vessel - b.vessel);
 }
 
-/** What the reader is told of percentages that are missing. */
 async function remarkOn(findings: readonly Finding[]): Promise<string> {
   const grades = findings.map(({ line, marks }) => engine.ask('grade', { line, marks }));
   const missing = (await Promise.all(grades)).flatMap(({ not_graded: reason }) => (reason ? [reason] : []));
@@ -57,11 +51,11 @@ async function remarkOn(findings: readonly Finding[]): Promise<string> {
     : `${missing.length} of ${findings.length} vessels have no percentage; the report says why`;
 }
 
-/** The scan by its name, where the reader wants the report to tell it. */
+/** Null unless the user wants the name in the report. */
 const namedScan = (): string | null =>
   isScanNamed.value && store.studyName.value !== '' ? store.studyName.value : null;
 
-/** The report of findings as HTML; `scan` is the name that it tells. */
+/** HTML of the report; `scan` is the name shown. */
 export async function reportOf(findings: readonly Finding[], scan = namedScan()): Promise<string> {
   const vessels: ReportVessel[] = [];
   for (const finding of findings) {
@@ -79,7 +73,6 @@ export async function reportOf(findings: readonly Finding[], scan = namedScan())
   });
 }
 
-/** A vessel with its pictures. */
 async function pageOf(finding: Finding, profile: Profile): Promise<ReportVessel> {
   const vessel = markedVessel(finding);
   const plan = await engine.ask('report_plan', vessel);

@@ -1,11 +1,11 @@
-/** The session as a file. */
+/** Saves the session. */
 
 import { savedSession } from '../session/saving';
 import { document_, markSaved } from '../state/history';
 import { saveAs } from './pictures';
 import { studyFileName } from './study-file-names';
 
-/** Markups with a field of their own: 3D Slicer opens the vessels of it. */
+/** A markups file with an extra field, so 3D Slicer opens its vessels. */
 export async function saveSession(): Promise<void> {
   const document = document_.value;
   const name = studyFileName({ content: 'session', ending: 'mrk.json' });

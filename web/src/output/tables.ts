@@ -1,4 +1,4 @@
-/** The numbers of measured vessels as files. */
+/** Saves the numbers of measured vessels. */
 
 import { engine } from '../client/shared';
 import { Failure } from '../core/failure';
@@ -11,17 +11,10 @@ import * as store from '../state/store';
 import { saveAs } from './pictures';
 import { studyFileName } from './study-file-names';
 
-/** Saves the table or the JSON of all vessels that were measured. */
 export async function saveNumbers(kind: 'csv' | 'json'): Promise<void> {
   const vessels = measuredVessels();
   if (vessels.length === 0) {
-    throw new Failure(
-      'picture',
-      kind,
-      'no vessel that is measured',
-      'one',
-      'press m to measure the picked one',
-    );
+    throw new Failure('picture', kind, 'no measured vessel', 'one', 'press m to measure the picked vessel');
   }
   const asked = { vessels, is_millimetre_assumed: isMillimetreAssumed.value };
   const text = await (kind === 'csv'
@@ -31,7 +24,7 @@ export async function saveNumbers(kind: 'csv' | 'json'): Promise<void> {
   saveAs(new Blob([text], { type }), studyFileName({ content: 'profile', ending: kind }));
 }
 
-/** The vessels that were measured, in the order of the tree; their ids are those of `lumencut measure`. */
+/** Measured vessels in tree order; ids as in `lumencut measure`. */
 function measuredVessels(): MeasuredVessel[] {
   return (store.report.value?.vessels ?? []).flatMap(({ line, name }, number) => {
     const found = profiles.value.get(line);

@@ -1,4 +1,4 @@
-/** A full turn about the patient's long axis, picture by picture at full resolution: as a film (WebM), or as PNGs in a zip archive. */
+/** A full turn about the patient's long axis as a WebM film, or as PNGs in a zip archive. */
 import { turnedAbout } from '../core/camera';
 import { Failure } from '../core/failure';
 import type { Camera } from '../core/messages';
@@ -9,23 +9,20 @@ import { studyFileName } from './study-file-names';
 const FRAMES = 72;
 const PER_SECOND = 18;
 
-/** What becomes of the pictures of a turn. */
 interface Album {
   add(picture: HTMLCanvasElement): Promise<void>;
   finish(): Promise<Blob>;
   close?(): void;
 }
 
-/** Saves a turn as a film. */
 export const saveFilm = (): Promise<void> => saveTurn(new Film(), 'webm');
 
-/** Saves a turn as pictures. */
 export const savePictures = async (): Promise<void> => {
   const { PictureArchive } = await import('./picture-archive');
   return saveTurn(new PictureArchive(), 'zip');
 };
 
-/** Renders a turn of the view and saves it; the view is as it was then. Escape ends it early and saves nothing. */
+/** Renders a turn, then restores the view. Escape ends it without saving. */
 async function saveTurn(album: Album, ending: string): Promise<void> {
   const camera = store.camera.value;
   if (!camera || store.progress.value) {
@@ -36,7 +33,7 @@ async function saveTurn(album: Album, ending: string): Promise<void> {
       store.progress.value = { words: 'Turntable', done: n, total: FRAMES };
       const turned = turnedAbout(camera, camera.center, [0, 0, 1], (2 * Math.PI * n) / FRAMES);
       store.camera.value = turned;
-      await settled(turned);
+      await untilComplete(turned);
       await album.add(await composed('labels'));
       if (store.progress.value === null) {
         return;
@@ -53,7 +50,7 @@ async function saveTurn(album: Album, ending: string): Promise<void> {
   }
 }
 
-/** Records what a canvas shows, one frame for each picture that is added. */
+/** Records a canvas, one frame per picture. */
 class Film implements Album {
   private readonly canvas = document.createElement('canvas');
   private recorder: MediaRecorder | null = null;
@@ -84,7 +81,7 @@ class Film implements Album {
   async finish(): Promise<Blob> {
     const recorder = this.recorder;
     if (!recorder) {
-      throw new Failure('picture', 'turntable', 'no pictures', 'a scan that is open');
+      throw new Failure('picture', 'turntable', 'no pictures', 'an open scan');
     }
     const stopped = new Promise((resolve) => {
       recorder.onstop = resolve;
@@ -99,10 +96,9 @@ class Film implements Album {
   }
 }
 
-/** Waits until the view shows this camera with all its pixels. */
-function settled(camera: Camera): Promise<void> {
+function untilComplete(camera: Camera): Promise<void> {
   return new Promise((resolve) => {
-    const stop = store.settled.subscribe((shown) => {
+    const stop = store.completeCamera.subscribe((shown) => {
       if (shown === camera) {
         queueMicrotask(() => stop());
         resolve();

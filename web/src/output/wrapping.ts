@@ -1,6 +1,6 @@
-/** Words in lines that are no wider than there is room. */
+/** Text wrapping for canvases. */
 
-/** The lines of a text, broken between its words; a word that is too wide alone has a line of its own. */
+/** Breaks between words; a word that is too wide gets its own line. */
 export function wrapped(text: string, room: number, width: (text: string) => number): string[] {
   const lines: string[] = [];
   for (const word of text.split(' ').filter((part) => part !== '')) {
@@ -14,6 +14,6 @@ export function wrapped(text: string, room: number, width: (text: string) => num
   return lines;
 }
 
-/** The size of letters (pixels) with which a line of this width at the first size is no wider than it may be, but never unreadable. */
+/** Font size (pixels) that fits a width, with a readable minimum. */
 export const fittingSize = (size: number, wide: number, widest: number): number =>
   Math.max(Math.floor((size * widest) / wide), 11);

@@ -1,12 +1,11 @@
-/** What can be chosen of a straightened vessel. */
+/** Controls of the straightened CPR. */
 import { batch } from '@preact/signals';
 import type { Feature, Roll } from '../core/messages';
 import * as store from '../state/store';
 
-/** The rotation of one step of the wheel (radians). */
+/** Rotation per wheel step (radians). */
 export const TURN_STEP = Math.PI / 36;
 
-/** The rotation about the vessel or the side that it follows, and which value a pixel shows. */
 export function CprControls() {
   const degrees = Math.round((store.cprAngle.value * 180) / Math.PI);
   const isRolled = store.cprRoll.value !== null;
@@ -41,7 +40,6 @@ export function CprControls() {
   );
 }
 
-/** Takes a feature of CFA, a side of the lumen, or neither. */
 function choose(name: string): void {
   const isRoll = name === 'narrowest' || name === 'widest';
   batch(() => {

@@ -1,4 +1,4 @@
-/** A picture that the engine makes, on a canvas of its own: slices, the straightened vessel, the section. */
+/** A canvas with a picture from the engine: slice, straightened vessel or section. */
 import type { ComponentChildren } from 'preact';
 import { useEffect, useRef, useState } from 'preact/hooks';
 import { Latest } from '../core/latest';
@@ -10,19 +10,16 @@ import { usePaneSize } from './pane-size';
 
 interface FlatPictureProps {
   readonly name: ViewName;
-  /** What a screen reader says of it. */
   readonly words: string;
-  /** Gives the picture for a pane; it changes whenever the picture does. */
+  /** Renders the picture; its identity changes with the picture. */
   readonly ask: ((size: Pair) => Promise<Picture>) | null;
   readonly handlers: Handlers;
-  /** What stands there while there is nothing to show. */
   readonly empty?: string;
-  /** How large a pixel of the picture is on the screen, and whether it fills the pane. */
   readonly style?: Record<string, string>;
-  /** Whether what is asked for next is still waited for, so that the picture is not the one that is wanted. */
+  /** Whether the current picture is outdated. */
   readonly isLate?: boolean;
   readonly onSize?: (size: Pair) => void;
-  /** What arrow keys do in the place of scrolling: steps to the right and downwards, ten with Shift. */
+  /** Arrow keys instead of scrolling: steps right and down, ten with Shift. */
   readonly onArrow?: ((by: Pair) => void) | undefined;
   readonly children?: ComponentChildren;
 }
@@ -49,7 +46,7 @@ export function FlatPicture({
   const size = usePaneSize(pane);
   const [isPending, setPending] = useState(false);
 
-  // A view that is closed asks nothing any longer.
+  // A closed view cancels its requests.
   useEffect(
     () => () => {
       asked.current = null;
@@ -79,7 +76,7 @@ export function FlatPicture({
           paint(canvas.current, picture);
         }
       } catch (error) {
-        // What is no longer asked, as of a tree that is gone, needs no answer.
+        // Errors of outdated requests are ignored.
         if (asked.current === ask) {
           recover(error);
         }
@@ -106,7 +103,7 @@ export function FlatPicture({
       class="pane-body"
       ref={pane}
       data-testid={name}
-      // No picture to screen readers: they would pass over the points and handles in it.
+      // Not role="img": screen readers would skip the handles inside.
       role="application"
       aria-label={words}
       tabIndex={0}
@@ -129,7 +126,7 @@ const ARROWS: Readonly<Record<string, Pair>> = {
   ArrowDown: [0, 1],
 };
 
-/** Arrow keys scroll, or move the cross-hair; + and - zoom. What has the focus within the view has keys of its own. */
+/** Arrow keys scroll or move the cross-hair; + and - zoom. Focused children handle their own keys. */
 function pressed(event: KeyboardEvent, handlers: Handlers, onArrow?: (by: Pair) => void): void {
   if (event.target !== event.currentTarget) {
     return;
@@ -154,7 +151,6 @@ function pressed(event: KeyboardEvent, handlers: Handlers, onArrow?: (by: Pair) 
   }
 }
 
-/** Handlers that always are the latest ones. */
 function forwarded(handlers: () => Handlers): Handlers {
   return {
     drag: (...given) => handlers().drag(...given),
@@ -171,7 +167,6 @@ function forwarded(handlers: () => Handlers): Handlers {
   };
 }
 
-/** What was shown of a vessel that is gone is shown no longer. */
 function clear(canvas: HTMLCanvasElement | null): void {
   canvas?.getContext('2d')?.clearRect(0, 0, canvas.width, canvas.height);
 }

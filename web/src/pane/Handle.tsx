@@ -1,4 +1,4 @@
-/** A place over a picture that can be dragged with the pointer, and moved with the arrow keys while it has the focus. */
+/** A draggable handle over a picture, also moved by arrow keys. */
 import type { TargetedKeyboardEvent, TargetedPointerEvent } from 'preact';
 import { useRef } from 'preact/hooks';
 import type { Pair } from '../core/messages';
@@ -6,23 +6,17 @@ import type { Pair } from '../core/messages';
 export interface HandleProps {
   /** CSS pixels from the top left of the overlay. */
   readonly at: Pair;
-  /** What it is, for screen readers and on hover. */
   readonly words: string;
   readonly color: string;
-  /** A look of its own in the style sheet: `handle ${kind}`. */
   readonly kind: string;
   onBegin?(): void;
-  /** Where the pointer is now, in pixels of the overlay. */
+  /** Pointer position (pixels of the overlay). */
   onDrag(at: Pair): void;
-  /** An arrow key: -1, 0 or 1 to the right and downwards; ten times as far with Shift. */
+  /** Steps right and down: -1, 0 or 1; ten times with Shift. */
   onArrow?(by: Pair): void;
-  /** The end of a drag, or of a move by a key. */
   onEnd(): void;
-  /** Escape while it is dragged: it goes back. */
   onPutBack(): void;
-  /** Enter. */
   onConfirm?(): void;
-  /** Right click, Delete or Backspace. */
   onRemove?(): void;
 }
 
@@ -33,14 +27,13 @@ const ARROWS: Readonly<Record<string, Pair>> = {
   ArrowDown: [0, 1],
 };
 
-/** The handle whose middle is nearest, of those whose zones hold a point of the window. */
 function nearestHandle(x: number, y: number): Element | undefined {
-  const away = (handle: Element) => {
+  const distance = (handle: Element) => {
     const { left, right, top, bottom } = handle.getBoundingClientRect();
     return Math.hypot((left + right) / 2 - x, (top + bottom) / 2 - y);
   };
   const here = document.elementsFromPoint(x, y).filter((element) => element.matches('.overlay .handle'));
-  return here.sort((a, b) => away(a) - away(b))[0];
+  return here.sort((a, b) => distance(a) - distance(b))[0];
 }
 
 export function Handle(props: HandleProps) {
@@ -49,7 +42,6 @@ export function Handle(props: HandleProps) {
     event.stopPropagation();
     const nearest = nearestHandle(event.clientX, event.clientY);
     if (nearest && nearest !== event.currentTarget && event.isTrusted) {
-      // Zones overlap: of two grips the one that is nearer is meant.
       nearest.dispatchEvent(new PointerEvent('pointerdown', event));
     } else if (event.button === 0) {
       event.currentTarget.setPointerCapture(event.pointerId);

@@ -1,4 +1,4 @@
-/** Which reformation the pane of the picked vessel shows: it stands in the place of the pane's title. */
+/** Selects the reformation of the picked vessel; it replaces the pane title. */
 import { REFORMATIONS, type ReformationKind, reformationKind } from '../state/reformation';
 
 export function ReformationChoice() {

@@ -1,4 +1,4 @@
-/** What can be chosen of a reformation other than the straightened CPR. */
+/** Controls of reformations other than the straightened CPR. */
 import type { MapOf, Reformation } from '../core/messages';
 import { mapOf, uncurled } from '../state/reformation';
 

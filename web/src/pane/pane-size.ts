@@ -1,4 +1,4 @@
-/** The size of a pane in CSS pixels, whole numbers; none before it is laid out. One that is hidden keeps its last one. */
+/** Size of a pane in whole CSS pixels; null before layout. A hidden pane keeps its last size. */
 import type { RefObject } from 'preact';
 import { useEffect, useState } from 'preact/hooks';
 import type { Pair } from '../core/messages';

@@ -1,4 +1,4 @@
-/** A document and a view as the content of a session file, and back. */
+/** Converts document and view to the content of a session file, and back. */
 import type {
   Camera,
   DocumentVessel,
@@ -13,22 +13,21 @@ import type {
 import type { SavedMarks, SavedScan, SavedView } from '../core/session-file';
 import type { Document, VesselMarks } from '../state/document';
 
-/** How a scan is looked at when it is saved. */
-export interface Looked {
+export interface DisplayState {
   readonly camera: Camera;
   readonly method: string;
   readonly settings: Settings;
   readonly layout: string;
   readonly crossHair: Vector | null;
-  /** The vessel of the document that is picked, and the place on it (mm). */
+  /** Picked vessel and arc length (mm). */
   readonly picked: { readonly id: number; readonly at: number } | null;
 }
 
-/** The content of a session file of a document; `fwhm` is the width of the point spread that the reader gave (mm). */
+/** Content of a session file; `fwhm` is the FWHM entered by the user (mm). */
 export function contentOf(
   document: Document,
   report: Report,
-  looked: Looked | null,
+  displayState: DisplayState | null,
   fwhm: number | null = null,
 ): SessionContent {
   const isSure = (vessel: DocumentVessel) => vessel.doubt === null;
@@ -51,7 +50,7 @@ export function contentOf(
       bridge: document.bridge,
       rulers: document.rulers,
       fwhm_mm: fwhm,
-      view: looked && viewOf(looked, sure),
+      view: displayState && viewOf(displayState, sure),
       one_millimetre_assumed: document.isOneMillimetre,
     },
   };
@@ -62,8 +61,8 @@ function scanOf(report: Report): SavedScan | null {
   return volume && { size: volume.size, world_from_index: volume.world_from_index };
 }
 
-function viewOf(looked: Looked, vessels: readonly DocumentVessel[]): SavedView {
-  const { camera, method, settings, layout, crossHair, picked } = looked;
+function viewOf(displayState: DisplayState, vessels: readonly DocumentVessel[]): SavedView {
+  const { camera, method, settings, layout, crossHair, picked } = displayState;
   const { center, direction, up } = camera;
   const number = picked ? vessels.findIndex((vessel) => vessel.id === picked.id) : -1;
   return {
@@ -76,10 +75,10 @@ function viewOf(looked: Looked, vessels: readonly DocumentVessel[]): SavedView {
   };
 }
 
-/** So many digits are the same after panes of other sizes. */
+/** Digits that survive a change of pane size. */
 const DIGITS = 12;
 
-/** Panes have parts of pixels, pictures have none: as much is seen along the shorter side. */
+/** Rounds the size to whole pixels; the shorter side keeps its extent. */
 function pixelsOf({ size, pixel_spacing }: Camera): Pick<Camera, 'size' | 'pixel_spacing'> {
   const whole: Pair = [Math.round(size[0]), Math.round(size[1])];
   const spacing = (pixel_spacing * Math.min(...size)) / Math.min(...whole);
@@ -102,7 +101,7 @@ function savedMarks(marks: VesselMarks | undefined): SavedMarks | null {
     : null;
 }
 
-/** The document of a session; its vessels are numbered from 0. */
+/** The document of a session; vessels are numbered from 0. */
 export function documentOf({ lines, doubtful_lines, session }: SessionContent): Document {
   const sure = session.vessels.map((vessel, id): DocumentVessel => {
     const { line, name } = lines[id] ?? { line: -1, name: '' };
@@ -145,7 +144,7 @@ function marksOf(saved: SavedMarks): VesselMarks {
   };
 }
 
-/** The camera of a saved view in a pane of another size: as much is seen along the shorter side. */
+/** Fits a saved camera to another pane size; the shorter side keeps its extent. */
 export function cameraOf({ camera }: SavedView, size: Pair): Camera {
   const scale = Math.min(...camera.size) / Math.min(...size);
   return { ...camera, size, pixel_spacing: camera.pixel_spacing * scale };

@@ -1,9 +1,9 @@
-/** The lines of a document in another engine than the one that made them, as after a crash. */
+/** Copies the lines of a document to another engine, as after a crash. */
 import type { Asked } from '../core/asked';
 import type { LineContent, LineId } from '../core/messages';
 import type { Document } from '../state/document';
 
-/** The document with lines of another engine, of the same content. Vessels whose lines the page does not hold are left out. */
+/** The document with the lines of the other engine. Vessels without loaded lines are dropped. */
 export async function handedOver(
   other: Asked,
   document: Document,

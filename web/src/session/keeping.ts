@@ -1,28 +1,24 @@
-/**
- * The session kept over a reload of the tab, where the reader allows it: vessels, marks and views as a session file has them, and no
- * pixels. It stays on the machine, and goes with the tab.
- */
+/** Keeps the session over a reload of the tab, if the user allows it: no pixels, and only until the tab closes. */
 import { effect, signal } from '@preact/signals';
 import { document_, saved } from '../state/history';
+import { showFailure } from '../state/message';
 import { hasVolume } from '../state/store';
-import { tellFailure } from '../state/telling';
 
-/** Where the tab holds the session, and that the reader allowed it. */
+/** Storage keys of the session and of the permission. */
 const SESSION = 'lumencut-session';
 const ALLOWED = 'lumencut-keeps-session';
 
-/** A change is kept so long (ms) after it came: while much is changed nothing is written. */
-const AFTER = 1000;
+/** Delay after a change (ms), so that rapid changes write nothing. */
+const SAVE_DELAY_MS = 1000;
 
-/** Whether the reader allowed it. */
 export const isKeeping = signal(false);
 
-/** What was kept before the page was loaded, as long as the reader did not say what becomes of it. */
+/** A session kept before this load, until the user decides about it. */
 export const kept = signal<string | null>(null);
 
 type Kept = Pick<Storage, 'getItem' | 'setItem' | 'removeItem'>;
 
-/** Keeps the session, as `write` gives it, after each change from now on; gives what ends it. */
+/** Stores the session after each change. Returns the function that ends it. */
 export function followKeeping(tab: Kept, write: () => Promise<string>): () => void {
   isKeeping.value = tab.getItem(ALLOWED) !== null;
   kept.value = tab.getItem(SESSION);
@@ -40,8 +36,8 @@ export function followKeeping(tab: Kept, write: () => Promise<string>): () => vo
       timer = setTimeout(() => {
         write()
           .then((text) => tab.setItem(SESSION, text))
-          .catch(tellFailure);
-      }, AFTER);
+          .catch(showFailure);
+      }, SAVE_DELAY_MS);
     }
     tab[isOn ? 'setItem' : 'removeItem'](ALLOWED, 'yes');
   });

@@ -1,4 +1,4 @@
-/** Saving the session, and going on with a saved one. */
+/** Saves and opens sessions. */
 import { batch, effect, untracked } from '@preact/signals';
 import { EngineClient } from '../client/engine';
 import { engine } from '../client/shared';
@@ -14,26 +14,25 @@ import type { Document } from '../state/document';
 import { document_ } from '../state/history';
 import { giveFwhm, givenFwhm } from '../state/profiles';
 import * as store from '../state/store';
-import { cameraOf, contentOf, documentOf, type Looked } from './content';
+import { cameraOf, contentOf, type DisplayState, documentOf } from './content';
 import { handedOver } from './handing-over';
 
-/** Where the field of a session stands in its file: in the first lines, before the curves. */
+/** Bytes that contain the session field, which precedes the curves. */
 const HEAD = 4096;
 const FIELD = '"LumencutSession"';
 
-/** Whether a file is a session. */
 export async function isSession({ file }: GivenFile): Promise<boolean> {
   return /\.json$/i.test(file.name) && (await file.slice(0, HEAD).text()).includes(FIELD);
 }
 
-/** The bytes of the session as it is now. Where the engine has crashed, another one writes what the page itself holds. */
+/** Session as a file. After a crash, another engine writes it from the page's copy. */
 export async function savedSession(): Promise<Bytes> {
   const report = store.report.value;
   if (!report?.volume) {
-    throw new Failure('session', 'session', 'no scan', 'a scan that is open');
+    throw new Failure('session', 'session', 'no scan', 'an open scan');
   }
   const written = async (asked: Asked, document: Document) => {
-    const content = contentOf(document, report, looked(), givenFwhm.value);
+    const content = contentOf(document, report, displayState(), givenFwhm.value);
     return (await asked.ask('write_session', content)).bytes;
   };
   try {
@@ -48,7 +47,7 @@ export async function savedSession(): Promise<Bytes> {
   }
 }
 
-/** Lets another engine work, which holds no scan, and ends it. */
+/** Runs work in a temporary engine without a scan. */
 async function byAnother<T>(work: (other: Asked) => Promise<T>): Promise<T> {
   const other = new EngineClient();
   try {
@@ -59,7 +58,7 @@ async function byAnother<T>(work: (other: Asked) => Promise<T>): Promise<T> {
   }
 }
 
-function looked(): Looked | null {
+function displayState(): DisplayState | null {
   const camera = store.camera.value;
   const id = pickedId();
   return (
@@ -74,7 +73,7 @@ function looked(): Looked | null {
   );
 }
 
-/** Goes on with a saved session of the scan that is open; the engine refuses one of another scan. */
+/** Opens a session for the open scan; the engine rejects sessions of other scans. */
 export async function openSession({ file }: GivenFile): Promise<void> {
   const content = await engine.ask(
     'read_session',
@@ -95,7 +94,7 @@ export async function openSession({ file }: GivenFile): Promise<void> {
   }
 }
 
-/** Does something as soon as the tree of a document is shown, unless the document is changed before. */
+/** Runs once the document's tree is displayed, unless it changes before. */
 function onceShown(document: Document, work: () => void): void {
   const wanted = shownVessels(document);
   const end = effect(() => {
@@ -111,7 +110,6 @@ function onceShown(document: Document, work: () => void): void {
   });
 }
 
-/** Picks the vessel that the session had picked, and tells what is at its cross-hair. */
 function point({ picked, cross_hair: place }: SavedView, document: Document): void {
   const number = picked ? tree.value.indexOf(document.vessels[picked.vessel] as DocumentVessel) : -1;
   if (picked && number >= 0) {
@@ -127,7 +125,6 @@ function point({ picked, cross_hair: place }: SavedView, document: Document): vo
   }
 }
 
-/** Looks at the scan as the session did. */
 function look(view: SavedView): void {
   const { window, context_window: _, ...settings } = view.settings;
   const size = store.camera.value?.size ?? view.camera.size;

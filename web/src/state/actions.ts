@@ -1,4 +1,4 @@
-/** What the user can do: each action writes the store, and nothing else. */
+/** User actions; each one only writes the store. */
 import { batch } from '@preact/signals';
 import type { EngineClient } from '../client/engine';
 import type { Asked } from '../core/asked';
@@ -15,11 +15,10 @@ import { putRulerAway } from './rulers';
 import * as store from './store';
 import { tool } from './tool';
 
-/** How much of the window a drag of one pixel changes. */
+/** Window change per pixel of a drag. */
 const WINDOW_PER_PIXEL = 0.004;
 const NARROWEST = 1e-3;
 
-/** Changes the camera where there is one. */
 export function changeCamera(change: (camera: Camera) => Camera): void {
   const camera = store.camera.value;
   if (camera) {
@@ -27,12 +26,10 @@ export function changeCamera(change: (camera: Camera) => Camera): void {
   }
 }
 
-/** The point about which the turning view turns. */
 function pivot(camera: Camera): Vector {
   return store.crossHair.value?.point ?? camera.center;
 }
 
-/** A drag in the turning view, in CSS pixels. */
 export function dragTurning(action: Action, by: Pair, axis: Vector | null): void {
   if (placeTurn.value && (action === 'rotate' || action === 'rotate about vessel')) {
     dragPlaceTurn(by[0], store.camera.value?.size[1] ?? 1);
@@ -58,17 +55,17 @@ export function dragTurning(action: Action, by: Pair, axis: Vector | null): void
   }
 }
 
-/** The place at which the pointer is stays where it is. */
+/** The point under the pointer stays fixed. */
 export function zoomTurning(factor: number, at: Pair): void {
   changeCamera((camera) => zoomed(camera, factor, at));
 }
 
-/** What a drag changes, kept at its beginning, so that Escape puts it back. */
+/** The state before a drag, restored by Escape. */
 let before = kept();
 
 function kept() {
   const [camera, to] = [store.camera.value, destination.value];
-  // A drag ends a flight; taken back, it leaves the view that was flown to.
+  // A drag ends a flight; cancelling it leaves the view at the destination.
   return {
     camera: camera && to ? resized(to, camera.size) : camera,
     window: store.window_.value,
@@ -76,7 +73,6 @@ function kept() {
   };
 }
 
-/** The beginning, the end and the taking back of a drag, for the handlers of a view. */
 export function windowBack(): { begin(): void; end(): void; putBack(): void } {
   return {
     begin: () => {
@@ -92,19 +88,18 @@ export function windowBack(): { begin(): void; end(): void; putBack(): void } {
   };
 }
 
-/** To the right the window grows wider, upwards brighter. */
+/** Right widens the window, up brightens. */
 export function dragWindow([x, y]: Pair): void {
   const [level, width] = store.window_.value;
   const wider = Math.max(width * Math.exp(x * WINDOW_PER_PIXEL), NARROWEST);
   store.window_.value = [level + y * WINDOW_PER_PIXEL * width, wider];
 }
 
-/** Sets the window while it is dragged: `windowChanged` makes a step of the whole drag. */
+/** Changes the window during a drag; `windowChanged` then records one step. */
 export function setWindow(window: Window): void {
   store.window_.value = [window[0], Math.max(window[1], NARROWEST)];
 }
 
-/** The window of this number among those that have a name. */
 export function choosePreset(number: number): void {
   const preset = store.report.value?.windows?.presets[number];
   if (preset) {
@@ -114,7 +109,6 @@ export function choosePreset(number: number): void {
   }
 }
 
-/** The value of a setting, its default where nothing else was chosen. */
 export function settingOf(name: string): SettingValue {
   const chosen = store.settings.value[name];
   const row = store.started.value?.table.find((setting) => setting.name === name);
@@ -125,7 +119,6 @@ export function setSetting(name: string, value: SettingValue): void {
   store.settings.value = { ...store.settings.value, [name]: value };
 }
 
-/** Shows a named view of all of the study. */
 export async function showNamedView(engine: EngineClient, name: string): Promise<void> {
   const camera = store.camera.value;
   if (camera && store.report.value) {
@@ -133,7 +126,6 @@ export async function showNamedView(engine: EngineClient, name: string): Promise
   }
 }
 
-/** Shows the view from which most of the picked vessel is seen. */
 export async function showBestView(engine: Asked): Promise<void> {
   const [camera, line] = [store.camera.value, store.pickedLine()];
   if (camera && line !== null) {
@@ -141,17 +133,15 @@ export async function showBestView(engine: Asked): Promise<void> {
   }
 }
 
-/** The layout of a mode, which is left for the one before it. */
 type ModeLayout = 'measure' | 'report';
 const isOfMode = (layout: store.Layout): layout is ModeLayout => layout === 'measure' || layout === 'report';
 
-/** The layout from which measuring or the report began. */
+/** Layout before measuring or the report. */
 let layoutBefore: store.Layout = 'strip';
 
-/** Shows what measures the picked vessel, or what was found; where that is shown already, the layout before it again. */
 export function toggleLayout(wanted: ModeLayout): void {
   if (tool.value !== 'ruler' || wanted === 'report') {
-    // A click in what is measured sets no point of a vessel; what tracing had put aside comes back first.
+    // Clicks must not set points here; this also restores the layout before tracing.
     tool.value = 'look';
   }
   const now = store.layout.value;
@@ -159,7 +149,6 @@ export function toggleLayout(wanted: ModeLayout): void {
   showLayout(now === wanted ? layoutBefore : wanted);
 }
 
-/** Shows a layout; measuring begins at the narrowest place. */
 export function showLayout(layout: store.Layout): void {
   batch(() => {
     store.maximised.value = null;
@@ -168,12 +157,10 @@ export function showLayout(layout: store.Layout): void {
   });
 }
 
-/** Turns the camera a little about the patient's long axis. */
 export function turnSlowly(angle: number): void {
   changeCamera((camera) => turnedAbout(camera, pivot(camera), [0, 0, 1], angle));
 }
 
-/** Does what a key stands for. */
 export function perform(engine: EngineClient, action: Action): void {
   if (action.startsWith('view ')) {
     void showNamedView(engine, action.slice('view '.length));

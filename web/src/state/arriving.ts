@@ -1,5 +1,5 @@
-/** Measuring begins at the place that matters, once that is known. */
+/** Measuring starts at the narrowest place, once it is known. */
 import { signal } from '@preact/signals';
 
-/** Whether measuring was opened, and its first place is still to be shown. */
+/** Whether measuring has just opened and its first place is not shown yet. */
 export const isArriving = signal(false);

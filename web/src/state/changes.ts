@@ -1,11 +1,10 @@
-/** What the page reads of a document, and how it takes over what the engine made of it. */
+/** Reading documents, and applying the engine's edits to them. */
 import type { DocumentVessel, Edited } from '../core/messages';
 import type { Document } from './document';
 
 export const vesselOf = (document: Document, id: number | null): DocumentVessel | null =>
   document.vessels.find((vessel) => vessel.id === id) ?? null;
 
-/** The document with a vessel changed; the same one where the vessel is not there. */
 export function changed(document: Document, id: number, to: Partial<DocumentVessel>): Document {
   return vesselOf(document, id)
     ? {
@@ -15,7 +14,7 @@ export function changed(document: Document, id: number, to: Partial<DocumentVess
     : document;
 }
 
-/** The document after an edit. What the edit left as it was is the same object, and so is a document that it left as it was. */
+/** Unchanged parts, or an unchanged document, keep their identity. */
 export function afterEdit(now: Document, { document, without_marks: lost }: Edited): Document {
   const vessels = kept(now.vessels, document.vessels);
   const stoppers = kept(now.stoppers, document.stoppers);
@@ -37,10 +36,8 @@ function kept<T>(before: readonly T[], after: readonly T[]): readonly T[] {
   return all.length === before.length && all.every((one, n) => one === before[n]) ? before : all;
 }
 
-/** What the list calls a vessel. */
 export const nameOf = ({ name, id }: DocumentVessel): string => name || `vessel ${id}`;
 
-/** The vessels of the tree that is shown, in their order. */
 export const shownVessels = (document: Document): readonly DocumentVessel[] =>
   document.vessels.filter((vessel) => !vessel.isHidden && vessel.doubt === null);
 

@@ -1,17 +1,17 @@
-/** What computes: found at the start, and again after a GPU was lost. */
+/** The compute device: selected at start, and again after a GPU loss. */
 import { batch } from '@preact/signals';
 import { engine } from '../client/shared';
 import { Failure } from '../core/failure';
 import * as store from './store';
 
-/** A GPU that fails again within this time is given up, and the CPU goes on (ms). */
-const SOON = 20_000;
+/** A GPU that fails twice within this time is replaced by the CPU (ms). */
+const GIVE_UP_WITHIN_MS = 20_000;
 let lastLoss = Number.NEGATIVE_INFINITY;
 let isChanging = false;
-/** The device that was asked for, which is asked for again. */
+/** The requested device, used again after a loss. */
 let wanted = 'auto';
 
-/** Starts the engine: on `gpu`, `any` GPU, `cpu`, or `auto`. */
+/** Starts the engine on `gpu`, `any` GPU, `cpu`, or `auto`. */
 export async function start(device: string): Promise<void> {
   wanted = device;
   try {
@@ -26,15 +26,15 @@ export async function start(device: string): Promise<void> {
   }
 }
 
-/** Goes on after a failure of the view: with the GPU that comes back, or with the CPU. Other failures are shown. */
+/** Recovers from a lost GPU; shows any other failure. */
 export function recover(error: unknown): void {
   const failure = Failure.of(error);
   if (failure.kind === 'device' && store.started.value?.isGpu) {
-    const isAgain = performance.now() - lastLoss < SOON;
+    const isAgain = performance.now() - lastLoss < GIVE_UP_WITHIN_MS;
     lastLoss = performance.now();
     void change(isAgain ? 'cpu' : wanted, failure);
   } else if (failure.kind !== 'interrupted' && store.report.value) {
-    // What was asked of a study that is closed meanwhile is not told.
+    // Ignore errors of a study closed meanwhile.
     store.problem.value = failure;
   }
 }
@@ -47,7 +47,7 @@ async function change(device: string, failure: Failure): Promise<void> {
   try {
     const changed = await engine.changeDevice(device);
     const before = store.started.value;
-    const outcome = changed.isGpu ? 'it came back' : 'the CPU goes on';
+    const outcome = changed.isGpu ? 'it recovered' : 'the CPU continues';
     batch(() => {
       store.started.value = before && { ...before, ...changed };
       store.epoch.value += 1;

@@ -1,20 +1,17 @@
-/** What the user made of a scan: vessels, stoppers and marks. It is never changed in place; `history.ts` keeps what was before. */
+/** The user's work on a scan: vessels, stoppers and marks. Immutable; `history.ts` keeps earlier versions. */
 import type { Marks, Vector, VesselDocument } from '../core/messages';
 
-/** A straight distance between two points. */
 export interface Ruler {
   readonly from: Vector;
   readonly to: Vector;
 }
 
-/** What was marked on a vessel: the same that the engine is asked with. */
 export type VesselMarks = Marks;
 
 export interface Document extends VesselDocument {
-  /** By the id of the vessel. */
   readonly marks: Readonly<Record<number, VesselMarks>>;
   readonly rulers: readonly Ruler[];
-  /** The reader takes the voxels of a scan that does not say how far they lie apart for 1 mm apart. */
+  /** The user assumes 1 mm for a scan without voxel spacing. */
   readonly isOneMillimetre: boolean;
 }
 

@@ -1,27 +1,27 @@
-/** Views that are asked for by name do not jump: the camera flies there, so that the eye keeps hold of the vessels. */
+/** Animated camera changes to named views, so that the user keeps track of the vessels. */
 import { signal } from '@preact/signals';
 import type { Asked } from '../core/asked';
 import { resized } from '../core/camera';
 import type { Camera } from '../core/messages';
+import { showFailure } from './message';
 import * as store from './store';
-import { tellFailure } from './telling';
 
-/** How long a flight takes (ms). */
+/** Duration (ms). */
 const FLIGHT = 400;
 
-/** How many views the engine is asked for: one for each picture of a screen that shows 120 in a second. */
+/** Number of views requested: one per frame at 120 Hz. */
 const VIEWS = 49;
 
-/** Where a flight that is under way leads. */
+/** Destination of the current flight. */
 export const destination = signal<Camera | null>(null);
 
 let flights = 0;
 
-/** Flies to a view. A change of the camera meanwhile ends the flight where it is; one of the pane's size does not. */
+/** Flies to a view. Another camera change ends the flight; a change of pane size does not. */
 export function flyTo(engine: Asked, to: Camera): void {
   flights += 1;
   const from = store.camera.value;
-  // A view that turns already, or a reader who wants no motion: at once.
+  // Jump if the view is turning, or if the user prefers no motion.
   if (!from || store.isTurning.value || window.matchMedia('(prefers-reduced-motion: reduce)').matches) {
     destination.value = null;
     store.camera.value = from ? resized(to, from.size) : to;
@@ -31,7 +31,6 @@ export function flyTo(engine: Asked, to: Camera): void {
   void fly(engine, flights, from, to);
 }
 
-/** Asks the engine for the views between, and shows them. */
 async function fly(engine: Asked, number: number, from: Camera, to: Camera): Promise<void> {
   try {
     const views = await engine.ask('flight', { from: resized(from, to.size), to, views: VIEWS });
@@ -40,11 +39,11 @@ async function fly(engine: Asked, number: number, from: Camera, to: Camera): Pro
     if (number === flights) {
       destination.value = null;
     }
-    tellFailure(error);
+    showFailure(error);
   }
 }
 
-/** Shows the views of a flight, each at its time, as long as nothing else changes the one that was shown last. */
+/** Shows each view at its time, until something else changes the camera. */
 function show(number: number, from: Camera, views: readonly Camera[]): void {
   const begun = performance.now();
   let last = from;
@@ -70,15 +69,14 @@ function show(number: number, from: Camera, views: readonly Camera[]): void {
   requestAnimationFrame(step);
 }
 
-/** Whether both are one view, in panes of whatever size. */
+/** Whether both show the same view, regardless of pane size. */
 const looksAlike = (a: Camera, b: Camera): boolean =>
   a.center === b.center && a.direction === b.direction && a.up === b.up;
 
-/** Flies to a view as soon as the engine has told it, or says why there is none. */
 export async function flyToAnswer(engine: Asked, view: Promise<Camera>): Promise<void> {
   try {
     flyTo(engine, await view);
   } catch (error) {
-    tellFailure(error);
+    showFailure(error);
   }
 }

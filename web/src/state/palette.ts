@@ -1,4 +1,4 @@
-/** The colours of vessels: those of Okabe and Ito that stand out on a dark picture come first. None is yellow, orange or red, which warn. */
+/** Vessel colours: first those of Okabe and Ito visible on dark. No yellow, orange or red, which signal warnings. */
 import type { DocumentVessel } from '../core/messages';
 
 export const PALETTE: readonly (readonly [color: string, words: string])[] = [
@@ -16,10 +16,9 @@ export const PALETTE: readonly (readonly [color: string, words: string])[] = [
   ['#ffffff', 'white'],
 ];
 
-/** Of branches that were not accepted yet; no vessel has it. */
 export const DOUBTFUL = '#ffa500';
 
-/** The colour that the fewest vessels have, the first of several such. */
+/** The least used colour, the first of several. */
 export function nextColor(vessels: readonly DocumentVessel[]): string {
   const counts = PALETTE.map(([color]) => vessels.filter((vessel) => vessel.color === color).length);
   return PALETTE[counts.indexOf(Math.min(...counts))]?.[0] ?? '#ffffff';

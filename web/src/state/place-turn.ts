@@ -1,36 +1,33 @@
-/** Turning the view about a place on a vessel: the cut sweeps the diameters of its lumen, while the place stays where it is. */
+/** Turns the view about a place on a vessel, so that the cut passes through all diameters there. */
 import { batch, effect, signal, untracked } from '@preact/signals';
 import type { Asked } from '../core/asked';
 import { resized, turnedAbout } from '../core/camera';
 import type { Camera, LineId, Vector } from '../core/messages';
 import { length, subtract, turned } from '../core/vectors';
 import { destination, flyTo } from './flight';
+import { showFailure } from './message';
 import * as store from './store';
-import { tellFailure } from './telling';
 import { tool } from './tool';
 
-/** A turn that is under way. */
 export interface PlaceTurn {
   readonly line: LineId;
-  /** The place along the vessel (mm). */
+  /** Arc length (mm). */
   readonly at: number;
-  /** The view at 0 degrees; its middle is the place, and what is up in it the axis. */
+  /** View at 0°, centred on the place, with the axis upwards. */
   readonly first: Camera;
-  /** The diameter that is cut after each degree (mm), which repeat; none where a view has no two walls. */
+  /** Diameter in the cut per degree (mm), with period 180°; null without two walls. */
   readonly diameters: readonly (number | null)[];
-  /** How far the viewer has moved: whole degrees from -180 to 179. */
+  /** Rotation of the viewer: whole degrees from -180 to 179. */
   readonly angle: number;
-  /** The least and the largest diameter that was cut so far (mm). */
+  /** Smallest and largest diameter so far (mm). */
   readonly least: number | null;
   readonly largest: number | null;
 }
 
 export const placeTurn = signal<PlaceTurn | null>(null);
 
-/** Axes that differ by less are those of one view. */
-const SAME = 1e-6;
+const AXIS_TOLERANCE = 1e-6;
 
-/** Begins a turn about the place of the section, or ends the one that is under way. */
 export async function togglePlaceTurn(engine: Asked): Promise<void> {
   const [vessel, line, camera] = [store.pickedVessel.value, store.pickedLine(), store.camera.value];
   if (placeTurn.value) {
@@ -43,12 +40,12 @@ export async function togglePlaceTurn(engine: Asked): Promise<void> {
   const at = store.pickedPlace.value;
   try {
     const { camera: first, diameters } = await engine.ask('turn_about', { vessel, at, size: camera.size });
-    // The vessel may have been traced anew meanwhile, or another one picked.
+    // The vessel may have been retraced, or another picked.
     if (store.pickedLine() === line) {
       begin(engine, { line, at, first, diameters });
     }
   } catch (error) {
-    tellFailure(error);
+    showFailure(error);
   }
 }
 
@@ -61,18 +58,17 @@ function begin(engine: Asked, found: Pick<PlaceTurn, 'line' | 'at' | 'first' | '
   });
 }
 
-/** The view stays as it is. */
 export function endPlaceTurn(): void {
   placeTurn.value = null;
 }
 
-/** The diameter that a turn cuts after some degrees (mm). */
+/** Diameter in the cut at an angle (mm). */
 export function diameterAfter({ diameters }: Pick<PlaceTurn, 'diameters'>, degrees: number): number | null {
   const count = diameters.length;
   return diameters[((degrees % count) + count) % count] ?? null;
 }
 
-/** A turn after it went on to an angle (degrees) by the shorter way, over all cuts between. */
+/** Rotates to an angle (degrees) the shorter way, including all cuts on the way. */
 export function sweptTo(turn: PlaceTurn, angle: number): PlaceTurn {
   const by = withinCircle(Math.round(angle) - turn.angle);
   const cut = Array.from({ length: Math.abs(by) }, (_, n) =>
@@ -87,14 +83,13 @@ export function sweptTo(turn: PlaceTurn, angle: number): PlaceTurn {
   };
 }
 
-/** Turns the view on to an angle (degrees). */
 export function turnTo(angle: number): void {
   const [turn, camera] = [placeTurn.value, store.camera.value];
   const next = turn && sweptTo(turn, angle);
   if (!turn || !next || !camera || next.angle === turn.angle) {
     return;
   }
-  // One who turns before the first view is reached does so from there.
+  // During the initial flight, turning starts from its destination.
   const seen = resized(destination.value ?? camera, camera.size);
   batch(() => {
     destination.value = null;
@@ -108,10 +103,10 @@ export function turnTo(angle: number): void {
   });
 }
 
-/** Parts of degrees of a drag that is under way. */
+/** Fractions of degrees during a drag. */
 let rest = 0;
 
-/** The place follows a drag to the right as the surface of a ball does: the height of the view is half a turn. */
+/** A drag to the right rotates like a trackball: the view height is half a turn. */
 export function dragPlaceTurn(pixels: number, height: number): void {
   const turn = placeTurn.value;
   if (turn) {
@@ -122,7 +117,7 @@ export function dragPlaceTurn(pixels: number, height: number): void {
   }
 }
 
-/** Ends a turn as soon as something else turns the view, takes up a tool, or shows another vessel. */
+/** Ends turning when the view, the tool or the vessel changes. */
 export function followPlaceTurn(): () => void {
   return effect(() => {
     const turn = placeTurn.value;
@@ -134,15 +129,15 @@ export function followPlaceTurn(): () => void {
   });
 }
 
-/** Whether a view is the one of a turn, moved and magnified at will. */
+/** Whether a view belongs to the turn, except for pan and zoom. */
 function isOf({ first, angle }: PlaceTurn, seen: Camera): boolean {
   const direction = turned(first.direction, first.up, radians(angle));
   return near(seen.direction, direction) && near(seen.up, first.up);
 }
 
-const near = (a: Vector, b: Vector): boolean => length(subtract(a, b)) < SAME;
+const near = (a: Vector, b: Vector): boolean => length(subtract(a, b)) < AXIS_TOLERANCE;
 
-/** An angle from -180 to 179 degrees. */
+/** Wraps to -180 to 179 degrees. */
 const withinCircle = (degrees: number): number => ((((degrees + 180) % 360) + 360) % 360) - 180;
 
 const radians = (degrees: number): number => (degrees * Math.PI) / 180;

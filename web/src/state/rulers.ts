@@ -1,4 +1,4 @@
-/** Straight distances between two points that were picked. */
+/** Straight distances between two picked points. */
 import { signal } from '@preact/signals';
 import type { Vector } from '../core/messages';
 import { length, subtract } from '../core/vectors';
@@ -6,10 +6,8 @@ import type { Document, Ruler } from './document';
 import { change, document_, endPreview, preview } from './history';
 import { tool } from './tool';
 
-/** The first point of a ruler whose second one is still to be picked. */
 export const firstEnd = signal<Vector | null>(null);
 
-/** What a click on a point does while rulers are drawn: it begins one, or ends it. */
 export function setRulerPoint(point: Vector): void {
   const from = firstEnd.value;
   if (from === null) {
@@ -22,7 +20,6 @@ export function setRulerPoint(point: Vector): void {
   tool.value = 'look';
 }
 
-/** Takes up the ruler, or puts it away. */
 export function toggleRuler(): void {
   firstEnd.value = null;
   tool.value = tool.value === 'ruler' ? 'look' : 'ruler';
@@ -45,7 +42,6 @@ export function beginRulerMove(): void {
   begun = document_.value;
 }
 
-/** Moves an end of a ruler. */
 export function moveRuler(number: number, end: End, point: Vector): void {
   const document = document_.value;
   if (begun && document.rulers[number]) {

@@ -1,4 +1,4 @@
-/** What the page knows: one store of signals, which the views read and the actions write. */
+/** The store of signals, read by views and written by actions. */
 import { computed, signal } from '@preact/signals';
 import type { Failure } from '../core/failure';
 import type {
@@ -21,7 +21,6 @@ import type { ScanStudy } from '../core/scan-study';
 export type Layout = 'one' | 'two' | 'four' | 'strip' | 'measure' | 'report';
 export const LAYOUTS: readonly Layout[] = ['one', 'two', 'four', 'strip', 'measure', 'report'];
 
-/** The views that a layout shows. */
 export type ViewName =
   | 'turning'
   | 'axial'
@@ -33,25 +32,22 @@ export type ViewName =
   | 'numbers'
   | 'findings';
 
-/** Where the cross-hair stands, and what is there. */
 export interface CrossHair {
   readonly point: Vector;
   readonly value: number | null;
   readonly vessel: number | null;
-  /** Along the vessel (mm). */
+  /** Arc length (mm). */
   readonly arcLength: number | null;
 }
 
-/** What computes; `epoch` counts how often it was exchanged. */
+/** The running engine; `epoch` counts restarts of the device. */
 export const started = signal<Started | null>(null);
 export const epoch = signal(0);
 
 export const report = signal<Report | null>(null);
 export const studyName = signal('');
 export const notes = signal<readonly string[]>([]);
-/** What the file says of its grid. */
 export const states = signal<States>({ spacing: true, orientation: true });
-/** The study of DICOM that the scan belongs to, as far as it is known. */
 export const scanStudy = signal<ScanStudy | null>(null);
 export const histogram = signal<Histogram | null>(null);
 export const progress = signal<Progress | null>(null);
@@ -59,50 +55,44 @@ export const problem = signal<Failure | null>(null);
 
 export const camera = signal<Camera | null>(null);
 export const method = signal<Method>('csr');
-/** The look that the page begins with: the cut around the vessels amid the body. */
 const FIRST_LOOK = 'focus';
-/** The settings that the page begins with: its lines are white, as yellow warns in it. */
+/** Initial settings; edge lines are white, because yellow signals warnings. */
 export const firstSettings = computed<Settings>(() => ({
   ...started.value?.looks.find(({ name }) => name === FIRST_LOOK)?.settings,
   silhouette_color: [255, 255, 255],
 }));
-/** The settings that differ from their defaults, but for windows. */
+/** Non-default settings, without windows. */
 export const settings = signal<Settings>(firstSettings.value);
 export const window_ = signal<Window>([300, 900]);
-/** Light where values are low. */
 export const isInverted = signal(false);
 export const isTurning = signal(false);
 
 export const crossHair = signal<CrossHair | null>(null);
-/** Where the cross-hair stood as the study began: a reader who did not move it means nothing by it. */
+/** Initial position of the cross-hair, to detect whether the user moved it. */
 export const firstPlace = signal<Vector | null>(null);
-/** The vessel of the CPR, and the place of the section on it (mm). */
 export const pickedVessel = signal<number | null>(null);
 export const pickedPlace = signal(0);
-/** Rotation of the CPR about its vessel (radians). */
 export const cprAngle = signal(0);
-/** Which value of a half circle the CPR shows (CFA). */
 export const cprFeature = signal<Feature | null>(null);
-/** Which side of the lumen the rows of the CPR follow; null where all have its rotation. */
+/** Side of the lumen that the CPR follows; null for a constant rotation. */
 export const cprRoll = signal<Roll | null>(null);
 
 export const layout = signal<Layout>('strip');
 export const maximised = signal<ViewName | null>(null);
-/** How often the views were reset: flat views then show all of the volume again. */
+/** Reset counter: flat views then show the whole volume. */
 export const resets = signal(0);
 export const isHelpOpen = signal(false);
-/** The camera whose view is shown with all its pixels, since it last changed. */
-export const settled = signal<Camera | null>(null);
+/** The camera whose complete picture is displayed. */
+export const completeCamera = signal<Camera | null>(null);
 export const frameTime = signal<number | null>(null);
 
 export const hasVolume = computed(() => Boolean(report.value?.volume));
 export const hasTree = computed(() => (report.value?.vessels?.length ?? 0) > 0);
 
-/** The line of the vessel that is picked: another one where the vessel was traced anew. */
+/** Line of the picked vessel; it changes when the vessel is retraced. */
 export const pickedLine = (): LineId | null =>
   report.value?.vessels?.[pickedVessel.value ?? -1]?.line ?? null;
 
-/** The settings of the turning view, with the windows. */
 export const viewSettings = computed<Settings>(() => {
   const chosen: Record<string, Settings[string]> = { ...settings.value };
   const windows = report.value?.windows;
@@ -115,7 +105,7 @@ export const viewSettings = computed<Settings>(() => {
   return chosen;
 });
 
-/** A window of its own, moved and widened as the user did with the main one. */
+/** Applies the change of the main window to another window. */
 export function moved(own: Window, from: Window, to: Window): Window {
   const factor = to[1] / from[1];
   return [to[0] + (own[0] - from[0]) * factor, own[1] * factor];

@@ -1,9 +1,9 @@
-/** What was made of a scan is not lost unasked: closing it, and opening another one in its place, wait for an answer. */
+/** Asks before unsaved work is lost by closing or opening. */
 import { signal } from '@preact/signals';
 import type { Document } from '../state/document';
 import { document_, saved } from '../state/history';
 
-/** What waits for an answer, and what would be lost by it; null where nothing waits. */
+/** The pending action, and the question about the loss; null if none. */
 export interface Leaving {
   readonly words: string;
   go(): Promise<unknown>;
@@ -11,7 +11,7 @@ export interface Leaving {
 
 export const leaving = signal<Leaving | null>(null);
 
-/** Does what takes the place of the document, after asking where that was not saved. */
+/** Acts at once if everything is saved, otherwise asks. */
 export async function leave(go: () => Promise<unknown>): Promise<void> {
   if (document_.value === saved.value) {
     await go();
@@ -20,7 +20,7 @@ export async function leave(go: () => Promise<unknown>): Promise<void> {
   }
 }
 
-/** Lets the browser ask before the page goes with what was not saved, as by a reload. */
+/** Lets the browser ask before a reload loses unsaved work. */
 export function guardLeaving(page: Pick<Window, 'addEventListener'>): void {
   page.addEventListener('beforeunload', (event) => {
     if (document_.value !== saved.value) {
@@ -29,7 +29,6 @@ export function guardLeaving(page: Pick<Window, 'addEventListener'>): void {
   });
 }
 
-/** What would be lost, as a question. */
 export function lossWords(document: Document, kept: Document): string {
   const count = document.vessels.filter((vessel) => !kept.vessels.includes(vessel)).length;
   const [vessels, were] = count === 1 ? ['1 vessel', 'was'] : [`${count} vessels`, 'were'];

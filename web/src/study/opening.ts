@@ -1,4 +1,4 @@
-/** Opening files that were dropped or chosen. */
+/** Opens dropped or chosen files. */
 import { signal } from '@preact/signals';
 import type { EngineClient } from '../client/engine';
 import { Failure } from '../core/failure';
@@ -12,7 +12,7 @@ import * as store from '../state/store';
 import { leave } from './leaving';
 import { open } from './study';
 
-/** Opens files: a volume in the place of all that is open, centerlines beside it. */
+/** A volume replaces everything, centerlines are added. */
 export function openFiles(
   engine: EngineClient,
   files: readonly GivenFile[],
@@ -23,11 +23,11 @@ export function openFiles(
   let isAgain = false;
   return openWith(first, (wish) => {
     const load = async () => {
-      const opened = await engine.openFiles(files, wish, (told) => {
-        store.progress.value = told;
+      const opened = await engine.openFiles(files, wish, (progress) => {
+        store.progress.value = progress;
       });
       const isVolume = opened.name !== undefined;
-      // Lines that are read again take the place of those before.
+      // Lines that are read again replace the previous ones.
       if (isAgain && wasEdited && undoWords.value === 'open centerlines') {
         undo();
       }
@@ -39,14 +39,13 @@ export function openFiles(
   });
 }
 
-/** A volume that came while another one is open: it can be another scan, or a mask of vessels of the one that is open. */
+/** A volume that may be a new scan or a vessel mask, until the user decides. */
 export const question = signal<readonly GivenFile[] | null>(null);
 
-/** Centerlines come to what is open. */
 const CENTERLINES = /\.(vtp|vtk|fcsv|pth|swc|tre|csv|json)$/i;
 const VOLUMES = /\.(nii|nii\.gz|nrrd|nhdr|mha|mhd|hdr|img|raw|zraw)$/i;
 
-/** Opens files that were dropped or chosen, after asking what they are where that is open; a session after its scan. */
+/** Opens files after asking what is ambiguous or would be lost; a session after its scan. */
 export async function takeFiles(engine: EngineClient, files: readonly GivenFile[]): Promise<void> {
   const session = await sessionAmong(files);
   if (session) {
@@ -85,7 +84,7 @@ async function goOn(session: GivenFile): Promise<void> {
   }
 }
 
-/** What is told of the volume that stays when centerlines come to it. */
+/** State of the volume that stays when centerlines are added. */
 function beside() {
   return { name: store.studyName.value, states: store.states.value };
 }

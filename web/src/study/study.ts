@@ -1,4 +1,4 @@
-/** Opening and closing: what is loaded, its windows and its first view. */
+/** Opening and closing a study, with its windows and first view. */
 import { batch } from '@preact/signals';
 import type { EngineClient, Opened } from '../client/engine';
 import { Failure } from '../core/failure';
@@ -17,15 +17,13 @@ import { putRulerAway } from '../state/rulers';
 import * as store from '../state/store';
 import { tool } from '../state/tool';
 
-/** The size of a view before its pane is laid out. */
 const FIRST_SIZE = [512, 512] as const;
 
-/** What was opened; centerlines alone may come to the vessels that there are. */
+/** What was opened; centerlines may add to existing vessels. */
 export interface Loaded extends Opened {
   readonly isBeside?: boolean;
 }
 
-/** Opens what `load` gives, and shows all of it from the front. */
 export async function open(engine: EngineClient, load: () => Promise<Loaded>, name: string): Promise<void> {
   batch(() => {
     store.problem.value = null;
@@ -48,7 +46,7 @@ export async function open(engine: EngineClient, load: () => Promise<Loaded>, na
   }
 }
 
-/** A doubt of where centerlines were read, with what reads them elsewhere; null where nothing does. */
+/** Doubt about the coordinate system, with mends; null if none. */
 function misread({ doubt }: Loaded): Failure | null {
   const values = doubt?.readings ?? [];
   const mends = [{ name: 'reading', values }] as const;
@@ -58,7 +56,7 @@ function misread({ doubt }: Loaded): Failure | null {
     : null;
 }
 
-/** What was open stays where others were refused before they took its place. */
+/** If nothing was replaced, the open study stays. */
 async function forgetWhatIsClosed(engine: EngineClient): Promise<void> {
   const { volume, vessels } = await engine.ask('report', null);
   if (!volume && !vessels) {
@@ -67,7 +65,6 @@ async function forgetWhatIsClosed(engine: EngineClient): Promise<void> {
   }
 }
 
-/** Opens a phantom by its name. */
 export function openPhantom(engine: EngineClient, name: string): Promise<void> {
   return openWith({}, (wish) => {
     const load = async () => ({ report: await engine.openPhantom(name, wish), notes: [] });
@@ -75,7 +72,6 @@ export function openPhantom(engine: EngineClient, name: string): Promise<void> {
   });
 }
 
-/** Opens addresses of the same origin. */
 export function openAddresses(
   engine: EngineClient,
   volume: string | null,
@@ -83,21 +79,21 @@ export function openAddresses(
 ): Promise<void> {
   return openWith({}, (wish) => {
     const load = () =>
-      engine.openAddresses({ volume, centerlines }, wish, (told) => {
-        store.progress.value = told;
+      engine.openAddresses({ volume, centerlines }, wish, (progress) => {
+        store.progress.value = progress;
       });
     return open(engine, load, '');
   });
 }
 
-/** Closes the study. The views go first: none asks for a scene that is there no longer. */
+/** Closes the study; the views go first, so that none requests a missing scene. */
 export async function close(engine: EngineClient): Promise<void> {
   layDown();
   batch(forget);
   await engine.ask('close', null);
 }
 
-/** No tool and no measuring goes on in another study. What a tool changed of the views is put back, which effects do at once. */
+/** Ends tool and measuring, which restores their layout changes. */
 function layDown(): void {
   tool.value = 'look';
   if (store.layout.value === 'measure') {
@@ -134,7 +130,6 @@ async function showStudy(
   });
 }
 
-/** Centerlines come to the vessels that there are, as a step that can be undone; the views show the longest of them. */
 async function showBeside(engine: EngineClient, { report, notes }: Opened): Promise<void> {
   const loaded = report.vessels ?? [];
   await addLoaded(engine, loaded);
@@ -151,7 +146,7 @@ async function showBeside(engine: EngineClient, { report, notes }: Opened): Prom
   }
 }
 
-/** Half way along the longest vessel; without vessels the middle of the volume. */
+/** Half way along the longest vessel, or the centre of the volume. */
 async function firstPlace(engine: EngineClient, report: Report): Promise<store.CrossHair | null> {
   if (report.vessels?.length) {
     const vessel = longest(report);
@@ -167,7 +162,6 @@ async function firstPlace(engine: EngineClient, report: Report): Promise<store.C
   return { point, value, vessel: null, arcLength: null };
 }
 
-/** The longest vessel's number. */
 function longest(report: Report): number {
   const lengths = (report.vessels ?? []).map((vessel) => vessel.length);
   return lengths.indexOf(Math.max(...lengths));

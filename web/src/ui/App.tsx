@@ -33,7 +33,6 @@ export function App() {
   );
 }
 
-/** The views, and beside them the list of vessels. */
 function Work() {
   return (
     <div class="work">

@@ -1,4 +1,4 @@
-/** Turns the view to where most of the picked vessel is seen. */
+/** Button that shows most of the picked vessel. */
 import { engine } from '../client/shared';
 import { showBestView } from '../state/actions';
 
@@ -6,7 +6,7 @@ export function BestViewButton() {
   return (
     <button
       type="button"
-      title="From where most of the vessel is seen (f)"
+      title="Turns the view so that most of the vessel is visible (f)"
       onClick={() => void showBestView(engine)}
     >
       Best view

@@ -1,4 +1,4 @@
-/** Vessels as files, and files as vessels. */
+/** Buttons to save and open centerlines. */
 
 import type { CenterlineKind } from '../core/messages';
 import { attempt } from '../output/attempt';
@@ -18,7 +18,7 @@ export function CenterlineFiles() {
           key={kind}
           type="button"
           disabled={!hasCenterlines()}
-          title="All vessels of the list, without the doubtful ones"
+          title="All vessels in the list except the doubtful ones"
           onClick={() => attempt(() => saveCenterlines(kind))}
         >
           {words}

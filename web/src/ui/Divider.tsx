@@ -1,20 +1,19 @@
-/** A line between panes that is dragged, or moved by arrow keys. */
+/** Divider between panes, moved by dragging or arrow keys. */
 import type { Signal } from '@preact/signals';
 
-/** The least part of the layout that a side keeps. */
-const LEAST = 0.12;
+const MIN_SHARE = 0.12;
 
 interface DividerProps {
   readonly words: string;
-  /** `column` between panes side by side, `row` between panes above each other. */
+  /** `column` separates panes side by side, `row` stacked ones. */
   readonly between: 'column' | 'row';
-  /** Where it is, as a part of the layout. */
+  /** Position as a share of the layout. */
   readonly place: Signal<number>;
 }
 
 export function Divider({ words, between, place }: DividerProps) {
   const set = (value: number) => {
-    place.value = Math.min(Math.max(value, LEAST), 1 - LEAST);
+    place.value = Math.min(Math.max(value, MIN_SHARE), 1 - MIN_SHARE);
   };
   const move = (event: PointerEvent) => {
     const layout = (event.currentTarget as HTMLElement).parentElement;

@@ -1,4 +1,4 @@
-/** The doubtful branches of the list: how many for which reason, and each with its own, to be accepted or left out. */
+/** List of doubtful branches with their reasons, to accept or leave out. */
 import { engine } from '../client/shared';
 import type { DocumentVessel } from '../core/messages';
 import { accept, leaveOut } from '../edit/branches';
@@ -18,8 +18,8 @@ export function DoubtfulPart({ vessels }: { readonly vessels: readonly DocumentV
     <section class="doubtful-rows" aria-label="Doubtful branches">
       <h3>{countedDoubts(vessels)}</h3>
       <div class="buttons">
-        <button type="button" title="Each in turn (.), with its reason" onClick={() => stepDoubt(engine, 1)}>
-          Look at each
+        <button type="button" title="Shows each with its reason (.)" onClick={() => stepDoubt(engine, 1)}>
+          Review each
         </button>
         <button type="button" onClick={() => void accept(engine, ids)}>
           Accept all
@@ -37,7 +37,7 @@ export function DoubtfulPart({ vessels }: { readonly vessels: readonly DocumentV
   );
 }
 
-/** A doubtful branch: the pointer over it lights it in the views, and a click turns the view to it. */
+/** Hovering highlights the branch, a click shows it. */
 function DoubtfulRow({ vessel }: { readonly vessel: DocumentVessel }) {
   const name = nameOf(vessel);
   return (
@@ -45,7 +45,7 @@ function DoubtfulRow({ vessel }: { readonly vessel: DocumentVessel }) {
       <button
         type="button"
         class="name"
-        title={`${vessel.doubt}: turn the view to it`}
+        title={`${vessel.doubt}. Click to show it`}
         aria-label={`Show ${name}, ${reasonOf(vessel)}`}
         onClick={() => void showDoubt(engine, vessel)}
       >
@@ -68,5 +68,5 @@ function DoubtfulRow({ vessel }: { readonly vessel: DocumentVessel }) {
   );
 }
 
-/** The length without its unit, which the title says: the reason needs the room. */
+/** Without the unit, which the tooltip states, to leave room for the reason. */
 const lengthText = (vessel: DocumentVessel): string => lengthOf(vessel.line).toFixed(1);

@@ -1,4 +1,4 @@
-/** All of the page takes files that are dropped on it, and shows so while they are over it. */
+/** Accepts files dropped anywhere on the page. */
 import { useSignal, useSignalEffect } from '@preact/signals';
 import { engine } from '../client/shared';
 import { dropped } from '../input/dropped';
@@ -18,8 +18,8 @@ export function DropZone() {
     return null;
   }
   const words = hasVolume.value
-    ? 'Drop centerlines or a mask of vessels to add them, or another scan'
-    : 'Drop a scan here, and its centerlines';
+    ? 'Drop centerlines or a vessel mask to add vessels, or drop another scan'
+    : 'Drop a scan here, with or without its centerlines';
   return <div class="drop-zone">{words}</div>;
 }
 

@@ -1,4 +1,4 @@
-/** Asks what a volume is that came while a scan is open. */
+/** Asks how to use a volume that arrives while a scan is open. */
 import { engine } from '../client/shared';
 import { addMask } from '../edit/branches';
 import { leave } from '../study/leaving';

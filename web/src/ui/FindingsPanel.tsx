@@ -1,15 +1,15 @@
-/** The report as it will be: what was found on all vessels, each with its sentences and its key image, to copy and to save. */
+/** Preview of the report: sentences and key image of each finding, to copy and save. */
 import { useEffect, useState } from 'preact/hooks';
 import { engine } from '../client/shared';
 import type { Sentence } from '../core/messages';
 import { moveTo } from '../link/along';
 import {
   type Finding,
+  findingSentences,
   hiddenFindings,
   leaveOut,
   leftOut,
   listedFindings,
-  toldFindings,
 } from '../measure/findings';
 import { mm, unitless } from '../measure/words';
 import { attempt } from '../output/attempt';
@@ -24,7 +24,7 @@ import { ScanNamed } from './ScanNamed';
 
 export function FindingsPanel() {
   const findings = listedFindings.value;
-  const distances = toldFindings.value?.distances ?? [];
+  const distances = findingSentences.value?.distances ?? [];
   return (
     <div class="numbers-panel findings" data-testid="findings">
       {findings.length === 0 && distances.length === 0 ? <Nothing /> : <Head count={findings.length} />}
@@ -41,17 +41,16 @@ export function FindingsPanel() {
         </section>
       )}
       {hiddenFindings.value.length > 0 && (
-        <p class="doubts">{`Hidden, and so not in the report: ${hiddenFindings.value.join(', ')}.`}</p>
+        <p class="doubts">{`Not in the report, because hidden: ${hiddenFindings.value.join(', ')}.`}</p>
       )}
     </div>
   );
 }
 
-/** What leads to a first finding. */
 function Nothing() {
   return (
     <>
-      <p>Nothing is marked yet. Measure a vessel and mark a place or a length on it: it stands here then.</p>
+      <p>Findings appear here once you mark a place or a length on a measured vessel.</p>
       <button type="button" onClick={() => toggleLayout('measure')}>
         Measure the picked vessel
       </button>
@@ -81,7 +80,7 @@ function Head({ count }: { readonly count: number }) {
 function FindingPart({ finding }: { readonly finding: Finding }) {
   const { line, vessel, length } = finding;
   const name = finding.name || `vessel ${vessel + 1}`;
-  const sentences = toldFindings.value?.vessels.find((one) => one.line === line)?.sentences;
+  const sentences = findingSentences.value?.vessels.find((one) => one.line === line)?.sentences;
   const words = (sentences ?? []).map((sentence) => sentence.words).join(' ');
   return (
     <section aria-label={`Finding on ${name}`}>
@@ -89,7 +88,7 @@ function FindingPart({ finding }: { readonly finding: Finding }) {
       {sentences ? sentences.map((one) => <Words key={one.words} sentence={one} />) : <Pending line={line} />}
       {sentences && <KeyImage finding={finding} name={name} />}
       <div class="buttons">
-        <button type="button" title="Section and view go there" onClick={() => show(finding)}>
+        <button type="button" title="Moves section and view there" onClick={() => show(finding)}>
           Show
         </button>
         <button
@@ -125,7 +124,7 @@ function Words({ sentence: { kind, words } }: { readonly sentence: Sentence }) {
   return <p class={CLASSES[kind]}>{words}</p>;
 }
 
-/** A vessel whose numbers are not known yet, or that cannot be measured. */
+/** A vessel not measured yet, or that cannot be measured. */
 function Pending({ line }: { readonly line: number }) {
   const known = profiles.value.get(line);
   if (known && 'failure' in known) {
@@ -133,10 +132,10 @@ function Pending({ line }: { readonly line: number }) {
       <p class="refused">{`Not measured: found ${known.failure.found}; expected ${known.failure.expected}.`}</p>
     );
   }
-  return <p>{stopped.value === line ? 'Not measured: it was stopped.' : 'Measuring…'}</p>;
+  return <p>{stopped.value === line ? 'Not measured: stopped.' : 'Measuring…'}</p>;
 }
 
-/** The key image as it is copied; drawn anew where marks, window or numbers change. */
+/** The key image, redrawn when marks, window or numbers change. */
 function KeyImage({ finding, name }: { readonly finding: Finding; readonly name: string }) {
   const [address, setAddress] = useState<string | null>(null);
   const window = store.window_.value;
@@ -155,7 +154,6 @@ function KeyImage({ finding, name }: { readonly finding: Finding; readonly name:
   return address && <img src={address} alt={`Straightened vessel and sections of ${name}`} />;
 }
 
-/** Shows where a finding is: the section stands at its place, and the view shows most of its vessel. */
 function show({ vessel, marks, length }: Finding): void {
   store.pickedVessel.value = vessel;
   moveTo(marks.at ?? marks.references[0] ?? marks.stretch?.[0] ?? length / 2);

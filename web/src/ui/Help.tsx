@@ -1,4 +1,4 @@
-/** The list of what mouse, touch and keys do, made from the table of bindings. */
+/** Help on mouse, touch and keys, generated from the bindings. */
 import { useEffect, useRef } from 'preact/hooks';
 import { BINDINGS, inputName, type Where } from '../input/bindings';
 import { isHelpOpen } from '../state/store';

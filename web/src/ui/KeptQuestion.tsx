@@ -1,4 +1,4 @@
-/** Asks whether to go on with the session that was kept when the page was loaded anew. */
+/** Asks whether to continue with a session kept over a reload. */
 import { Failure } from '../core/failure';
 import { openList } from '../edit/list-open';
 import { kept } from '../session/keeping';
@@ -19,12 +19,12 @@ export function KeptQuestion() {
       problem.value = Failure.of(error);
     }
   };
-  const words = 'Vessels that were not saved were kept in this tab.';
+  const words = 'This tab kept vessels that were not saved.';
   return (
     <div class="file-question" role="alertdialog" aria-label={words}>
       <p>{words}</p>
       <button type="button" ref={(button) => button?.focus()} onClick={() => void goOn()}>
-        Go on with them
+        Continue with them
       </button>
       <button
         type="button"

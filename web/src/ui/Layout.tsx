@@ -1,4 +1,4 @@
-/** The panes of a layout, and which view each of them shows. */
+/** Panes of each layout and their views. */
 import { type Signal, signal } from '@preact/signals';
 import type { ComponentChildren } from 'preact';
 import { useMeasuring } from '../measure/asking';
@@ -34,7 +34,7 @@ const TITLES: Readonly<Record<ViewName, string>> = {
   findings: 'Findings',
 };
 
-/** Where the panes of each layout meet, as parts of it. */
+/** Positions of the dividers, as shares of the layout. */
 const columns: Readonly<Record<Name, Signal<number>>> = {
   one: signal(1),
   two: signal(0.67),

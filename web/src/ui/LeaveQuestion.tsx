@@ -1,4 +1,4 @@
-/** Asks before what was not saved is lost. */
+/** Asks before unsaved work is lost. */
 import { Failure } from '../core/failure';
 import { saveSession } from '../output/session';
 import { problem } from '../state/store';

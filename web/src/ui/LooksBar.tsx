@@ -1,4 +1,4 @@
-/** How vessels and body are shown: the looks, how far the cut reaches around the vessels, and the lines where it leaps. */
+/** Display controls: look, region preset, margin around vessels, and edge lines. */
 import type { LookRow } from '../core/messages';
 import { isTracing } from '../edit/mode';
 import { setSetting, settingOf } from '../state/actions';
@@ -18,8 +18,7 @@ import {
 } from '../state/looks';
 import { hasTree, hasVolume, started } from '../state/store';
 
-/** The widest margin that the slider offers (mm). */
-const WIDEST = 30;
+const MAX_MARGIN_MM = 30;
 const LINES: readonly (readonly [Lines, string])[] = [
   ['none', 'No lines'],
   ['near', 'Lines near'],
@@ -27,7 +26,7 @@ const LINES: readonly (readonly [Lines, string])[] = [
 ];
 
 export function LooksBar() {
-  // While vessels are traced the view is a projection, whatever was chosen.
+  // While tracing, the view is always a projection.
   if (!hasVolume.value || isTracing()) {
     return null;
   }
@@ -47,13 +46,13 @@ export function LooksBar() {
   );
 }
 
-/** The cut through the vessels in the window for stents: the one look that also chooses a window. */
+/** The only look that also selects a window. */
 function StentButton() {
   return (
     <button
       type="button"
       aria-pressed={isStentShown.value}
-      title="Shows the cut through the vessels in a wide window: the struts of a stent stand apart from the lumen"
+      title="Shows the cut through the vessels in a wide window, which separates stent struts from the lumen"
       onClick={chooseStent}
     >
       Stent
@@ -61,11 +60,10 @@ function StentButton() {
   );
 }
 
-/** A look, a window and a slab at once, by the region of the body that is read. */
 function RegionChoice() {
   const regions = started.value?.regions ?? [];
   return (
-    <label title="Look, window and slab as a region of the body is mostly read">
+    <label title="Preset for a body region or type of scan: look, window and slab">
       <span class="hidden-words">Look by region</span>
       <select value={chosenRegion.value ?? ''} onChange={(event) => chooseRegion(event.currentTarget.value)}>
         <option value="">By region</option>
@@ -93,7 +91,7 @@ function LookButton({ look }: { readonly look: LookRow }) {
   );
 }
 
-/** How far around the vessels all of the cut is shown, where it fades into the body. */
+/** Margin around the vessels in which the cut is fully shown. */
 function Reach() {
   const focus = settingOf('focus');
   const [margin, fade] = Array.isArray(focus) ? focus.map(Number) : [-1, 0];
@@ -101,12 +99,12 @@ function Reach() {
     return null;
   }
   return (
-    <label title="How far around the vessels the cut is shown">
+    <label title="Width of the cut shown around each vessel">
       <span class="hidden-words">Margin around the vessels (mm)</span>
       <input
         type="range"
         min="0"
-        max={WIDEST}
+        max={MAX_MARGIN_MM}
         step="0.5"
         value={margin}
         onInput={(event) => setSetting('focus', [Number(event.currentTarget.value), fade ?? 0])}
@@ -118,7 +116,7 @@ function Reach() {
 
 function LinesChoice() {
   return (
-    <label title="Where the depth of the cut leaps, lines can mark it">
+    <label title="Lines mark where the depth of the cut jumps">
       <span class="hidden-words">Lines</span>
       <select value={lines.value} onChange={(event) => chooseLines(event.currentTarget.value as Lines)}>
         {LINES.map(([name, words]) => (

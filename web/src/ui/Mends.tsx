@@ -1,21 +1,21 @@
-/** What can be done at once about what was refused: a button for each mend that the page can do here. */
+/** Buttons for the mends of a failure that the page can carry out. */
 import type { Failure, SeriesChoice } from '../core/failure';
 import { type Mend, type MendName, readingWords } from '../core/mends';
 import type { SeriesWish } from '../core/messages';
 import { openAgain } from '../state/last-opened';
 import { SeriesThumbnail } from './SeriesThumbnail';
 
-/** A button, and the wish with which it opens the same again. */
+/** A label, and the choice for reopening. */
 type Button = readonly [words: string, wish: SeriesWish];
 
 const NONE = (): readonly Button[] => [];
 const spaces = ({ values }: Mend): readonly Button[] =>
   values.map((space) => [`Read as ${space.toUpperCase()}`, { coordinates: space }]);
 
-/** The buttons for each mend; a series is chosen from its list, and a gap is bridged by the tool that met it. */
+/** No buttons for series, chosen from a list, nor for gaps, bridged in the tool. */
 const BUTTONS: Record<MendName, (mend: Mend) => readonly Button[]> = {
   bridge: NONE,
-  every_second: () => [['Take every second voxel along each axis', { every_second: true }]],
+  every_second: () => [['Load every second voxel along each axis', { every_second: true }]],
   cpu: NONE,
   windows: NONE,
   threshold: NONE,
@@ -73,7 +73,6 @@ function Series({ of }: { readonly of: readonly SeriesChoice[] }) {
   );
 }
 
-/** A series on one line. */
 function wordsOf({ number, description, modality, images, size, spacing, trouble }: SeriesChoice): string {
   const steps = spacing?.map((step) => Number(step.toPrecision(3)));
   const extent = size && steps ? [size.join(' × '), `${steps.join(' × ')} mm`] : [`${images} images`];

@@ -1,4 +1,4 @@
-/** What went wrong, and how far long work is. */
+/** Failures and progress. */
 
 import { engine } from '../client/shared';
 import { CRASH, type Failure } from '../core/failure';
@@ -6,8 +6,8 @@ import { findAndList } from '../edit/branches';
 import { isLong, refusal } from '../edit/committing';
 import { performAny } from '../edit/performing';
 import { saveSession } from '../output/session';
+import { message, showFailure } from '../state/message';
 import { problem, progress } from '../state/store';
-import { tellFailure, told } from '../state/telling';
 import { Mends } from './Mends';
 
 export function Messages() {
@@ -15,9 +15,9 @@ export function Messages() {
     <div class="messages">
       {progress.value && <Loading />}
       {problem.value && <Problem />}
-      {told.value && (
+      {message.value && (
         <div class="message told" role="status" data-testid="told">
-          {told.value}
+          {message.value}
         </div>
       )}
     </div>
@@ -25,15 +25,15 @@ export function Messages() {
 }
 
 function Loading() {
-  const told = progress.value;
-  if (!told) {
+  const shown = progress.value;
+  if (!shown) {
     return null;
   }
-  const share = told.total ? told.done / told.total : null;
+  const share = shown.total ? shown.done / shown.total : null;
   return (
     <div class="message" role="status">
-      <span>{share === null ? `${told.words} …` : `${told.words}: ${(100 * share).toFixed(0)} %`}</span>
-      <progress aria-label={told.words} {...(share === null ? {} : { value: share })} />
+      <span>{share === null ? `${shown.words} …` : `${shown.words}: ${(100 * share).toFixed(0)} %`}</span>
+      <progress aria-label={shown.words} {...(share === null ? {} : { value: share })} />
       {isLong.value && <LongWork />}
       <button type="button" onClick={() => performAny(engine, 'cancel')}>
         {isLong.value ? 'Stop' : 'Cancel'}
@@ -42,18 +42,18 @@ function Loading() {
   );
 }
 
-/** What the reader is asked where branches take long; it goes on meanwhile. */
+/** Asks during a long search, which continues meanwhile. */
 function LongWork() {
   return (
     <>
-      <strong>This takes long. Does the place lie in a vessel, and not in bone?</strong>
+      <strong>This takes long. Is the point in a vessel, and not in bone?</strong>
       <button
         type="button"
         onClick={() => {
           isLong.value = false;
         }}
       >
-        Go on
+        Continue
       </button>
     </>
   );
@@ -68,7 +68,7 @@ function Problem() {
     <div class="message problem" role="alert">
       <strong>{failure.subject}</strong>
       {failure.series.length > 0 ? (
-        <span>{`Found ${failure.series.length} series. Which of them is to be read?`}</span>
+        <span>{`Found ${failure.series.length} series. Which one should be opened?`}</span>
       ) : (
         <Sentences failure={failure} />
       )}
@@ -76,7 +76,7 @@ function Problem() {
       <Bridging failure={failure} />
       {failure.isMendedBy('doubtful') && <DoubtfulOnes />}
       {failure.kind === CRASH && (
-        <button type="button" onClick={() => void saveSession().catch(tellFailure)}>
+        <button type="button" onClick={() => void saveSession().catch(showFailure)}>
           Save the session
         </button>
       )}
@@ -92,7 +92,7 @@ function Problem() {
   );
 }
 
-/** What can be done where no lumen was found between two clicks. */
+/** Options if no lumen was found between two clicks. */
 function Bridging({ failure }: { readonly failure: Failure }) {
   const bridge = refusal.value?.failure === failure ? refusal.value.bridge : null;
   return bridge ? (
@@ -112,7 +112,7 @@ function Bridging({ failure }: { readonly failure: Failure }) {
   ) : null;
 }
 
-/** Where no vessel is sure the doubtful ones can be looked at. */
+/** Offered if all vessels found are doubtful. */
 function DoubtfulOnes() {
   return (
     <button type="button" onClick={() => void findAndList(engine, true)}>

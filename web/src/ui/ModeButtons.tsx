@@ -1,4 +1,4 @@
-/** What the page is used for now: looking, tracing, measuring or reporting. */
+/** Buttons of the modes: looking, tracing, measuring, reporting. */
 import { isTracing } from '../edit/mode';
 import { toggleLayout } from '../state/actions';
 import { hasVolume, layout } from '../state/store';
@@ -6,7 +6,6 @@ import { tool } from '../state/tool';
 
 type Mode = 'look' | 'trace' | 'measure' | 'report';
 
-/** The mode that the page is in. */
 function mode(): Mode {
   if (isTracing()) {
     return 'trace';
@@ -15,10 +14,7 @@ function mode(): Mode {
   return shown === 'measure' || shown === 'report' ? shown : 'look';
 }
 
-/**
- * Goes to a mode; each one lays down what it took up. A second press, as of a reader who has not yet seen the first one's
- * answer, leaves it on: "Look" is the way out.
- */
+/** Switches mode. Pressing twice keeps the mode, because users may double-click; "Look" leaves it. */
 function change(to: Mode): void {
   const from = mode();
   if (from === to) {
@@ -39,7 +35,7 @@ const MODES: readonly (readonly [Mode, string, string, string])[] = [
   ['look', '◉', 'Look', 'Look at the vessels from all sides'],
   ['trace', '✎', 'Trace', 'Trace vessels by clicks (t)'],
   ['measure', '⟷', 'Measure', 'Measure the picked vessel (m)'],
-  ['report', '▤', 'Report', 'What was found on all vessels, to copy and to save (e)'],
+  ['report', '▤', 'Report', 'Findings on all vessels, to copy and save (e)'],
 ];
 
 export function ModeButtons() {

@@ -1,4 +1,4 @@
-/** What was measured of the picked vessel, in numbers. */
+/** Numbers of the picked vessel. */
 import { moveTo } from '../link/along';
 import { currentProfile, currentVessel } from '../measure/current';
 import { PlacesTable } from '../measure/PlacesTable';
@@ -56,16 +56,15 @@ function VesselChoice() {
   );
 }
 
-/** Shows another vessel, half way along it. */
 function pick(vessel: number): void {
   store.pickedVessel.value = vessel;
   moveTo((store.report.value?.vessels?.[vessel]?.length ?? 0) / 2);
 }
 
-/** The point spread that was reckoned with, and a field to give it. */
+/** FWHM used for measuring, and a field to enter it. */
 function Blur({ fwhm, source }: { readonly fwhm: number; readonly source: string }) {
   const give = (field: HTMLInputElement) => {
-    // What the field does not allow, the browser says beside it.
+    // The browser explains invalid input.
     if (field.reportValidity()) {
       giveFwhm(field.value === '' ? null : Number(field.value));
     }
@@ -73,16 +72,16 @@ function Blur({ fwhm, source }: { readonly fwhm: number; readonly source: string
   return (
     <section aria-label="Blur of the scan">
       <h3>Blur of the scan</h3>
-      <p>{`FWHM of the point spread ${mm(fwhm)}, ${source}.`}</p>
-      <label>
-        Give it
+      <p>{`FWHM of the point spread function: ${mm(fwhm)}, ${source}.`}</p>
+      <label title="Enter the FWHM if you know it; leave it empty to use the estimate">
+        Known FWHM
         <input
           class="number"
           type="number"
           min="0.05"
           max="20"
           step="any"
-          placeholder="as found"
+          placeholder="estimated"
           value={source === 'given' ? String(fwhm) : ''}
           onChange={(event) => give(event.currentTarget)}
         />

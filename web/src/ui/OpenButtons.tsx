@@ -1,4 +1,4 @@
-/** Buttons that open files, and a folder of DICOM. */
+/** Buttons that open files, or a DICOM folder. */
 import { useRef } from 'preact/hooks';
 import { engine } from '../client/shared';
 import { chosen } from '../input/dropped';
@@ -14,7 +14,6 @@ export function OpenButtons() {
   );
 }
 
-/** Opens files beside or in the place of what is open. */
 export function OpenMore({ words = 'Open' }: { readonly words?: string }) {
   return <Chooser words={words} isFolder={false} />;
 }
@@ -28,7 +27,7 @@ function Chooser({ words, isFolder }: ChooserProps) {
   const input = useRef<HTMLInputElement>(null);
   const open = (element: HTMLInputElement) => {
     const files = chosen(element.files ?? new DataTransfer().files);
-    // The same files can be chosen again.
+    // Allows choosing the same files again.
     element.value = '';
     if (files.length > 0) {
       void takeFiles(engine, files);

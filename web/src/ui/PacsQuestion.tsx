@@ -1,4 +1,4 @@
-/** Asks into which study the objects of "Save for PACS" are put. */
+/** Asks for the target study of "Save for PACS". */
 import { useRef } from 'preact/hooks';
 import { attempt } from '../output/attempt';
 import {
@@ -41,8 +41,8 @@ export function PacsQuestion() {
       }}
     >
       <p>
-        The pictures that are shown, the report and the numbers as DICOM, in a zip archive. Nothing is sent.
-        {!isKnown && ' The scan is no DICOM: to which study do they belong?'}
+        Saves the displayed pictures, the report and the numbers as DICOM in a zip archive. Nothing is sent.
+        {!isKnown && ' The scan is not DICOM: which study do they belong to?'}
       </p>
       {isKnown && (
         <button type="button" ref={first} onClick={() => save('scan')}>
@@ -51,7 +51,7 @@ export function PacsQuestion() {
       )}
       <button
         type="button"
-        title="Without patient, study and names of vessels; that is not the Basic Profile"
+        title="Without patient, study and vessel names; not the DICOM Basic Confidentiality Profile"
         {...(!isKnown && { ref: first })}
         onClick={() => save('anonymous')}
       >
@@ -80,14 +80,13 @@ export function PacsQuestion() {
   );
 }
 
-/** Shows whose study a chosen file is of, and what speaks against it, before objects are put there. */
 function FileOfStudy({ chosen: { file, facts, doubts, refusal } }: { chosen: ChosenFile }) {
   const close = () => {
     chosenFile.value = null;
   };
   const words = refusal
-    ? `This file is refused: ${refusal}.`
-    : 'Put the objects into the study of this file?';
+    ? `This file cannot be used: ${refusal}.`
+    : 'Add the objects to the study of this file?';
   return (
     <div
       class="file-question"

@@ -1,4 +1,4 @@
-/** What is for research: the methods, the context, and all settings, made from the table that the whole of Lumencut shares. */
+/** Research menu: methods, context, and all settings from Lumencut's table. */
 import type { Method, SettingRow } from '../core/messages';
 import { VIEW_METHODS } from '../core/method-names';
 import { setSetting, settingOf } from '../state/actions';
@@ -15,9 +15,9 @@ const CONTEXTS: readonly (readonly [string, string])[] = [
   ['', 'None'],
 ];
 
-/** The kinds that have a control here; windows have the strip. */
+/** Kinds with a control here; windows use the strip. */
 const KINDS: readonly string[] = ['flag', 'number', 'count', 'choice', 'transfer'];
-/** What has a control of its own above the others, and what the view decides. */
+/** Settings with their own control, or decided by the view. */
 const ELSEWHERE: readonly string[] = ['context', 'samples', 'context_preview'];
 
 export function ResearchMenu() {
@@ -155,7 +155,7 @@ function Control({ row }: { readonly row: SettingRow }) {
   );
 }
 
-/** Numbers outside their range are brought into it; an empty field is the setting left open. */
+/** Clamps to the range; an empty field leaves the setting open. */
 function changeNumber(row: SettingRow, text: string): void {
   const number = Number(text);
   if (text.trim() === '') {

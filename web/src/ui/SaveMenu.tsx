@@ -1,4 +1,4 @@
-/** What can be saved: the report and the session, pictures of the turning view, and what was measured. */
+/** The menu "Save". */
 import { currentProfile } from '../measure/current';
 import { listedFindings } from '../measure/findings';
 import { attempt } from '../output/attempt';
@@ -23,12 +23,12 @@ export function SaveMenu() {
         {(isMeasured || listedFindings.value.length > 0) && <Report />}
         <Choice
           words="For PACS (DICOM, zip)"
-          title="Pictures, report and numbers beside the scan, in a zip archive; nothing is sent"
+          title="Pictures, report and numbers for the study of the scan, in a zip archive; nothing is sent"
           save={askForPacs}
         />
         <Choice
           words="Session (JSON)"
-          title="Vessels, marks and views, to go on later: open it after its scan"
+          title="Vessels, marks and views, to continue later: open the scan first, then the session"
           save={saveSession}
         />
         <Keeping />
@@ -68,10 +68,9 @@ function Choice({ words, title, save }: ChoiceProps) {
   );
 }
 
-/** Whether the session is kept over a reload. */
 function Keeping() {
   return (
-    <label title="On this machine, until the tab is closed: vessels, marks and views, no pixels">
+    <label title="Stores vessels, marks and views, but no pixels, on this computer until the tab is closed">
       <input
         type="checkbox"
         checked={isKeeping.value}
@@ -79,12 +78,11 @@ function Keeping() {
           isKeeping.value = event.currentTarget.checked;
         }}
       />
-      Keep it in this tab over a reload
+      Keep the session when this tab reloads
     </label>
   );
 }
 
-/** The report of all findings, or of the vessel that is measured. */
 function Report() {
   return (
     <>

@@ -1,4 +1,4 @@
-/** The box that says whether reports name their scan. */
+/** Checkbox: whether reports name the scan. */
 import { isScanNamed } from '../output/report';
 
 export function ScanNamed() {

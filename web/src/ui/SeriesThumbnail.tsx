@@ -1,4 +1,4 @@
-/** The small picture of a series beside its name. */
+/** Thumbnail of a series. */
 import { useEffect, useRef } from 'preact/hooks';
 import type { Thumbnail } from '../core/failure';
 

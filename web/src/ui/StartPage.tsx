@@ -1,4 +1,4 @@
-/** What the page shows while nothing is open: what to do, and a phantom to try it with. */
+/** Start page: instructions and phantoms. */
 import { engine } from '../client/shared';
 import { startGuide } from '../guide/steps';
 import { started } from '../state/store';
@@ -8,7 +8,7 @@ import { OpenButtons } from './OpenButtons';
 const PHANTOMS: readonly (readonly [string, string])[] = [
   ['aorta', 'Aorta and its branches'],
   ['cervical', 'Arteries of the neck'],
-  ['stenosis', 'A tube with a narrowing of 50 %'],
+  ['stenosis', 'A tube with a stenosis of 50 %'],
 ];
 
 export function StartPage() {
@@ -36,10 +36,10 @@ export function StartPage() {
       <h2>Or try it first</h2>
       <p>
         <button type="button" class="primary" disabled={!isReady} onClick={() => void startGuide()}>
-          Guided try in two minutes
+          Guided tour in two minutes
         </button>
       </p>
-      <p>Phantoms with their centerlines, made by formulas:</p>
+      <p>Synthetic phantoms with known centerlines:</p>
       <ul class="phantoms">
         {PHANTOMS.map(([name, words]) => (
           <li key={name}>
@@ -51,7 +51,7 @@ export function StartPage() {
       </ul>
       <p class="notice">
         Lumencut is not a medical device. Do not use it for diagnosis.{' '}
-        <a href="./THIRD-PARTY-NOTICES.txt">Licences of third parties</a>
+        <a href="./THIRD-PARTY-NOTICES.txt">Third-party licences</a>
       </p>
     </main>
   );

@@ -1,4 +1,4 @@
-/** The read-out: where the cross-hair is, what is there, and how fast the page is. */
+/** Status bar: cross-hair position and value, window, and device. */
 
 import { tree } from '../edit/shown';
 import { nameOf } from '../state/changes';
@@ -31,7 +31,7 @@ export function StatusBar() {
   );
 }
 
-/** Width and level, as radiologists write them. */
+/** In radiological notation. */
 function windowText(): string {
   const [level, width] = store.window_.value;
   return store.hasVolume.value ? `W ${round(width)} L ${round(level)}` : '';
@@ -59,7 +59,6 @@ function readOut(): string {
   return parts.join(' · ');
 }
 
-/** The name of a vessel of the tree that is shown; its number where it has none. */
 export function vesselName(vessel: number): string {
   const shown = tree.value[vessel];
   return shown ? nameOf(shown) : `vessel ${vessel + 1}`;
@@ -74,10 +73,9 @@ function deviceText(): string {
     return started.device ? `GPU: ${started.device}` : 'GPU';
   }
   const threads = started.threads === 1 ? '1 thread' : `${started.threads} threads`;
-  return `CPU: ${threads}${started.isIsolated ? '' : ', as the page is not cross-origin isolated'}`;
+  return `CPU: ${threads}${started.isIsolated ? '' : ', because the page is not cross-origin isolated'}`;
 }
 
-/** What was odd about the scan, one sentence each. */
 function Notes() {
   const menu = useClosing();
   const notes = store.notes.value;

@@ -1,9 +1,9 @@
-/** A stenosis that the reader marked: never a percentage without its method, its references and mm. */
+/** The marked stenosis: a percentage always with its method, references and mm. */
 import type { StenosisMethod, Territory } from '../core/messages';
 import { STENOSIS_METHODS } from '../core/method-names';
 import { answers, currentMarks, currentPlaces } from '../measure/current';
 import { changeMarks, confirmAll } from '../measure/editing';
-import { notGradedWords, stenosisWords, told } from '../measure/words';
+import { notGradedWords, stenosisWords, withKnownUnits } from '../measure/words';
 import { attempt } from '../output/attempt';
 import { saveReport } from '../output/report';
 import type { VesselMarks } from '../state/document';
@@ -40,23 +40,27 @@ export function StenosisPart() {
         {marks.method === 'ecst' && (
           <Length
             name="Original diameter"
+            title="Diameter of the vessel before the stenosis formed, as ECST defines it (mm)"
             value={marks.original}
             onGive={(original) => set('give the original diameter', { original })}
           />
         )}
         {marks.method === 'nascet' && (
           <Length
-            name="Other side"
+            name="Contralateral"
+            title="Diameter of the same artery on the other side (mm); needed to detect a near-occlusion"
             value={marks.comparison}
-            onGive={(comparison) => set('give the diameter of a vessel like it', { comparison })}
+            onGive={(comparison) => set('give the contralateral diameter', { comparison })}
           />
         )}
-        <label>
-          Groups
+        <label title="Reports the severity category of NASCET (carotid) or CAD-RADS 2.0 (coronary)">
+          Severity category
           <select
             value={marks.group ?? ''}
             onChange={(event) =>
-              set('choose the groups', { group: (event.currentTarget.value || null) as Territory | null })
+              set('choose the severity category', {
+                group: (event.currentTarget.value || null) as Territory | null,
+              })
             }
           >
             <option value="">none</option>
@@ -73,21 +77,20 @@ function set(words: string, some: Partial<VesselMarks>): void {
   changeMarks(words, (marks) => ({ ...marks, ...some }));
 }
 
-/** What was graded, or why it is not. */
 function Result({ marks }: { readonly marks: VesselMarks }) {
   const { stenosis } = answers.value;
   if (stenosis) {
     return (
       <div role="status" data-testid="stenosis">
         <p class="graded">{stenosisWords(stenosis)}</p>
-        {stenosis.group && <p>{`Group of the field: ${told(stenosis.group)}`}</p>}
+        {stenosis.group && <p>{`Severity category: ${withKnownUnits(stenosis.group)}`}</p>}
       </div>
     );
   }
   return <NotGraded marks={marks} />;
 }
 
-/** What makes the percentage doubtful, or that of the places that are offered. */
+/** Doubts about the percentage, or about the suggested places. */
 function Doubts() {
   const { doubts } = answers.value;
   return doubts.length > 0 ? (
@@ -98,9 +101,9 @@ function Doubts() {
 }
 
 const NOTHING_MARKED =
-  'Nothing is marked. Look at the suggested places, drag them where they belong, or confirm them.';
+  'Nothing is marked. Check the suggested places, drag them where they belong, or confirm them.';
 
-/** A reference alone is no mistake: what a percentage needs beside it is said quietly. */
+/** Not an error, so shown without emphasis. */
 const ONLY_REFERENCES = 'A reference is marked. "Narrowest here" adds a percentage.';
 
 function NoPercentage({ marks }: { readonly marks: VesselMarks }) {
@@ -128,14 +131,14 @@ function NotGraded({ marks }: { readonly marks: VesselMarks }) {
 
 interface LengthProps {
   readonly name: string;
+  readonly title?: string;
   readonly value: number | null;
   onGive(value: number | null): void;
 }
 
-/** A diameter that the reader gives (mm). */
-function Length({ name, value, onGive }: LengthProps) {
+function Length({ name, title, value, onGive }: LengthProps) {
   return (
-    <label>
+    <label title={title}>
       {name}
       <span>
         <input

@@ -1,16 +1,15 @@
-/** Cleaning a tree: limits mark what is short or thin, one button removes it, another one all that is not connected. */
+/** Cleaning up: limits mark short or thin vessels; buttons remove them, or everything unconnected. */
 import type { Signal } from '@preact/signals';
 import { engine } from '../client/shared';
-import { apart, factsOf, keepPart, marked, reachOf, removeMarked, sure } from '../edit/tidying';
+import { factsOf, keepPart, marked, reachOf, removeMarked, sure, unconnected } from '../edit/tidying';
 import { hasMillimetres } from '../state/millimetres';
 import { shorterThan, thinnerThan } from '../state/tidy';
 
-/** Below these (mm) lies what most readers remove; the numbers beside the sliders take larger ones. */
+/** Usual slider ranges (mm); the number fields accept more. */
 const USUAL_LENGTH = 60;
 const USUAL_CALIBRE = 10;
 
 export function TidyPart() {
-  // One vessel alone has nothing to be told apart from.
   if (sure.value.length < 2) {
     return null;
   }
@@ -31,12 +30,12 @@ export function TidyPart() {
         </button>
         <button
           type="button"
-          disabled={apart.value.length === 0}
-          title="Removes all vessels that do not hang together with the picked one"
+          disabled={unconnected.value.length === 0}
+          title="Removes all vessels that are not connected to the picked one"
           onClick={() => void keepPart(engine)}
         >
-          {apart.value.length > 0
-            ? `Keep only this tree (removes ${apart.value.length})`
+          {unconnected.value.length > 0
+            ? `Keep only this tree (removes ${unconnected.value.length})`
             : 'Keep only this tree'}
         </button>
       </div>
@@ -58,10 +57,10 @@ interface LimitProps {
   readonly step: number;
 }
 
-/** A limit (mm), by a slider or as a number, which may lie beyond the end of the slider. */
+/** A limit (mm) as slider and number; the number may exceed the slider. */
 function Limit({ words, limit, most, step }: LimitProps) {
   const take = (event: { readonly currentTarget: HTMLInputElement }) => {
-    // A field that is being emptied is no number: it marks nothing.
+    // An emptied field marks nothing.
     limit.value = Math.max(Number(event.currentTarget.value), 0);
   };
   const unit = hasMillimetres.value ? ' (mm)' : '';

@@ -1,4 +1,4 @@
-/** The bar at the top: the modes, the list of vessels, saving, the window, the layout and what is for research. */
+/** Top bar: modes, vessel list, saving, window, layout and research. */
 import { engine } from '../client/shared';
 import { isListOpen } from '../edit/list-open';
 import { performAny } from '../edit/performing';
@@ -63,7 +63,6 @@ function LayoutChoice() {
   );
 }
 
-/** Opens and closes the list of vessels. */
 function ListButton() {
   return store.hasVolume.value ? (
     <button

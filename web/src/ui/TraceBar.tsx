@@ -1,4 +1,4 @@
-/** What can be done next about vessels, over the views: the offer to trace, what a click does now, and a doubtful branch. */
+/** Bar over the views: the offer to trace, the effect of the next click, and the doubtful branch. */
 import { useSignal } from '@preact/signals';
 import { engine } from '../client/shared';
 import { findAndList } from '../edit/branches';
@@ -9,7 +9,7 @@ import { chosenDoubt, isTracing } from '../edit/mode';
 import { performAny } from '../edit/performing';
 import { acceptCandidate, endVessel } from '../edit/pointing';
 import { STOPPER } from '../edit/stoppers';
-import { told } from '../edit/telling';
+import { tracedSummary } from '../edit/traced-summary';
 import { takeWhole } from '../edit/whole';
 import { only, whole } from '../edit/whole-shown';
 import { nameOf, vesselOf } from '../state/changes';
@@ -17,14 +17,14 @@ import { document_ } from '../state/history';
 import { hasVolume, report } from '../state/store';
 import { type Tool, tool } from '../state/tool';
 import { OpenMore } from './OpenButtons';
-import { ToldVessel } from './ToldVessel';
+import { TracedSummary } from './TracedSummary';
 
 export function TraceBar() {
   const doubt = vesselOf(document_.value, chosenDoubt.value);
   if (isTracing()) {
     return <Hint />;
   }
-  // A vessel that was ended is not there yet as long as its points are traced.
+  // An ended vessel appears once its points are traced.
   if (coming.value.length > 0) {
     return (
       <div class="trace-bar" role="status">
@@ -40,7 +40,6 @@ export function TraceBar() {
   ) : null;
 }
 
-/** Without centerlines the page offers to find and to trace them. */
 function Offer() {
   const isClosed = useSignal(false);
   if (isClosed.value) {
@@ -52,7 +51,7 @@ function Offer() {
       <button
         type="button"
         disabled={waiting.value > 0}
-        title="All vessels that are brighter than the tissue around them"
+        title="Finds all vessels that are brighter than the surrounding tissue"
         onClick={() => void findAndList(engine)}
       >
         Find all vessels
@@ -75,19 +74,19 @@ function Offer() {
 }
 
 const WHOLE =
-  'From the nearest vessel of the list to its end (w). The first time all vessels of the scan are looked for.';
+  'Takes the vessel from its parent in the list to its end (w). The first use searches the whole scan.';
 
-/** What the next click does. */
 function Hint() {
   const take = (wanted: Tool) => () => {
     tool.value = wanted;
   };
-  // Not while a point waits that may begin another vessel, nor while one is traced.
-  const isTold = waiting.value === 0 && !candidate.value && (!isDrawing.value || drawn.value !== null);
+  // Not while a point waits or is being traced.
+  const isSummaryShown =
+    waiting.value === 0 && !candidate.value && (!isDrawing.value || drawn.value !== null);
   return (
     <div class="trace-bar" role="status">
-      {isTold && <ToldVessel />}
-      {!(isTold && told.value?.doubts.length) && <span>{hintWords()}</span>}
+      {isSummaryShown && <TracedSummary />}
+      {!(isSummaryShown && tracedSummary.value?.doubts.length) && <span>{hintWords()}</span>}
       {candidate.value && (
         <button type="button" onClick={() => acceptCandidate(engine)}>
           Set the point here
@@ -106,7 +105,7 @@ function Hint() {
       {tool.value !== 'seed' && (
         <button
           type="button"
-          title={tool.value === 'trace' ? STOPPER : 'Go on with the points of vessels'}
+          title={tool.value === 'trace' ? STOPPER : 'Continue with vessel points'}
           onClick={take(tool.value === 'trace' ? 'stopper' : 'trace')}
         >
           {tool.value === 'trace' ? 'Stopper' : 'Trace'}
@@ -121,13 +120,13 @@ function Hint() {
 
 function hintWords(): string {
   if (waiting.value > 0) {
-    return searches.value > 0 ? 'Looking for vessels …' : 'Tracing …';
+    return searches.value > 0 ? 'Searching for vessels …' : 'Tracing …';
   }
   if (candidate.value) {
-    return 'The brightest place under the pointer. Is it right in the slices? Then click it again. If it is not the vessel, click it in a slice.';
+    return 'This is the brightest place under the pointer. If the slices show your vessel there, click it again; otherwise click the vessel in a slice.';
   }
   if (tool.value === 'seed') {
-    return 'Click where the tree begins, or press Enter at the cross-hair: all branches from there are looked for.';
+    return 'Click where the tree begins, or press Enter at the cross-hair, to find all branches from there.';
   }
   if (tool.value === 'stopper') {
     return 'Click, or press Enter at the cross-hair, where no vessel may pass.';
@@ -141,7 +140,7 @@ function hintWords(): string {
     : 'Click, or press Enter at the cross-hair, where a vessel begins.';
 }
 
-/** The doubtful branch that is chosen: what speaks against it, and the answer, after which the next one is shown. */
+/** The selected doubtful branch; answering shows the next one. */
 function Doubt({ words }: { readonly words: string }) {
   const [place, count] = placeOfDoubt();
   return (
@@ -155,11 +154,11 @@ function Doubt({ words }: { readonly words: string }) {
       </button>
       {count > 1 && (
         <>
-          <button type="button" aria-label="The one before (,)" onClick={() => stepDoubt(engine, -1)}>
+          <button type="button" aria-label="Previous (,)" onClick={() => stepDoubt(engine, -1)}>
             ‹
           </button>
           <span>{`${place + 1} of ${count}`}</span>
-          <button type="button" aria-label="The next one (.)" onClick={() => stepDoubt(engine, 1)}>
+          <button type="button" aria-label="Next (.)" onClick={() => stepDoubt(engine, 1)}>
             ›
           </button>
         </>

@@ -1,4 +1,4 @@
-/** Undo and redo of everything: edits of vessels, marks, and the window. */
+/** Buttons for undo and redo. */
 import { engine } from '../client/shared';
 import { performAny } from '../edit/performing';
 import { redoWords, undoWords } from '../state/history';

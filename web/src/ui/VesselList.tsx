@@ -1,4 +1,4 @@
-/** The list of vessels: their names, colours and lengths, and what can be done with all of them. */
+/** The vessel list, with actions on all vessels. */
 
 import { engine } from '../client/shared';
 import { namesToOffer } from '../edit/anatomy';
@@ -27,7 +27,7 @@ export function VesselList() {
   return (
     <aside class="vessels" aria-label="List of vessels">
       <Closing />
-      <Means />
+      <AddButtons />
       <DoubtfulPart vessels={doubtful(document_.value)} />
       <TidyPart />
       {document_.value.vessels.length === 0 ? <p class="notice">No vessels yet.</p> : null}
@@ -62,11 +62,10 @@ export function VesselList() {
   );
 }
 
-/** Shows the list as a tree, or as the vessels came. */
 function TreeChoice() {
   return (
     <div class="buttons">
-      <label title="Branches stand under the vessel that they hang on, the widest first">
+      <label title="Lists each branch under its parent vessel, the widest first">
         <input
           type="checkbox"
           checked={isTreeShown.value}
@@ -80,7 +79,6 @@ function TreeChoice() {
   );
 }
 
-/** The way out of the list. */
 function Closing() {
   return (
     <div class="buttons">
@@ -98,20 +96,19 @@ function Closing() {
   );
 }
 
-/** How vessels come to the list. */
-function Means() {
+function AddButtons() {
   return (
     <div class="buttons">
       <button
         type="button"
-        title="All vessels that are brighter than the tissue around them"
+        title="Finds all vessels that are brighter than the surrounding tissue"
         onClick={() => void findVessels(engine)}
       >
         Find all vessels
       </button>
       <button
         type="button"
-        title="From the cross-hair where you put it, else from a click (b)"
+        title="Searches from the cross-hair if you placed it, otherwise from your next click (b)"
         onClick={() => performAny(engine, 'branches')}
       >
         All branches from here
@@ -121,7 +118,7 @@ function Means() {
           Stopper
         </button>
       )}
-      <label title="A vessel goes on where no lumen is seen between two clicks, as in an occlusion; without it such a click is refused">
+      <label title="Continues a vessel where no lumen is visible between two clicks, as in an occlusion. Otherwise such a click is rejected.">
         <input
           type="checkbox"
           checked={document_.value.bridge}

@@ -1,4 +1,4 @@
-/** A vessel of the list; the one that is picked shows what can be done with it. */
+/** A row of the vessel list; the picked vessel shows its actions. */
 import { useEffect, useRef, useState } from 'preact/hooks';
 import { engine } from '../client/shared';
 import type { DocumentVessel } from '../core/messages';
@@ -14,29 +14,27 @@ import { document_ } from '../state/history';
 import { hasMillimetres } from '../state/millimetres';
 import { PALETTE } from '../state/palette';
 import { pickedPlace, report } from '../state/store';
-import { lit } from '../state/tidy';
+import { highlighted } from '../state/tidy';
 import { active, tool } from '../state/tool';
 import { BestViewButton } from './BestViewButton';
 
-/** The id of the names that the fields of the rows offer. */
 export const NAMES_TO_OFFER = 'names-to-offer';
 
 interface RowProps {
   readonly vessel: DocumentVessel;
 }
 
-/** The indents of a tree that the narrow list has room for beside a name and its number, and how wide one is (CSS pixels). */
+/** Deepest indent, and its width (CSS pixels), that fit the narrow list. */
 const DEEPEST = 4;
 const INDENT = 7;
 
-/** From here on (mm) the parts of a diameter are left out in the list. */
-const WIDE = 9.95;
+const NO_DECIMALS_FROM_MM = 9.95;
 
 export function VesselRow({ vessel, depth }: RowProps & { readonly depth: number }) {
   const isPicked = vessel.id === pickedId();
   const name = nameOf(vessel);
   const row = useRef<HTMLLIElement>(null);
-  // In a long list the picked vessel may be far below, as after a click in a view.
+  // Scrolls to a vessel picked in a view.
   useEffect(() => {
     if (isPicked) {
       row.current?.scrollIntoView({ block: 'nearest' });
@@ -74,7 +72,7 @@ export function VesselRow({ vessel, depth }: RowProps & { readonly depth: number
       >
         {vessel.isHidden ? '◌' : '◉'}
       </button>
-      {isPicked && !vessel.isHidden ? <Means vessel={vessel} /> : null}
+      {isPicked && !vessel.isHidden ? <VesselActions vessel={vessel} /> : null}
     </li>
   );
 }
@@ -82,20 +80,16 @@ export function VesselRow({ vessel, depth }: RowProps & { readonly depth: number
 const rowClass = (isPicked: boolean, isMarked: boolean): string =>
   `${isPicked ? 'picked' : ''}${isMarked ? ' marked' : ''}`;
 
-/** What a row does while the pointer is over it: its vessel is lit in all views. */
 export const lighting = ({ id }: DocumentVessel) => ({
   onPointerEnter: () => {
-    lit.value = id;
+    highlighted.value = id;
   },
   onPointerLeave: () => {
-    lit.value = lit.value === id ? null : lit.value;
+    highlighted.value = highlighted.value === id ? null : highlighted.value;
   },
 });
 
-/**
- * The name of a vessel: a click picks its vessel; a click on that of the picked one, a double click, Enter and F2 begin to change it,
- * and what is typed counts when that is done.
- */
+/** The name: a click picks the vessel; a click on the picked one, double click, Enter or F2 starts editing. */
 function NameField({ vessel, isPicked }: RowProps & { readonly isPicked: boolean }) {
   const [typed, setTyped] = useState<string | null>(null);
   const begin = (field: HTMLInputElement) => {
@@ -127,14 +121,13 @@ function NameField({ vessel, isPicked }: RowProps & { readonly isPicked: boolean
   );
 }
 
-/** A vessel that is hidden has no place in the views that could be shown. */
 function pickShown(vessel: DocumentVessel): void {
   if (!vessel.isHidden) {
     void pick(vessel);
   }
 }
 
-/** The length of a vessel; as long as it is traced anew, what it was, and where that is not known yet, no number. */
+/** Keeps the previous length while the vessel is retraced; `…` if unknown. */
 function lengthText({ id, line }: DocumentVessel): string {
   const shown = report.value?.vessels ?? [];
   const before = shown[tree.value.findIndex((vessel) => vessel.id === id)];
@@ -143,12 +136,12 @@ function lengthText({ id, line }: DocumentVessel): string {
   return length > 0 ? length.toFixed(1) : '…';
 }
 
-/** The median diameter of a vessel before its whole length, where it is known: short, so that its name has room. */
+/** Median diameter × length, kept short for the name. */
 function sizeText(vessel: DocumentVessel): string {
   const { calibre = null, length } = factsOf(vessel) ?? {};
   return calibre === null || length === undefined
     ? lengthText(vessel)
-    : `${calibre.toFixed(calibre < WIDE ? 1 : 0)} × ${length.toFixed(0)}`;
+    : `${calibre.toFixed(calibre < NO_DECIMALS_FROM_MM ? 1 : 0)} × ${length.toFixed(0)}`;
 }
 
 function calibreWords(vessel: DocumentVessel): string {
@@ -156,7 +149,7 @@ function calibreWords(vessel: DocumentVessel): string {
   const trunk = sure.value.find((one) => one.line === parent);
   return [
     ...(calibre === null ? [] : [`median diameter ${calibre.toFixed(1)}`]),
-    ...(trunk ? [`hangs on ${nameOf(trunk)}`] : []),
+    ...(trunk ? [`branch of ${nameOf(trunk)}`] : []),
   ].join(', ');
 }
 
@@ -178,8 +171,7 @@ function ColorChoice({ vessel }: RowProps) {
   );
 }
 
-/** What can be done with the vessel that is picked. */
-function Means({ vessel }: RowProps) {
+function VesselActions({ vessel }: RowProps) {
   const { id } = vessel;
   const others = document_.value.vessels.filter((one) => one.id !== id && one.doubt === null);
   const goOn = () => {
@@ -190,13 +182,13 @@ function Means({ vessel }: RowProps) {
     <div class="buttons">
       <BestViewButton />
       {vessel.clicks && (
-        <button type="button" title="Add points at its end" onClick={goOn}>
-          Go on
+        <button type="button" title="Adds points at its end" onClick={goOn}>
+          Extend
         </button>
       )}
       <button
         type="button"
-        title="Cut it where the section stands"
+        title="Cuts the vessel at the section"
         onClick={() => void cut(engine, id, pickedPlace.value)}
       >
         Cut here
@@ -222,7 +214,7 @@ function Means({ vessel }: RowProps) {
   );
 }
 
-/** Shows a vessel in all views, at half its length; one that was hidden until now as soon as the engine shows it. */
+/** Shows a vessel in all views at half its length; a hidden one once displayed. */
 async function pick({ id }: DocumentVessel): Promise<void> {
   pickOnceShown(id);
   const vessel = tree.value.findIndex((one) => one.id === id);

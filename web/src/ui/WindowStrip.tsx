@@ -1,4 +1,4 @@
-/** The window over the histogram of the volume: its ends and its middle can be dragged, and moved by arrow keys. */
+/** The window over the histogram; its ends and middle are dragged or moved by arrow keys. */
 import { useRef } from 'preact/hooks';
 import type { Histogram, Window } from '../core/messages';
 import { choosePreset, setWindow } from '../state/actions';
@@ -55,12 +55,12 @@ export function WindowStrip() {
   );
 }
 
-/** The window between black and white; white stays above black. */
+/** White stays above black. */
 function between(low: number, high: number): Window {
   return [(low + high) / 2, Math.max(high - low, 1e-3)];
 }
 
-/** Values along the strip: from the darkest to somewhat above the window of the data, so that metal does not press all else together. */
+/** Value axis: cut off above the data window, so that metal does not compress the rest. */
 class Scale {
   readonly low: number;
   readonly high: number;
@@ -79,7 +79,7 @@ class Scale {
   }
 }
 
-/** The counts as a filled line; of each the logarithm, as few values are most of the voxels. */
+/** Logarithmic counts, because few values dominate. */
 function outline({ low, high, counts }: Histogram, scale: Scale): string {
   const most = Math.log1p(Math.max(...counts, 1));
   const step = (high - low) / counts.length;

@@ -1,8 +1,7 @@
-/** Menus that close by themselves: after a choice, by Escape, and by a press elsewhere. */
+/** Menus that close after a choice, by Escape, and by a press elsewhere. */
 import type { RefObject } from 'preact';
 import { useEffect, useRef } from 'preact/hooks';
 
-/** The menu that is to close so. */
 export function useClosing(): RefObject<HTMLDetailsElement | null> {
   const menu = useRef<HTMLDetailsElement>(null);
   useEffect(() => {
@@ -16,7 +15,6 @@ export function useClosing(): RefObject<HTMLDetailsElement | null> {
     };
     const keyed = (event: KeyboardEvent) => {
       if (event.key === 'Escape' && menu.current?.open) {
-        // It closes the menu alone, and takes nothing else back.
         event.stopPropagation();
         close();
         menu.current.querySelector('summary')?.focus();

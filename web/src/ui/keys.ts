@@ -1,4 +1,4 @@
-/** The keys of the page; those that are typed into a field belong to the field. */
+/** Global keys; text fields keep their own. */
 import { engine } from '../client/shared';
 import { isTracing } from '../edit/mode';
 import { performAny } from '../edit/performing';
@@ -22,10 +22,10 @@ export function listenToKeys(): void {
   });
 }
 
-/** Keys that no field has a use for. */
+/** Keys that no field uses. */
 const isOfAll = (action: Action): boolean => ['cancel', 'save session', 'save report'].includes(action);
 
-/** The focus goes where the keys that follow are meant for. */
+/** Focuses the view that the next keys are for. */
 function follow(action: Action): void {
   if (action === 'trace' && isTracing()) {
     focusSoon('[data-testid="coronal"]');
@@ -36,7 +36,6 @@ function follow(action: Action): void {
   }
 }
 
-/** Whether a key presses what has the focus. */
 function isPress(target: EventTarget | null, key: string): boolean {
   const isPressed =
     target instanceof HTMLButtonElement ||
@@ -45,7 +44,7 @@ function isPress(target: EventTarget | null, key: string): boolean {
   return isPressed && (key === ' ' || key === 'Enter');
 }
 
-/** Whether keys are typed into what has the focus: it is no box that is only checked, and no name before it is changed. */
+/** Text input, except checkboxes, radios and read-only names. */
 function isField(target: EventTarget | null): boolean {
   const isBox = target instanceof HTMLInputElement && ['checkbox', 'radio'].includes(target.type);
   return (

@@ -1,7 +1,4 @@
-/**
- * The view in the address: camera, window, settings, layout. It holds nothing of the patient: no name of a file, no value of
- * a voxel. What cannot be read is left out.
- */
+/** The view in the page's address: camera, window, settings, layout, but no patient data. Ignores invalid parts. */
 import { batch, effect } from '@preact/signals';
 import type { Camera, Method, SettingRow, Settings, Vector } from '../core/messages';
 import { VIEW_METHODS } from '../core/method-names';
@@ -9,11 +6,9 @@ import { dot, length } from '../core/vectors';
 import { destination } from '../state/flight';
 import * as store from '../state/store';
 
-/** How long nothing changes before the address does (ms). */
-const QUIET = 250;
+const WRITE_DELAY_MS = 250;
 const METHODS: readonly Method[] = VIEW_METHODS.map(([name]) => name);
 
-/** What the address says of a view. */
 export interface ViewState {
   readonly camera?: Omit<Camera, 'size'> & { readonly height: number };
   readonly window?: readonly [number, number];
@@ -27,12 +22,11 @@ export interface ViewState {
   readonly hair?: Vector;
 }
 
-/** The state as the part of an address behind `#`. */
 export function fragmentOf(state: ViewState): string {
   return `v1=${encodeURIComponent(JSON.stringify(state))}`;
 }
 
-/** The state that a fragment tells; none where it tells nothing that can be read. */
+/** Null if nothing valid is found. */
 export function stateOf(fragment: string): ViewState | null {
   const text = new URLSearchParams(fragment.replace(/^#/, '')).get('v1');
   if (text === null) {
@@ -46,9 +40,9 @@ export function stateOf(fragment: string): ViewState | null {
   }
 }
 
-/** Beyond this neither a place (mm) nor a value of a scan lies; arithmetic with it is still exact enough. */
+/** Limit of positions (mm) and values that keeps arithmetic exact enough. */
 const LARGEST = 1e6;
-/** Of axes that are unit vectors at right angles, by how much their products may be off. */
+/** Tolerance of dot products of orthonormal axes. */
 const ROUNDING = 1e-3;
 
 const isNumber = (value: unknown): value is number => typeof value === 'number' && Math.abs(value) <= LARGEST;
@@ -84,7 +78,6 @@ function isCamera(value: unknown): value is NonNullable<ViewState['camera']> {
   return isVector(center) && areAxes(direction, up) && isPositive(pixel_spacing) && isPositive(height);
 }
 
-/** Whether two vectors can be the axes of a camera. */
 function areAxes(direction: unknown, up: unknown): boolean {
   const isZero = (number: number) => Math.abs(number) < ROUNDING;
   return (
@@ -96,7 +89,6 @@ function areAxes(direction: unknown, up: unknown): boolean {
   );
 }
 
-/** The view as it is now. */
 export function currentState(): ViewState {
   const camera = store.camera.value;
   const hair = store.crossHair.value;
@@ -125,7 +117,6 @@ export function currentState(): ViewState {
 
 const short = (value: number): number => Math.round(value * 1000) / 1000;
 
-/** Shows what an address tells, over what is shown. */
 export function restore(state: ViewState): void {
   batch(() => {
     const size = store.camera.value?.size ?? ([512, 512] as const);
@@ -159,7 +150,6 @@ export function restore(state: ViewState): void {
   });
 }
 
-/** The settings that the table knows, where their values are of their kind and within their range. */
 function knownSettings(settings: Settings): Settings {
   const rows = new Map(store.started.value?.table.map((row) => [row.name, row]));
   const fits = ([name, value]: [string, unknown]) => {
@@ -169,12 +159,11 @@ function knownSettings(settings: Settings): Settings {
   return Object.fromEntries(Object.entries(settings).filter(fits));
 }
 
-/** A length of a focus (mm) within the range that the core allows. */
+/** A focus length (mm) within the core's range. */
 function isLength(value: unknown): boolean {
   return isNumber(value) && Math.abs(value) <= 1e6;
 }
 
-/** Red, green or blue of a colour. */
 function isChannel(value: unknown): boolean {
   return Number.isInteger(value) && Number(value) >= 0 && Number(value) <= 255;
 }
@@ -204,7 +193,7 @@ function isValueOf(row: SettingRow, value: unknown): boolean {
   }
 }
 
-/** Writes the view into the address from now on, some time after it changed; `data-address` of the page says whether it is there. */
+/** Writes the view to the address with a delay; `data-address` of the page shows whether it is current. */
 export function followView(): void {
   let timer = 0;
   const { dataset } = document.documentElement;
@@ -213,12 +202,12 @@ export function followView(): void {
     const isOpen = store.report.value !== null;
     window.clearTimeout(timer);
     dataset.address = isOpen ? 'pending' : 'none';
-    // A view on the way to another is none to come back to.
+    // Views during a flight are not stored.
     if (isOpen && !destination.value) {
       timer = window.setTimeout(() => {
         history.replaceState(null, '', `#${fragmentOf(state)}`);
         dataset.address = 'written';
-      }, QUIET);
+      }, WRITE_DELAY_MS);
     }
   });
 }

@@ -9,7 +9,6 @@ import { FlatPicture } from '../pane/FlatPicture';
 import { dragWindow, windowBack } from '../state/actions';
 import * as store from '../state/store';
 
-/** The width that is shown (mm). */
 const WIDTH = 50;
 
 export function CprView() {

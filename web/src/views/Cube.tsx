@@ -1,4 +1,4 @@
-/** A small cube with the sides of the patient, turned as the view is. */
+/** Orientation cube. */
 import { rightOf } from '../core/camera';
 import type { Camera, Vector } from '../core/messages';
 import { dot } from '../core/vectors';

@@ -1,4 +1,4 @@
-/** Letters at the edges of a view, and its scale bar. */
+/** Orientation letters and scale bar. */
 import type { Pair, PictureLabels, Vector } from '../core/messages';
 import { hasMillimetres } from '../state/millimetres';
 import { states } from '../state/store';
@@ -7,9 +7,7 @@ import { useLabels } from './labels';
 interface EdgeLabelsProps {
   readonly right: Vector;
   readonly down: Vector;
-  /** CSS pixels. */
   readonly size: Pair;
-  /** mm per CSS pixel. */
   readonly spacing: number;
 }
 

@@ -1,4 +1,4 @@
-/** The section across the lumen under the pointer, beside it: what a click would take, with its diameter and its value. */
+/** Section of the lumen under the pointer, with its diameter and value: what a click would take. */
 import { useEffect, useRef } from 'preact/hooks';
 import { engine } from '../client/shared';
 import { Latest } from '../core/latest';
@@ -8,15 +8,14 @@ import { isTracing } from '../edit/mode';
 import { hasMillimetres } from '../state/millimetres';
 import { isInverted, type ViewName, window_ } from '../state/store';
 
-/** The side of the picture, and how far it is from the pointer (CSS pixels). */
+/** Side of the picture, and distance from the pointer (CSS pixels). */
 const SIDE = 120;
-const AWAY = 18;
-/** How high it is with its words. */
+const POINTER_GAP_PX = 18;
 const HEIGHT = SIDE + 60;
 
-/** The picture is so many diameters wide, and no less than this (mm). */
+/** Width in lumen diameters, and its minimum (mm). */
 const DIAMETERS = 4;
-const LEAST = 16;
+const MIN_WIDTH_MM = 16;
 
 export function LumenInset({ view, size }: { readonly view: ViewName; readonly size: Pair }) {
   const now = pointed.value;
@@ -26,7 +25,7 @@ export function LumenInset({ view, size }: { readonly view: ViewName; readonly s
   }
   const [x, y] = now.at;
   const beside = (at: number, own: number, all: number) =>
-    at + AWAY + own > all ? at - AWAY - own : at + AWAY;
+    at + POINTER_GAP_PX + own > all ? at - POINTER_GAP_PX - own : at + POINTER_GAP_PX;
   const style = { left: `${beside(x, SIDE, size[0])}px`, top: `${beside(y, HEIGHT, size[1])}px` };
   const count = now.lumens.length;
   return (
@@ -52,7 +51,7 @@ function Section({ lumen }: { readonly lumen: PointedLumen }) {
   const window = window_.value;
   useEffect(() => {
     const { center, right, down, diameter } = lumen;
-    const pixel_spacing = Math.max(DIAMETERS * diameter, LEAST) / SIDE;
+    const pixel_spacing = Math.max(DIAMETERS * diameter, MIN_WIDTH_MM) / SIDE;
     const plane: Plane = { center, right, down, size: [SIDE, SIDE], pixel_spacing };
     latest.current.run(async () => {
       const picture = await engine.ask('slice', { plane, window }).catch(() => null);

@@ -1,4 +1,4 @@
-/** The picked vessel among others in the turning view: outlined in its colour outside of its wall, with its name. */
+/** Outline and name of the picked vessel in the turning view. */
 import type { LineContent } from '../core/messages';
 import { contents } from '../edit/lines';
 import { isTracing } from '../edit/mode';
@@ -9,11 +9,10 @@ import { pickedVessel } from '../state/store';
 import { type Disc, hullPath, thinned } from './hull';
 import type { Projection } from './projection';
 
-/** The outline lies outside of the wall, which stays free (CSS pixels). */
+/** Distance of the outline from the wall (CSS pixels). */
 const GAP = 2;
 const WIDTH = 2;
-/** The width of a vessel whose radius is not known (mm). */
-const UNKNOWN = 1;
+const DEFAULT_RADIUS_MM = 1;
 
 export function PickedOutline({ projection }: { readonly projection: Projection }) {
   const vessel = tree.value[pickedVessel.value ?? -1];
@@ -42,11 +41,10 @@ export function PickedOutline({ projection }: { readonly projection: Projection 
 function discsOf({ points, radius }: LineContent, projection: Projection): readonly Disc[] {
   return points.map((point, n) => ({
     at: projection.pixel(point),
-    radius: (radius?.[n] ?? UNKNOWN) / projection.spacing,
+    radius: (radius?.[n] ?? DEFAULT_RADIUS_MM) / projection.spacing,
   }));
 }
 
-/** The middle one of the discs that are seen. */
 function nameAt(discs: readonly Disc[], { size }: Projection): Disc | undefined {
   const seen = discs.filter(({ at: [x, y] }) => x > 0 && y > 0 && x < size[0] && y < size[1]);
   return seen[Math.floor(seen.length / 2)];

@@ -1,4 +1,4 @@
-/** Places over a view that are no points of a vessel: those that wait to become one, and the one where no lumen was found. */
+/** Markers over a view that are not vessel points: pending points, and the least lumen-like point. */
 import type { Failure } from '../core/failure';
 import type { Vector } from '../core/messages';
 import { isGap, refusal } from '../edit/committing';
@@ -9,17 +9,17 @@ import type { Projection } from './projection';
 
 export function Places({ projection }: { readonly projection: Projection }) {
   const refused = refusal.value?.failure;
-  // What was closed is no longer pointed at.
+  // A closed message is no longer shown.
   const weakest = refused && refused === problem.value ? refused.place : null;
   return (
     <>
-      {first.value && <Place kind="first" point={first.value} projection={projection} />}
+      {first.value && <PointMarker kind="first" point={first.value} projection={projection} />}
       {coming.value.map(({ point }) => (
-        <Place key={point.join()} kind="coming" point={point} projection={projection} />
+        <PointMarker key={point.join()} kind="coming" point={point} projection={projection} />
       ))}
-      {candidate.value && <Place kind="candidate" point={candidate.value} projection={projection} />}
+      {candidate.value && <PointMarker kind="candidate" point={candidate.value} projection={projection} />}
       {weakest && (
-        <Place
+        <PointMarker
           kind="weakest"
           point={weakest}
           projection={projection}
@@ -32,18 +32,18 @@ export function Places({ projection }: { readonly projection: Projection }) {
 
 function wordsOf(failure: Failure): string {
   const { value } = failure;
-  const words = isGap(failure) ? 'least like lumen here' : 'here';
+  const words = isGap(failure) ? 'least lumen-like point' : 'here';
   return value === null ? words : `${words}: ${Number.isInteger(value) ? value : value.toFixed(1)}`;
 }
 
-interface PlaceProps {
+interface PointMarkerProps {
   readonly kind: string;
   readonly point: Vector;
   readonly projection: Projection;
   readonly words?: string;
 }
 
-function Place({ kind, point, projection, words }: PlaceProps) {
+function PointMarker({ kind, point, projection, words }: PointMarkerProps) {
   const [left, top] = projection.pixel(point);
   const isFar = !isNear(projection, point);
   return (

@@ -1,4 +1,4 @@
-/** A reformation of the picked vessel, or of all vessels, in the place of the straightened CPR. */
+/** Another reformation in place of the straightened CPR. */
 import { useCallback, useEffect, useRef, useState } from 'preact/hooks';
 import { engine } from '../client/shared';
 import { Failure } from '../core/failure';
@@ -14,7 +14,7 @@ import { mapOf, reformationOf, reformationTitle, uncurled } from '../state/refor
 import * as store from '../state/store';
 import { HairLines } from './TurningOverlay';
 
-/** What stands in the place of a picture that could not be made. */
+/** Placeholder for a picture that failed. */
 const NO_PICTURE = (): Picture => ({ size: [1, 1], bytes: new Uint8ClampedArray(4) });
 
 export function ReformedView({ kind }: { readonly kind: Reformation['kind'] }) {
@@ -97,23 +97,22 @@ export function ReformedView({ kind }: { readonly kind: Reformation['kind'] }) {
   );
 }
 
-/** Where a picture begins in its pane: it stands in the middle. */
 const begin = (pane: Pair, picture: Pair): Pair => [
   Math.floor((pane[0] - picture[0]) / 2),
   Math.floor((pane[1] - picture[1]) / 2),
 ];
 
-/** From where the turning view is seen once it rests: as it turns the reformation stays as it was. */
+/** View direction at rest: the reformation does not follow while the view turns. */
 function useSide(): Side | null {
   const kept = useRef<Side | null>(null);
-  const camera = store.settled.value ?? (kept.current ? null : store.camera.value);
+  const camera = store.completeCamera.value ?? (kept.current ? null : store.camera.value);
   if (camera) {
     kept.current = { direction: camera.direction, up: camera.up };
   }
   return kept.current;
 }
 
-/** Where the cross-hair is in the picture that is shown; null where it is not in it. */
+/** Cross-hair in the picture; null if outside. */
 function useHair(shown: ReformedPicture | null): Pair | null {
   const point = store.crossHair.value?.point ?? null;
   const [hair, setHair] = useState<Pair | null>(null);
@@ -123,9 +122,9 @@ function useHair(shown: ReformedPicture | null): Pair | null {
       setHair(null);
       return;
     }
-    // A study that was closed meanwhile has no place to tell.
-    const told = (place: Pair | null) => isWanted && setHair(place);
-    void engine.ask('on_reformed', point).then(told, () => told(null));
+    // The study may have been closed.
+    const showHair = (place: Pair | null) => isWanted && setHair(place);
+    void engine.ask('on_reformed', point).then(showHair, () => showHair(null));
     return () => {
       isWanted = false;
     };

@@ -1,4 +1,4 @@
-/** The section across the picked vessel. */
+/** Cross-section of the picked vessel. */
 import { useEffect, useState } from 'preact/hooks';
 import { engine } from '../client/shared';
 import type { Answer } from '../core/asked';
@@ -18,12 +18,11 @@ import { useAsked } from './asked';
 import { EdgeLabels } from './EdgeLabels';
 import { HairLines } from './TurningOverlay';
 
-/** The side of the section at first (mm). */
+/** Initial side (mm). */
 const FIRST_SIDE = 50;
-/** The step of the wheel along the vessel (mm). */
+/** Wheel step along the vessel (mm). */
 const STEP = 0.5;
 
-/** A section, and which place of which line it is of. */
 interface Frame extends Pick<Plane, 'center' | 'right' | 'down'> {
   readonly line: LineId | null;
   readonly at: number;
@@ -50,13 +49,13 @@ export function SectionView() {
     } else {
       const show = ([center, right, down]: Answer<'across'>) => setFrame({ center, right, down, line, at });
       engine.ask('across', { vessel, at }).then(show, (error) => {
-        // What was asked of a tree that is gone needs no answer.
+        // Ignore errors of outdated trees.
         if (line === pickedLine()) {
           recover(error);
         }
       });
     }
-    // Once the vessel is measured its section is the one that was, so that the contour lies in it.
+    // A measured vessel shows the measured plane, which contains the contour.
   }, [vessel, at, line, profile]);
 
   const plane = frame && size ? planeOf(frame, size, side) : null;

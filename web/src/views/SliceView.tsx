@@ -144,24 +144,23 @@ function sliceHandlers(
   };
 }
 
-/** Where the slices were looked at as the drag began that is under way, so that Escape puts it back. */
+/** Slice positions at the start of a drag, restored by Escape. */
 const atFirst: Partial<Record<SliceName, Look | null>> = {};
 
-/** Moves the cross-hair by slices: downwards on the wheel goes towards the feet, the back and the right. */
+/** Wheel down moves towards feet, back and right. */
 function scrollSlices(name: SliceName, steps: number): void {
   const [volume, hair] = [store.report.value?.volume, store.crossHair.value];
   if (volume && hair) {
     const { right, down } = AXES[name];
     const normal = cross(right, down);
-    const away = name === 'coronal' ? 1 : -1;
-    const step = scale(normal, steps * away * sliceDistance(volume, name));
+    const sign = name === 'coronal' ? 1 : -1;
+    const step = scale(normal, steps * sign * sliceDistance(volume, name));
     moveTo(name, add(hair.point, step));
   }
 }
 
 const moving = new Latest();
 
-/** Moves the cross-hair by a number of voxels within a slice; the live path follows it. */
 function moveCrossHair(name: SliceName, projection: Projection, by: Pair): void {
   const hair = store.crossHair.value;
   if (!hair) {
@@ -174,7 +173,7 @@ function moveCrossHair(name: SliceName, projection: Projection, by: Pair): void 
   });
 }
 
-/** Moves the cross-hair at once, so that no step is lost, and tells what is there when that is known. */
+/** Moves at once, so that no step is lost; the value follows later. */
 function moveTo(name: SliceName, point: Vector): void {
   store.crossHair.value = { point, value: null, vessel: null, arcLength: null };
   moving.run(async () => {

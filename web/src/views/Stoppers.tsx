@@ -1,4 +1,4 @@
-/** Stoppers over a view: the circles that slices cut out of them, which can be dragged and removed. */
+/** Stoppers over a view as draggable circles. */
 
 import { engine } from '../client/shared';
 import type { Stopper, Vector } from '../core/messages';
@@ -35,8 +35,8 @@ interface BallProps {
 function Ball({ number, stopper, projection }: BallProps) {
   const moved = draggedStopper.value?.number === number ? draggedStopper.value.point : null;
   const center = moved ?? stopper.center;
-  const away = projection.isThrough ? 0 : projection.depth(center);
-  const radius = Math.sqrt(Math.max(stopper.radius ** 2 - away ** 2, 0)) / projection.spacing;
+  const depth = projection.isThrough ? 0 : projection.depth(center);
+  const radius = Math.sqrt(Math.max(stopper.radius ** 2 - depth ** 2, 0)) / projection.spacing;
   if (radius === 0) {
     return null;
   }

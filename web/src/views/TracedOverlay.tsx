@@ -1,4 +1,4 @@
-/** All that tracing draws over a view. */
+/** Everything that tracing draws over a view. */
 import { Places } from './Places';
 import type { Projection } from './projection';
 import { Stoppers } from './Stoppers';

@@ -1,4 +1,4 @@
-/** What lies over the turning view: letters, bar, cross-hair and cube. */
+/** Overlay of the turning view: letters, scale bar, cross-hair and cube. */
 import { pixelOf, rightOf } from '../core/camera';
 import { negate } from '../core/vectors';
 import { TurningMeasures } from '../measure/MeasureOverlay';
@@ -40,13 +40,13 @@ export function TurningOverlay() {
   );
 }
 
-/** In the place of the scale bar where the scan does not say how far its voxels lie apart. */
+/** Replaces the scale bar if the voxel spacing is unknown. */
 function NoMillimetres() {
   return (
     <button
       type="button"
       class="no-millimetres"
-      title="The scan does not say how far its voxels lie apart. Lengths are then told as if that were 1 mm; what is saved tells that it is assumed. Undo takes it back."
+      title="This scan has no voxel spacing. Lengths assume 1 mm; saved files are marked accordingly. Undo reverts this."
       onClick={assumeOneMillimetre}
     >
       Assume 1 mm
@@ -54,7 +54,7 @@ function NoMillimetres() {
   );
 }
 
-/** The cross-hair: four short lines around a place, which itself stays free. */
+/** Four short lines around the position, which stays visible. */
 export function HairLines({ at }: { readonly at: readonly [number, number] }) {
   return (
     <svg

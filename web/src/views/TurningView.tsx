@@ -1,4 +1,4 @@
-/** The main view: the vessels cut open, freely turned. */
+/** The main view: the vessels cut open, freely rotatable. */
 import { useSignalEffect } from '@preact/signals';
 import { useEffect, useRef } from 'preact/hooks';
 import { engine } from '../client/shared';
@@ -19,7 +19,7 @@ import { ofCamera } from './projection';
 import { TurningOverlay } from './TurningOverlay';
 import { clickWithTool, followPointerAt, forgetPointer, type Pointed, toolRows } from './tool-clicks';
 
-/** Radians that a slow turn advances in a second. */
+/** Slow rotation (radians per second). */
 const TURN_PER_SECOND = 0.5;
 
 export function TurningView() {
@@ -41,7 +41,7 @@ export function TurningView() {
       handedOver.add(element);
       const handed = engine.drawOn(element.transferControlToOffscreen());
       void handed.then(() => loop.current?.again(), recover);
-      // Its canvas is black then. Drawn again, the view fails, and what follows finds another device.
+      // The canvas is black now; the next frame fails and starts the recovery.
       void engine.loss().then(() => loop.current?.again(), recover);
     } else {
       loop.current?.again();
@@ -89,14 +89,13 @@ export function TurningView() {
   );
 }
 
-/** What is to be shown, in CSS pixels. */
 function wantedView(): View | null {
   const [camera, report] = [store.camera.value, store.report.value];
   if (!camera || !report?.volume || camera.size[0] < 2 || camera.size[1] < 2) {
     return null;
   }
   const settings = store.viewSettings.value;
-  // Cut open, vessels would hide those that are not traced yet. A projection has a window of its own.
+  // While tracing, a projection with its own window, since a cut would hide untraced vessels.
   return isTracing()
     ? {
         camera,
@@ -106,18 +105,17 @@ function wantedView(): View | null {
     : { camera, method: store.method.value, settings };
 }
 
-/** The brightest values of a slab through all of a scan (mm): a projection, whatever is traced already. */
+/** Maximum intensity projection of the whole scan: a slab of 1000 mm. */
 const PROJECTED: Settings = { slab: [1000, 'max'], silhouettes: false };
 
-/** The canvases that the GPU draws on. */
 const handedOver = new WeakSet<HTMLCanvasElement>();
 
 function showFrame(canvas: HTMLCanvasElement | null, { drawn, stage, view, wanted, isLast }: Shown): void {
-  // It was under way before the GPU got its canvas, on which nothing else can draw: the view is drawn again there.
+  // The frame predates the transfer of the canvas to the GPU; draw it there again.
   if (canvas && drawn.picture && handedOver.has(canvas)) {
     return;
   }
-  // The last picture at rest takes as long as its samples do: it says nothing of the rate.
+  // The supersampled picture does not reflect the frame rate.
   if (stage !== 'samples') {
     store.frameTime.value = drawn.milliseconds;
   }
@@ -129,7 +127,7 @@ function showFrame(canvas: HTMLCanvasElement | null, { drawn, stage, view, wante
     canvas.dataset.last = String(isLast);
     canvas.dataset.pixels = view.camera.size.join('x');
   }
-  store.settled.value = stage === 'moving' ? null : wanted.camera;
+  store.completeCamera.value = stage === 'moving' ? null : wanted.camera;
 }
 
 function paint(canvas: HTMLCanvasElement, picture: Picture): void {
@@ -141,7 +139,6 @@ function paint(canvas: HTMLCanvasElement, picture: Picture): void {
   canvas.getContext('2d')?.putImageData(new ImageData(picture.bytes, width, height), 0, 0);
 }
 
-/** Turns until it is stopped. */
 function turnOn(): () => void {
   let frame = 0;
   let before = performance.now();
@@ -154,12 +151,11 @@ function turnOn(): () => void {
   return () => cancelAnimationFrame(frame);
 }
 
-/** The pixels that an arrow key turns or, with Shift, pans. */
+/** Pixels per arrow key, for rotation or, with Shift, pan. */
 const KEY_STEP = 24;
 
-/** Arrow keys turn, with Shift they pan; + and - zoom. */
+/** Arrow keys rotate, with Shift they pan; + and - zoom. */
 function pressed(event: KeyboardEvent): void {
-  // A point over the view that has the focus has keys of its own.
   if (event.target !== event.currentTarget) {
     return;
   }
@@ -174,7 +170,7 @@ function pressed(event: KeyboardEvent): void {
   }
 }
 
-/** The axis of the picked vessel where the cross-hair stands; that of the view where none is picked. */
+/** Axis of the picked vessel at the cross-hair; null for the axis of the view. */
 let vesselAxis: Vector | null = null;
 
 const dragged = actions.windowBack();
@@ -214,7 +210,7 @@ const handlers = {
   },
 };
 
-/** The view as points are set in it: at the brightest voxel on the ray of a pixel. */
+/** Points are set at the brightest voxel on the ray. */
 function pointed(): Pointed | null {
   const [view, volume] = [wantedView(), store.report.value?.volume];
   return view && volume

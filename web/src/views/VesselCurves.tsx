@@ -1,4 +1,4 @@
-/** The vessels of the document as curves over a view, and the way to the pointer. */
+/** Vessels as curves over a view, and the live path. */
 
 import type { DocumentVessel, Vector } from '../core/messages';
 import { drawnColor, livePaths } from '../edit/drawing';
@@ -10,7 +10,7 @@ import { whole } from '../edit/whole-shown';
 import { document_ } from '../state/history';
 import { DOUBTFUL } from '../state/palette';
 import { pickedVessel } from '../state/store';
-import { lit } from '../state/tidy';
+import { highlighted } from '../state/tidy';
 import { tool } from '../state/tool';
 import { pathData } from './curves';
 import type { Projection } from './projection';
@@ -22,9 +22,9 @@ interface OverProps {
 export function VesselCurves({ projection }: OverProps) {
   const isOn = isTracing();
   const picked = tree.value[pickedVessel.value ?? -1]?.id;
-  // Over vessels that are cut open curves would hide what is looked at.
+  // In a cut, curves would hide the vessels.
   const isSeen = (vessel: DocumentVessel) =>
-    vessel.id === lit.value ||
+    vessel.id === highlighted.value ||
     (!vessel.isHidden &&
       (isOn || !projection.isThrough || vessel.doubt !== null || marked.value.has(vessel.id)));
   return (
@@ -51,7 +51,7 @@ interface CurveProps extends OverProps {
 
 function Curve({ vessel, projection, isPicked, hasFar }: CurveProps) {
   const [isLit, isMarked] = [
-    vessel.id === lit.value || vessel.id === chosenDoubt.value,
+    vessel.id === highlighted.value || vessel.id === chosenDoubt.value,
     marked.value.has(vessel.id),
   ];
   const points = contents.value.get(vessel.line)?.points;
@@ -72,7 +72,6 @@ function Curve({ vessel, projection, isPicked, hasFar }: CurveProps) {
   );
 }
 
-/** The way that the vessel would take to the pointer; dashed and straight where none is found. */
 function LivePaths({ projection }: OverProps) {
   if (tool.value === 'look') {
     return null;
@@ -99,7 +98,6 @@ function LivePaths({ projection }: OverProps) {
   );
 }
 
-/** A curve with a dark edge, which is seen on bright and on dark. */
 function Cased({ kind, d }: { readonly kind: string; readonly d: string }) {
   return (
     <>

@@ -1,4 +1,4 @@
-/** The pane of the picked vessel: its straightened CPR, or the reformation that was chosen in its place. */
+/** Pane of the picked vessel: straightened CPR or another reformation. */
 import { ReformationChoice } from '../pane/ReformationChoice';
 import { reformationKind } from '../state/reformation';
 import { CprView } from './CprView';

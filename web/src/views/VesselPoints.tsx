@@ -1,4 +1,4 @@
-/** The points of vessels over a view: each can be dragged, moved by keys and removed. */
+/** Vessel points over a view, which can be dragged, moved by keys and removed. */
 
 import { engine } from '../client/shared';
 import type { DocumentVessel, Vector } from '../core/messages';
@@ -35,7 +35,7 @@ export function VesselPoints({ projection }: OverProps) {
   );
 }
 
-/** The points of a vessel: those far off a slice are faint, and shown only for the vessel at hand. */
+/** Points off the slice are faint, and shown only for the active vessel. */
 function Clicks({ vessel, projection }: OverProps & { readonly vessel: DocumentVessel }) {
   const isAtHand = vessel.id === active.value || vessel.id === pickedId();
   return (
@@ -70,7 +70,7 @@ function Click({ vessel, number, point, projection }: ClickProps) {
       await moveClick(engine, id, number, moved.point);
       dragged.value = null;
     } else if (number === (vessel.clicks?.length ?? 0) - 1 && !isDrawing.value) {
-      // A click on the last point goes on from there; one on another point begins a branch, or ends a vessel there.
+      // A click on the last point extends the vessel; on another point it begins a branch or ends one there.
       active.value = id;
     } else if (tool.value === 'trace' && id !== active.value) {
       await setPoint(engine, point);

@@ -1,9 +1,9 @@
-/** What a flat view asks the engine for. */
+/** Requests of flat views. */
 import { useCallback } from 'preact/hooks';
 import { engine } from '../client/shared';
 import type { Picture, Plane, Window } from '../core/messages';
 
-/** The question for the picture of a plane, which changes only where the picture does; none without a plane. */
+/** Stable callback that changes only with the picture; null without a plane. */
 export function useAsked(plane: Plane | null, window: Window): (() => Promise<Picture>) | null {
   const text = plane && JSON.stringify(plane);
   const ask = useCallback(

@@ -1,19 +1,18 @@
-/** Lines in space as curves over a view: their paths, and which of them a pixel is on. */
+/** Curves over a view: their paths, and hit testing. */
 
 import type { DocumentVessel, Pair, Vector } from '../core/messages';
 import { contents } from '../edit/lines';
 import { document_ } from '../state/history';
 import type { Projection } from './projection';
 
-/** What is nearer to a slice than this is drawn as lying in it (mm). */
+/** Points this close to a slice are drawn as in it (mm). */
 export const NEAR = 2;
-/** A click is on a curve or a point where it is as near as this (CSS pixels). */
-const REACH = 7;
+const HIT_DISTANCE_PX = 7;
 
 export const isNear = (projection: Projection, point: Vector): boolean =>
   projection.isThrough || Math.abs(projection.depth(point)) <= NEAR;
 
-/** The path of those pieces of a line that are in the slice (`near`), or before and behind it (`far`). */
+/** Parts of a line in the slice (`near`), or in front of and behind it (`far`). */
 export function pathData(points: readonly Vector[], projection: Projection, which: 'near' | 'far'): string {
   const areNear = points.map((point) => isNear(projection, point));
   const pixels = points.map((point) =>
@@ -34,31 +33,28 @@ export function pathData(points: readonly Vector[], projection: Projection, whic
   return path;
 }
 
-/** A place on a vessel that a pixel is on. */
 export interface Hit {
   readonly vessel: DocumentVessel;
-  /** The number of the point of its line. */
   readonly number: number;
   readonly point: Vector;
 }
 
-/** Whether a point is seen at a pixel, or next to it. */
 export function isAt(projection: Projection, point: Vector, [x, y]: Pair): boolean {
   const [column, row] = projection.pixel(point);
-  return Math.hypot(column - x, row - y) <= REACH;
+  return Math.hypot(column - x, row - y) <= HIT_DISTANCE_PX;
 }
 
-/** The vessel whose curve is at a pixel, the nearest one of several; in a slice only where it lies in it. */
+/** The nearest curve at a pixel; in a slice only where it lies in it. */
 export function curveAt(projection: Projection, [x, y]: Pair): Hit | null {
   let best: Hit | null = null;
-  let least = REACH;
+  let nearest = HIT_DISTANCE_PX;
   for (const vessel of document_.value.vessels) {
     const points = vessel.isHidden ? [] : (contents.value.get(vessel.line)?.points ?? []);
     points.forEach((point, number) => {
       const [column, row] = projection.pixel(point);
-      const away = Math.hypot(column - x, row - y);
-      if (away < least && isNear(projection, point)) {
-        least = away;
+      const distance = Math.hypot(column - x, row - y);
+      if (distance < nearest && isNear(projection, point)) {
+        nearest = distance;
         best = { vessel, number, point };
       }
     });

@@ -1,36 +1,33 @@
-/**
- * The loop of the turning view: while something changes, pictures of as many pixels as the rate allows; at rest one with
- * all pixels, and then one with several samples for each. One picture is under way at a time, and the latest view wins.
- */
+/** Frame loop of the turning view: low resolution while moving, full at rest, then supersampled; latest view first. */
 
 import type { EngineClient } from '../client/engine';
 import { sampled } from '../core/camera';
 import { Failure } from '../core/failure';
 import type { Drawn, View } from '../core/messages';
 
-/** The time of a picture while something changes (ms): 25 a second leave room for all else. */
+/** Frame time while moving (ms): 25 per second leave room for other work. */
 const MOVING_TIME = 40;
-/** How long nothing changes before the view is at rest (ms). */
+/** Time without change until rest (ms). */
 const REST_AFTER = 80;
-/** So many times that pause at most before a view is tried again that gave way; it doubles with each time. */
+/** Longest pause, in multiples of the shortest, before retrying a view that yielded; it doubles each time. */
 const MOST_PAUSES = 16;
-/** The fewest pixels along a side while something changes, as a part of all. */
+/** Lowest resolution while moving, as a share of full. */
 const COARSEST = 0.2;
-/** The most pixels of a picture along a pixel of the page, on dense screens. */
+/** Most picture pixels per CSS pixel on dense screens. */
 const MOST_DENSE = 2;
-/** Samples along each side of a pixel at rest, where a picture with one takes at most so long (ms). */
+/** Samples per pixel side at rest, and the time limit of a plain picture for them (ms). */
 const SAMPLES = 2;
 const SAMPLED_WITHIN = 700;
 
 type Stage = 'moving' | 'full' | 'samples' | 'done';
 
 export interface Shown {
-  /** What was asked for, before the pixels were made fewer or more. */
+  /** The request, before its resolution was adapted. */
   readonly wanted: View;
   readonly view: View;
   readonly drawn: Drawn;
   readonly stage: Stage;
-  /** Whether this is the last picture of a view that is still the wanted one. */
+  /** Whether this completes a view that is still current. */
   readonly isLast: boolean;
 }
 
@@ -40,12 +37,11 @@ export class FrameLoop {
   private stage: Stage = 'done';
   private isBusy = false;
   private isStopped = false;
-  /** What draws was exchanged while a picture was under way: that one counts no longer, nor does its failure. */
+  /** The device changed during a frame: its result and failure are ignored. */
   private isOutdated = false;
-  /** The next picture at rest is the first of a device: its time is also that of compiling shaders. */
+  /** The next frame at rest is the first of a device and includes shader compilation. */
   private isFirst = false;
   private factor = 1;
-  /** How often in a row the view gave way to something else. */
   private gaveWay = 0;
   private timer = 0;
 
@@ -55,7 +51,6 @@ export class FrameLoop {
     private readonly fail: (failure: Failure) => void,
   ) {}
 
-  /** The view to be shown from now on. */
   want(view: View): void {
     this.wanted = view;
     this.changed = performance.now();
@@ -67,12 +62,11 @@ export class FrameLoop {
     this.next();
   }
 
-  /** Shows the same view again, after what draws it was exchanged. */
   again(): void {
     if (this.isBusy) {
       this.isOutdated = true;
     } else if (this.wanted) {
-      // From the start, since the first pictures of a device also take the time that its shaders need to be compiled.
+      // Restart at low resolution, since the first frames include shader compilation.
       this.isFirst = true;
       this.want(this.wanted);
     }
@@ -121,7 +115,7 @@ export class FrameLoop {
     }
   }
 
-  /** Draws the view again where what draws was exchanged meanwhile; says whether it was. */
+  /** Redraws if the device changed; returns whether it did. */
   private beginsAnew(): boolean {
     const isOutdated = this.isOutdated;
     this.isOutdated = false;
@@ -131,7 +125,6 @@ export class FrameLoop {
     return isOutdated;
   }
 
-  /** The view with the pixels and samples of a stage. */
   private atStage(view: View, stage: Stage): View {
     if (stage === 'moving') {
       const settings = { ...view.settings, context_preview: true, samples: 1 };
@@ -143,10 +136,7 @@ export class FrameLoop {
       : { ...view, camera };
   }
 
-  /**
-   * As many pixels as take the wanted time, judged by the picture before; by no more than a half at once. Pictures at rest
-   * say nothing of it: they take longer, and what was learnt before stays for the next change.
-   */
+  /** Adapts the moving resolution to the frame time, at most by half. Frames at rest take longer and do not count. */
   private adapt(asked: View, view: View, milliseconds: number, stage: Stage): void {
     if (stage !== 'moving') {
       return;
@@ -156,14 +146,13 @@ export class FrameLoop {
     this.factor = Math.min(1, Math.max(COARSEST, used / 2, Math.min(ideal, used * 1.25)));
   }
 
-  /** The stage of the picture that follows one of this stage and time. */
   private stageAfter(view: View, stage: Stage, milliseconds: number): Stage {
     const isSlow = milliseconds > SAMPLED_WITHIN;
     if (this.wanted !== view) {
       return 'moving';
     }
     if (stage === 'moving' || (stage === 'full' && isSlow && this.isFirst)) {
-      // After the first picture of a device only the next one tells whether there is time for samples.
+      // Only the next frame of a device shows whether there is time for supersampling.
       return 'full';
     }
     return stage === 'full' && !isSlow ? 'samples' : 'done';
@@ -179,10 +168,9 @@ export class FrameLoop {
     }
   }
 
-  /** After a view was stopped: by a newer one, or by something that the user waits for. */
+  /** After a view was stopped by a newer one, or for an answer. */
   private tryAgain(stage: Stage): void {
     if (stage === 'moving') {
-      // It took too long: the next one has fewer pixels.
       this.factor = Math.max(COARSEST, this.factor / 2);
     }
     if (this.stage === 'moving') {

@@ -1,10 +1,10 @@
-/** The letters and the scale bar of a picture, as the engine decides them. */
+/** Letters and scale bar, as decided by the engine. */
 import { useEffect, useRef, useState } from 'preact/hooks';
 import { engine } from '../client/shared';
 import { Latest } from '../core/latest';
 import type { LaidPicture, PictureLabels } from '../core/messages';
 
-/** The labels of a picture; those of the one before until they are known. */
+/** Labels of a picture; the previous ones until they arrive. */
 export function useLabels(picture: LaidPicture): PictureLabels | null {
   const [labels, setLabels] = useState<PictureLabels | null>(null);
   const latest = useRef(new Latest());
@@ -18,7 +18,7 @@ export function useLabels(picture: LaidPicture): PictureLabels | null {
   );
   useEffect(() => {
     latest.current.run(async () => {
-      // Rather none than those of another view.
+      // No labels rather than those of another view.
       const found = await engine.ask('labels', JSON.parse(text) as LaidPicture).catch(() => null);
       if (isThere.current) {
         setLabels(found);

@@ -1,4 +1,4 @@
-/** Puts the cross-hair of all views at a place. */
+/** Moves the cross-hair of all views. */
 
 import { engine } from '../client/shared';
 import type { Vector } from '../core/messages';

@@ -1,28 +1,26 @@
-/** Where points of the world are seen in a view, and the way back: the same questions to slices and to the turning view. */
+/** Mapping between world points and pixels, common to slices and the turning view. */
 import { pixelOf, rightOf } from '../core/camera';
 import type { Camera, Pair, Plane, Vector, VolumeReport } from '../core/messages';
 import { pixelOn, pointOn, voxelSide } from '../core/planes';
 import { add, cross, dot, negate, scale, subtract } from '../core/vectors';
 
 export interface Projection {
-  /** CSS pixels. */
   readonly size: Pair;
   /** mm per CSS pixel. */
   readonly spacing: number;
-  /** Whether all depths are seen at once. */
+  /** Whether the view shows all depths. */
   readonly isThrough: boolean;
-  /** The direction of the rays through which all depths are seen; null in a slice. */
+  /** Ray direction of a view of all depths; null in a slice. */
   readonly along: Vector | null;
   pixel(point: Vector): Pair;
-  /** How far a point is before or behind the plane of the view (mm, with its sign). */
+  /** Signed distance of a point from the view plane (mm). */
   depth(point: Vector): number;
-  /** The point at a pixel that is as deep as another point. */
+  /** Point at a pixel, at the depth of another point. */
   at(pixel: Pair, like: Vector): Vector;
-  /** The way of a number of voxels to the right and downwards. */
+  /** Vector of a number of voxels right and down. */
   step(by: Pair): Vector;
 }
 
-/** A slice: points lie on it, before it or behind it. */
 export function ofPlane(plane: Plane, volume: VolumeReport): Projection {
   const normal = cross(plane.right, plane.down);
   const depth = (point: Vector) => dot(subtract(point, plane.center), normal);
@@ -38,7 +36,6 @@ export function ofPlane(plane: Plane, volume: VolumeReport): Projection {
   };
 }
 
-/** The turning view, through which points of all depths are seen. */
 export function ofCamera(camera: Camera, volume: VolumeReport): Projection {
   const [right, down] = [rightOf(camera), negate(camera.up)];
   const onPlane = (pixel: Pair): Vector => {

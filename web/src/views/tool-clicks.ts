@@ -1,4 +1,4 @@
-/** Clicks and moves of the pointer in a view, while a tool is in use that sets points. */
+/** Clicks and pointer moves of the tracing tools in a view. */
 
 import { engine } from '../client/shared';
 import { Latest } from '../core/latest';
@@ -17,18 +17,15 @@ import { tool } from '../state/tool';
 import { curveAt, isAt } from './curves';
 import type { Projection } from './projection';
 
-/** Which rows of the table hold besides those of the view. */
 export const toolRows = (): Where | null => (isTracing() ? 'tracing' : null);
 
-/** A view that points are set in. */
 export interface Pointed {
   readonly name: ViewName;
   readonly projection: Projection;
-  /** The place at a pixel of a slice; the brightest one on its ray, and what lies there, in a projection. */
+  /** The point at a pixel of a slice; in a projection, the brightest on the ray. */
   place(at: Pair): Promise<Pick> | Vector;
 }
 
-/** Does what a click does with the tool in use; says whether it did anything. */
 export function clickWithTool(view: Pointed, action: Action, at: Pair): boolean {
   switch (action) {
     case 'set point':
@@ -53,7 +50,7 @@ async function setAt(view: Pointed, at: Pair): Promise<void> {
     acceptCandidate(engine);
     return;
   }
-  // On its own curve a vessel does not go on: a double click adds a point there.
+  // A vessel does not extend onto its own curve: a double click adds a point there.
   const hit = curveAt(projection, at);
   if (hit && hit.vessel.id === drawn.value?.id) {
     return;
@@ -62,7 +59,7 @@ async function setAt(view: Pointed, at: Pair): Promise<void> {
     if (projection.isThrough) {
       await setThrough(view, at);
     } else {
-      // The point is set before the engine answers anything: Enter may follow at once.
+      // The point is set before any answer, because Enter may follow at once.
       await setHere(view, view.place(at) as Vector);
     }
   } catch (error) {
@@ -70,16 +67,15 @@ async function setAt(view: Pointed, at: Pair): Promise<void> {
   }
 }
 
-/** Sets a point, with the cross-hair there at once. */
 async function setHere(view: Pointed, point: Vector): Promise<void> {
   crossHair.value = { point, value: null, vessel: null, arcLength: null };
-  tell(view, point, (await setPoint(engine, point)) ?? (await engine.ask('at', point)));
+  showValue(view, point, (await setPoint(engine, point)) ?? (await engine.ask('at', point)));
 }
 
-/** In a projection a click takes the lumen that is shown beside the pointer; without one it proposes the brightest place. */
+/** In a projection a click takes the displayed lumen, or proposes the brightest point. */
 async function setThrough(view: Pointed, at: Pair): Promise<void> {
-  const isUnderPointer = looked?.view === view.name && isSame(looked.at, at);
-  await (isUnderPointer ? looked?.done : null);
+  const isUnderPointer = lastPointer?.view === view.name && isSame(lastPointer.at, at);
+  await (isUnderPointer ? lastPointer?.done : null);
   const shown = isUnderPointer ? meant.value : null;
   if (shown) {
     await setHere(view, shown.point);
@@ -87,23 +83,19 @@ async function setThrough(view: Pointed, at: Pair): Promise<void> {
   }
   const pick = (await view.place(at)) as Pick;
   placeCrossHair(pick, view.name);
-  // It is looked at in the slices before it becomes a point, unless the tool was laid down meanwhile.
+  // The user must confirm it in the slices, unless the tool is no longer active.
   if (isTracing()) {
     candidate.value = pick.point;
   }
 }
 
-/** Tells what is at a place, unless the cross-hair was put elsewhere meanwhile. */
-function tell(view: Pointed, point: Vector, pick: Pick): void {
+function showValue(view: Pointed, point: Vector, pick: Pick): void {
   if (crossHair.value?.point === point) {
     placeCrossHair(pick, view.name);
   }
 }
 
-/**
- * A double click ends the vessel at the point that its first click set, or takes the whole vessel where that is its only point; on a
- * curve it adds a point there.
- */
+/** Double click: ends the vessel, takes the whole vessel of a single point, or adds a point on a curve. */
 function endAt(view: Pointed, at: Pair): void {
   if (acceptCandidate(engine)) {
     return;
@@ -127,7 +119,6 @@ function addOnCurve({ projection }: Pointed, at: Pair): void {
   }
 }
 
-/** A click on a doubtful branch asks whether it is to be accepted. */
 function chooseDoubtful({ projection }: Pointed, at: Pair): boolean {
   const hit = curveAt(projection, at);
   chosenDoubt.value = hit?.vessel.doubt ? hit.vessel.id : null;
@@ -136,12 +127,12 @@ function chooseDoubtful({ projection }: Pointed, at: Pair): boolean {
 
 const following = new Latest();
 
-/** What the pointer was last over, and when it is known what is there. */
-let looked: { readonly view: ViewName; readonly at: Pair; readonly done: Promise<void> } | null = null;
+/** Last pointer position, and its pending lookup. */
+let lastPointer: { readonly view: ViewName; readonly at: Pair; readonly done: Promise<void> } | null = null;
 
 const isSame = (a: Pair, b: Pair): boolean => Math.hypot(a[0] - b[0], a[1] - b[1]) < 1;
 
-/** The lumen beside the pointer and the live path follow it; one place is asked for at a time. */
+/** Updates lumen inset and live path; one position at a time. */
 export function followPointerAt(view: Pointed, at: Pair): void {
   if (tool.value !== 'trace') {
     pointed.value = null;
@@ -153,7 +144,7 @@ export function followPointerAt(view: Pointed, at: Pair): void {
   const done = new Promise<void>((resolve) => {
     following.run(() => lookUnder(view, at).then(resolve, resolve));
   });
-  looked = { view: view.name, at, done };
+  lastPointer = { view: view.name, at, done };
 }
 
 async function lookUnder(view: Pointed, at: Pair): Promise<void> {
@@ -162,7 +153,7 @@ async function lookUnder(view: Pointed, at: Pair): Promise<void> {
   const point = projection.at(at, crossHair.value?.point ?? [0, 0, 0]);
   const lumen = await lookForLumens(engine, [name, at], { point, along: through });
   if (through && anchor.value !== null) {
-    // Beside the scan there is nothing that the path could lead to.
+    // There is no path outside of the scan.
     const brightest = () => Promise.resolve(view.place(at)).then(placeOf, () => null);
     target.value = lumen?.point ?? (await brightest());
   }
@@ -170,8 +161,8 @@ async function lookUnder(view: Pointed, at: Pair): Promise<void> {
 
 const placeOf = (place: Pick | Vector): Vector => ('point' in place ? place.point : place);
 
-/** The pointer has left the view, or it is turned or scrolled: what was under it is no longer there. */
+/** The pointer left, or the content under it moved. */
 export function forgetPointer(): void {
   pointed.value = null;
-  looked = null;
+  lastPointer = null;
 }

@@ -1,6 +1,6 @@
-/** How the worker asks the engine: JSON goes in and comes out, and bytes beside it. */
+/** Questions from the worker to the engine: JSON both ways, with separate bytes. */
 import { transfer } from 'comlink';
-import type { Answer, Beside, Message, Question, Told } from '../core/asked';
+import type { Answer, Attachments, Message, OnProgress, Question } from '../core/asked';
 import { Failure } from '../core/failure';
 import { TURNS } from '../core/generated/questions';
 import type { Bytes, Edit } from '../core/messages';
@@ -8,23 +8,22 @@ import { Engine } from '../core/module';
 
 const NO_FILE = new Uint8Array();
 
-/** The answer of an engine to a question. */
 export function ask<N extends Question>(
   engine: Engine,
   name: N,
   message: Message<N>,
-  { bytes = NO_FILE, told }: Beside = {},
+  { bytes = NO_FILE, onProgress }: Attachments = {},
 ): Answer<N> {
   const words = wordsOf(name, message);
   if (words) {
-    told?.({ words, done: 0, total: null });
+    onProgress?.({ words, done: 0, total: null });
   }
   return answer(
-    engine.ask(name, JSON.stringify(message), bytes, words && told ? hearing(words, told) : null),
+    engine.ask(name, JSON.stringify(message), bytes, words && onProgress ? hearing(words, onProgress) : null),
   );
 }
 
-/** What edits are called that take a while; all others trace. */
+/** Labels of slow edits; all others trace. */
 const EDITS: Partial<Record<Edit['kind'], string>> = {
   add_branches: 'Finding branches',
   add_mask: 'Tracing the mask',
@@ -32,28 +31,25 @@ const EDITS: Partial<Record<Edit['kind'], string>> = {
   find_vessels: 'Finding vessels',
 };
 
-/** What is done for a question; null where it is quick. */
 function wordsOf<N extends Question>(name: N, message: Message<N>): string | null {
   const edit = name === 'edit' ? (message as Message<'edit'>).edit : null;
   return (edit && EDITS[edit.kind]) ?? TURNS[name].words;
 }
 
-/** The answer to a question that asks nothing of the study. */
 export function askAtOnce<N extends Question>(name: N, message: Message<N>): Answer<N> {
   return answer(Engine.ask_at_once(name, JSON.stringify(message)));
 }
 
-/** Whether a question can be answered while other work is under way. */
 export const isAtOnce = (name: Question): boolean => TURNS[name].when === 'at once';
 
-/** Refuses long work that was cancelled before it began. */
+/** Rejects long work cancelled before it began. */
 export function refuseStopped(name: Question, signal: AbortSignal): void {
   if (TURNS[name].words !== null && signal.aborted) {
-    throw new Failure('interrupted', 'tracing', 'a stop', 'to run to its end');
+    throw new Failure('interrupted', 'tracing', 'a stop', 'a complete run');
   }
 }
 
-/** An answer whose bytes are not copied on their way to the page. */
+/** Transfers the bytes of an answer instead of copying them. */
 export function moved<T>(given: T): T {
   const { bytes } = (given ?? {}) as { bytes?: Bytes };
   return bytes ? transfer(given, [bytes.buffer]) : given;
@@ -61,11 +57,10 @@ export function moved<T>(given: T): T {
 
 function answer<T>(given: readonly unknown[]): T {
   const [json, bytes] = given as [string, Bytes?];
-  const told = JSON.parse(json);
-  return bytes ? { ...told, bytes } : told;
+  const answer = JSON.parse(json);
+  return bytes ? { ...answer, bytes } : answer;
 }
 
-/** Hears the share that is done. */
-function hearing(words: string, told: Told): (share: number) => void {
-  return (share) => told({ words, done: Math.round(100 * share), total: 100 });
+function hearing(words: string, onProgress: OnProgress): (share: number) => void {
+  return (share) => onProgress({ words, done: Math.round(100 * share), total: 100 });
 }

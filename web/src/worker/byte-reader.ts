@@ -2,20 +2,19 @@
 export class ByteReader {
   private readonly reader: ReadableStreamDefaultReader<Uint8Array>;
   private held = new Uint8Array();
-  /** How many bytes were taken. */
   count = 0;
 
   constructor(stream: ReadableStream<Uint8Array>) {
     this.reader = stream.getReader();
   }
 
-  /** The next `length` bytes; fewer where the stream ends. */
+  /** The next `length` bytes; fewer at the end. */
   async take(length: number): Promise<Uint8Array> {
     while (this.held.length < length && (await this.more())) {}
     return this.cut(Math.min(length, this.held.length));
   }
 
-  /** As many bytes as there are, a multiple of `unit` that is not 0; none where the stream ends. */
+  /** Available bytes in multiples of `unit`, at least one; none at the end. */
   async takeWhole(unit: number): Promise<Uint8Array> {
     while (this.held.length < unit && (await this.more())) {}
     return this.cut(this.held.length - (this.held.length % unit));

@@ -1,4 +1,4 @@
-/** The workers: one holds the study and computes its pictures; those named `thread` compute in its memory. */
+/** Workers: one holds the study and renders; those named `thread` compute in its memory. */
 import { expose } from 'comlink';
 import { joinModule, type Shared } from '../core/module';
 import { EngineHost } from './host';

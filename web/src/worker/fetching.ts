@@ -1,4 +1,4 @@
-/** Loads a study of the same origin: the stream of voxels that `lumencut view` serves or a file, and centerlines. */
+/** Loads a study of the same origin: a voxel stream of `lumencut view` or a file, and centerlines. */
 import { Failure } from '../core/failure';
 import type { Progress, States } from '../core/messages';
 import type { ScanStudy } from '../core/scan-study';
@@ -7,12 +7,11 @@ import { type Beside, BlobSource, fileName } from '../io/source';
 import type { Study } from '../io/study';
 import { ByteReader } from './byte-reader';
 import { narrowed } from './narrowed';
-import type { Means } from './replacing';
+import type { LoadContext } from './replacing';
 
-export type Told = (progress: Progress) => void;
+export type OnProgress = (progress: Progress) => void;
 
 const MAGIC = 'LCVOLUME';
-/** The longest header that is believed (bytes). */
 const LONGEST_HEADER = 16 << 20;
 
 interface Addresses {
@@ -26,14 +25,11 @@ interface Header {
   readonly world_from_index: readonly (readonly number[])[];
   readonly notes?: readonly string[];
   readonly name?: string;
-  /** Whether the file says how large its voxels are, and where the patient's sides are. */
   readonly states_spacing?: boolean;
   readonly states_orientation?: boolean;
-  /** Whether the scan was read from DICOM. */
   readonly has_study?: boolean;
 }
 
-/** What is told of a study beside what the engine knows. */
 export interface Fetched {
   readonly notes: readonly string[];
   readonly name: string;
@@ -41,21 +37,25 @@ export interface Fetched {
   readonly study: ScanStudy | null;
 }
 
-/** Loads volume and centerlines one after the other; tells what was odd, and the name of the volume. */
-export async function fetchStudy(means: Means, addresses: Addresses, told: Told): Promise<Fetched> {
+/** Loads volume, then centerlines; returns notes and the volume's name. */
+export async function fetchStudy(
+  context: LoadContext,
+  addresses: Addresses,
+  onProgress: OnProgress,
+): Promise<Fetched> {
   let fetched: Fetched = { notes: [], name: '', states: { spacing: true, orientation: true }, study: null };
   if (addresses.volume !== null) {
-    fetched = await fetchVolume(means, addresses.volume, told);
+    fetched = await fetchVolume(context, addresses.volume, onProgress);
   } else {
-    means.study.close();
+    context.study.close();
   }
   if (addresses.centerlines === null) {
     return fetched;
   }
-  told({ words: 'Centerlines', done: 0, total: null });
-  const lines = await fetchFile(await answered(addresses.centerlines, means.steps.signal));
+  onProgress({ words: 'Centerlines', done: 0, total: null });
+  const lines = await fetchFile(await answered(addresses.centerlines, context.steps.signal));
   const { openLines } = await import('../io/study');
-  return { ...fetched, notes: [...fetched.notes, ...(await openLines(lines, means))] };
+  return { ...fetched, notes: [...fetched.notes, ...(await openLines(lines, context))] };
 }
 
 async function answered(address: string, signal: AbortSignal): Promise<Response> {
@@ -69,15 +69,15 @@ async function answered(address: string, signal: AbortSignal): Promise<Response>
     ? new Failure(
         'file',
         address,
-        `an answer ${response.status}`,
+        `HTTP status ${response.status}`,
         'a file',
-        'look at the program that serves the page',
+        'check the program that serves the page',
       )
     : failure;
 }
 
-async function fetchVolume(means: Means, address: string, told: Told): Promise<Fetched> {
-  const { signal } = means.steps;
+async function fetchVolume(context: LoadContext, address: string, onProgress: OnProgress): Promise<Fetched> {
+  const { signal } = context.steps;
   const response = await answered(address, signal);
   if (!response.body) {
     throw new Failure('file', address, 'an answer without content', 'a volume');
@@ -85,10 +85,10 @@ async function fetchVolume(means: Means, address: string, told: Told): Promise<F
   const bytes = new ByteReader(response.body);
   const start = await bytes.take(MAGIC.length + 4);
   if (new TextDecoder().decode(start.subarray(0, MAGIC.length)) !== MAGIC) {
-    return fetchFormat(means, response, { start, bytes, told });
+    return fetchFormat(context, response, { start, bytes, onProgress });
   }
   const header = await readHeader(bytes, start, address);
-  const total = await readVoxels(means.study, bytes, header, told);
+  const total = await readVoxels(context.study, bytes, header, onProgress);
   if (bytes.count < total) {
     await refuseShort(address, signal, bytes.count, total);
   }
@@ -100,24 +100,23 @@ async function fetchVolume(means: Means, address: string, told: Told): Promise<F
   return { notes: header.notes ?? [], name: header.name ?? '', states, study };
 }
 
-/** What came of an answer so far, and the rest of it. */
 interface Begun {
   readonly start: Uint8Array;
   readonly bytes: ByteReader;
-  readonly told: Told;
+  readonly onProgress: OnProgress;
 }
 
-/** Reads the answer as a file of one of the formats that can be dropped too. */
+/** Reads a response as a file that could also be dropped. */
 async function fetchFormat(
-  means: Means,
+  context: LoadContext,
   response: Response,
-  { start, bytes, told }: Begun,
+  { start, bytes, onProgress }: Begun,
 ): Promise<Fetched> {
   const total = Number(response.headers.get('Content-Length')) || null;
   const parts: BlobPart[] = [start.slice()];
   for (let part = await bytes.takeWhole(1); part.length > 0; part = await bytes.takeWhole(1)) {
     parts.push(part.slice());
-    told({
+    onProgress({
       words: 'Fetching',
       done: bytes.count,
       total: total === null || bytes.count > total ? null : total,
@@ -128,9 +127,9 @@ async function fetchFormat(
   const { openFiles } = await import('../io/study');
   const { volume, notes } = await openFiles(
     sources,
-    besideOf(response.url, means.steps.signal),
+    besideOf(response.url, context.steps.signal),
     ALL_OF_IT,
-    means,
+    context,
   );
   if (!volume) {
     throw new Failure('format', name, 'centerlines', 'a volume', 'name them as centerlines');
@@ -138,7 +137,7 @@ async function fetchFormat(
   return { ...volume, notes };
 }
 
-/** Files beside an address, of the same origin. */
+/** Files next to an address, of the same origin. */
 function besideOf(address: string, signal: AbortSignal): Beside {
   return async (path) => {
     const response = await fetch(new URL(encodeURI(path), address), { signal, cache: 'no-store' });
@@ -159,7 +158,6 @@ async function readHeader(bytes: ByteReader, start: Uint8Array, address: string)
   return checkedHeader(new TextDecoder().decode(await bytes.take(length)));
 }
 
-/** The header of a text of JSON; the engine checks the numbers in it. */
 function checkedHeader(text: string): Header {
   const read = parsed(text);
   const isWhole =
@@ -168,7 +166,7 @@ function checkedHeader(text: string): Header {
     typeof read.dtype === 'string' &&
     read.world_from_index;
   if (!read || !isWhole) {
-    const found = read ? `only ${Object.keys(read).join(', ') || 'an empty one'}` : 'a text that is no JSON';
+    const found = read ? `only ${Object.keys(read).join(', ') || 'an empty one'}` : 'a text that is not JSON';
     const expected = 'size, dtype and world_from_index as JSON';
     throw new Failure('format', 'header of the volume', found, expected, 'open it again');
   }
@@ -183,8 +181,13 @@ function parsed(text: string): Header | null {
   }
 }
 
-/** Hands the voxels to the engine as they come; tells how many bytes there should be in all. */
-async function readVoxels(study: Study, bytes: ByteReader, header: Header, told: Told): Promise<number> {
+/** Streams the voxels to the engine; returns the expected number of bytes. */
+async function readVoxels(
+  study: Study,
+  bytes: ByteReader,
+  header: Header,
+  onProgress: OnProgress,
+): Promise<number> {
   const { dtype, narrow, bytesPerVoxel } = narrowed(header.dtype);
   const voxels = header.size[0] * header.size[1] * header.size[2];
   const total = bytes.count + voxels * bytesPerVoxel;
@@ -198,11 +201,11 @@ async function readVoxels(study: Study, bytes: ByteReader, header: Header, told:
     const stored = narrow(part);
     study.take_voxels(offset, stored);
     offset += stored.length;
-    told({ words: 'Volume', done: bytes.count, total });
+    onProgress({ words: 'Volume', done: bytes.count, total });
   }
 }
 
-/** The stream ended early: the server's words why, where it has some. */
+/** Adds the server's explanation to a stream that ended early. */
 async function refuseShort(
   address: string,
   signal: AbortSignal,

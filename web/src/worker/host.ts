@@ -1,6 +1,6 @@
-/** What the page asks its worker for. Errors leave as the texts that `Failure.of` reads. */
+/** The worker's interface for the page. Errors cross as the text of `Failure`. */
 import { transfer } from 'comlink';
-import type { Beside, Message, Question, Told } from '../core/asked';
+import type { Attachments, Message, OnProgress, Question } from '../core/asked';
 import { CRASH, Failure } from '../core/failure';
 import type { PlaceDoubt } from '../core/generated/questions';
 import type { Drawn, GivenFile, Picture, Report, SeriesWish, Started, View } from '../core/messages';
@@ -13,13 +13,11 @@ import { ask, askAtOnce, isAtOnce, moved, refuseStopped } from './answers';
 import { type Fetched, fetchStudy } from './fetching';
 import { askWithFiles } from './masks';
 import { Queue } from './queue';
-import { type Means, Replacing } from './replacing';
+import { type LoadContext, Replacing } from './replacing';
 import { startThreads } from './threads';
 
-/** What is told of a volume of which not every voxel was taken. */
-const COARSER = 'every second voxel along each axis was taken; measured numbers are less sure';
+const COARSER = 'only every second voxel along each axis was loaded; measurements are less accurate';
 
-/** What is known of everything that was loaded. */
 interface Loaded {
   readonly report: Report;
   readonly doubt: PlaceDoubt | null;
@@ -29,25 +27,25 @@ export class EngineHost {
   private readonly queue = new Queue();
   private engine: Engine | null = null;
   private cancelled = new AbortController();
-  /** Why the module has ended. Its memory may be damaged, so that nothing more is asked of it. */
+  /** Why the module crashed; its memory may be corrupt, so nothing more is asked. */
   private crash: Error | null = null;
 
-  /** Answers a question of the table; those that need no study at once, beside the work that is queued. */
-  ask(name: Question, message: unknown, files: Beside, told: Told | null): unknown {
+  /** Answers a question; those that need no study bypass the queue. */
+  ask(name: Question, message: unknown, files: Attachments, onProgress: OnProgress | null): unknown {
     const asked = message as Message<Question>;
     if (isAtOnce(name)) {
       this.ready();
       return askAtOnce(name, asked);
     }
     const { signal } = this.cancelled;
-    const beside = told ? { ...files, told } : files;
+    const attachments = onProgress ? { ...files, onProgress } : files;
     return this.run(async () => {
       refuseStopped(name, signal);
-      return moved(await askWithFiles(this.ready(), name, asked, { beside, signal }));
+      return moved(await askWithFiles(this.ready(), name, asked, { attachments, signal }));
     });
   }
 
-  /** Loads the module and finds out what computes. */
+  /** Loads the module and selects the device. */
   start(device: string): Promise<Started> {
     return this.run(async () => {
       const shared = await loadModule();
@@ -73,7 +71,7 @@ export class EngineHost {
     return { device, isGpu: device !== 'cpu' };
   }
 
-  /** Computes on another device from now on, or on the same one after it was lost. */
+  /** Switches the device, or restores the same one after a loss. */
   changeDevice(device: string): Promise<{ device: string; isGpu: boolean }> {
     return this.run(async () => {
       await this.ready().change_device(device);
@@ -81,18 +79,16 @@ export class EngineHost {
     });
   }
 
-  /** Ends once the GPU that computes now is lost; other work goes on meanwhile. */
+  /** Resolves when the current GPU is lost; other work continues. */
   async loss(): Promise<void> {
     const { lost } = await this.run(() => ({ lost: this.ready().loss() }));
     await lost;
   }
 
-  /** How large the memory of the module is (bytes). */
   memory(): Promise<number> {
     return this.run(memorySize);
   }
 
-  /** Draws the turning view on this canvas from now on. */
   drawOn(canvas: OffscreenCanvas): Promise<void> {
     return this.run(() => this.ready().draw_on(canvas));
   }
@@ -104,33 +100,36 @@ export class EngineHost {
     });
   }
 
-  /** Opens a volume and centerlines of the same origin; `told` hears how far it is. */
   openAddresses(
     volume: string | null,
     centerlines: string | null,
     wish: SeriesWish,
-    told: Told,
+    onProgress: OnProgress,
   ): Promise<Fetched & Loaded> {
-    return this.load(told, (means) => fetchStudy(means, { volume, centerlines }, told), wish);
+    return this.load(onProgress, (context) => fetchStudy(context, { volume, centerlines }, onProgress), wish);
   }
 
-  /** Opens files that were dropped or chosen; what was open stays where they are refused at once. */
+  /** Opens files; the open study stays if they are rejected before it is replaced. */
   openFiles(
     files: readonly GivenFile[],
     wish: SeriesWish,
-    told: Told,
+    onProgress: OnProgress,
   ): Promise<Partial<Fetched> & Loaded & { notes: readonly string[] }> {
     const sources = files.map(({ path, file }) => new BlobSource(path, file));
     const { coordinates: _, unit: __, every_second: ___, reorder: ____, ...series } = wish;
-    const work = async (means: Means) => {
+    const work = async (context: LoadContext) => {
       const { openFiles } = await import('../io/study');
-      const { volume, notes } = await openFiles(sources, among(sources), { ...ALL_OF_IT, ...series }, means);
+      const { volume, notes } = await openFiles(
+        sources,
+        among(sources),
+        { ...ALL_OF_IT, ...series },
+        context,
+      );
       return volume ? { ...volume, notes } : { notes };
     };
-    return this.load(told, work, wish);
+    return this.load(onProgress, work, wish);
   }
 
-  /** What of a DICOM file stands before its pixels. */
   dicomHead({ path, file }: GivenFile): Promise<Uint8Array<ArrayBuffer>> {
     return this.run(async () => {
       const { headOf } = await import('../io/dicom');
@@ -138,10 +137,10 @@ export class EngineHost {
     });
   }
 
-  /** Loads in steps, until `cancel`; where that ends early and what was open is gone already, nothing is open. */
+  /** Loads in steps until `cancel`; on failure nothing stays open if the old study is already gone. */
   private load<T extends { readonly notes: readonly string[] }>(
-    told: Told,
-    work: (means: Means) => Promise<T>,
+    onProgress: OnProgress,
+    work: (context: LoadContext) => Promise<T>,
     wish: SeriesWish,
   ): Promise<T & Loaded> {
     this.cancelled.abort();
@@ -151,7 +150,7 @@ export class EngineHost {
       const replacing = new Replacing(this.ready(), wish);
       const study = wish.every_second ? new EverySecond(replacing) : replacing;
       try {
-        const loaded = await work({ study, loadJudge, steps: new Steps(told, signal) });
+        const loaded = await work({ study, loadJudge, steps: new Steps(onProgress, signal) });
         const report = this.report();
         const ofVolume = replacing.hasBegun ? report.volume?.doubt : null;
         const every = [...loaded.notes, ofVolume, wish.every_second ? COARSER : null];
@@ -166,7 +165,6 @@ export class EngineHost {
     });
   }
 
-  /** Stops loading, tracing and measuring; measuring that has not begun goes on. */
   cancel(): void {
     this.cancelled.abort();
     this.cancelled = new AbortController();
@@ -175,7 +173,7 @@ export class EngineHost {
     }
   }
 
-  /** Renders a view: on the canvas where the GPU draws, else into the answer. */
+  /** Renders a view to the GPU canvas, or into the answer. */
   render(view: View): Promise<Drawn> {
     return this.run(async () => {
       const start = performance.now();
@@ -204,11 +202,11 @@ export class EngineHost {
   private run<T>(work: () => T | Promise<T>): Promise<T> {
     return this.queue.run(work).catch((error: unknown) => {
       const failure = Failure.of(error);
-      const told = new Error(failure.text);
+      const asText = new Error(failure.text);
       if (failure.kind === CRASH) {
-        this.crash = told;
+        this.crash = asText;
       }
-      throw told;
+      throw asText;
     });
   }
 }
@@ -217,7 +215,7 @@ function sent(picture: Picture, milliseconds: number): Drawn {
   return transfer({ picture, milliseconds }, [picture.bytes.buffer]);
 }
 
-/** Pixels that the engine copied out of its memory already. */
+/** Pixels that the engine has already copied. */
 function plain(bytes: Uint8ClampedArray): Uint8ClampedArray<ArrayBuffer> {
   return bytes as Uint8ClampedArray<ArrayBuffer>;
 }

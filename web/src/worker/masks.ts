@@ -1,5 +1,5 @@
-/** A mask of vessels beside the scan that is open: read as scans are, and traced. */
-import type { Answer, Beside, Message, Question } from '../core/asked';
+/** Reads a vessel mask for the open scan, and traces it. */
+import type { Answer, Attachments, Message, Question } from '../core/asked';
 import { Failure } from '../core/failure';
 import type { AfterEdit, GivenFile } from '../core/messages';
 import { type Engine, loadJudge } from '../core/module';
@@ -9,27 +9,26 @@ import { Steps } from '../io/steps';
 import type { Study } from '../io/study';
 import { ask, refuseStopped } from './answers';
 
-/** What comes with a question, and what stops it while a mask is read. */
 interface Asking {
-  readonly beside: Beside;
+  readonly attachments: Attachments;
   readonly signal: AbortSignal;
 }
 
-/** The answer to a question; the mask that comes with it is read first, and what was odd about its files is told too. */
+/** Answers a question after reading its mask; adds the notes on its files. */
 export async function askWithFiles<N extends Question>(
   engine: Engine,
   name: N,
   message: Message<N>,
-  { beside, signal }: Asking,
+  { attachments, signal }: Asking,
 ): Promise<Answer<N>> {
-  const { mask, told = () => undefined } = beside;
+  const { mask, onProgress = () => undefined } = attachments;
   if (!mask) {
-    return ask(engine, name, message, beside);
+    return ask(engine, name, message, attachments);
   }
   try {
-    const notes = await readMask(engine, mask, new Steps(told, signal));
+    const notes = await readMask(engine, mask, new Steps(onProgress, signal));
     refuseStopped(name, signal);
-    const answer = ask(engine, name, message, beside) as AfterEdit;
+    const answer = ask(engine, name, message, attachments) as AfterEdit;
     const edited = { ...answer.edited, notes: [...notes, ...answer.edited.notes] };
     return { ...answer, edited } as AfterEdit as Answer<N>;
   } finally {
@@ -37,7 +36,6 @@ export async function askWithFiles<N extends Question>(
   }
 }
 
-/** Reads a mask as scans are read; gives notes. */
 async function readMask(
   engine: Engine,
   files: readonly GivenFile[],
@@ -50,7 +48,6 @@ async function readMask(
   return notes;
 }
 
-/** The engine as readers of files have it while they read a mask. */
 class MaskStudy implements Study {
   constructor(private readonly engine: Engine) {}
 

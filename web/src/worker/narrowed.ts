@@ -1,17 +1,16 @@
-/** The types of voxels that the module computes with, and how others become one of them. */
+/** Conversion of voxel types to those of the module. */
 import { Failure } from '../core/failure';
 
 interface Narrowed {
-  /** The type that the module gets. */
   readonly dtype: string;
   readonly bytesPerVoxel: number;
-  /** Bytes of whole voxels as those of `dtype`. */
+  /** Converts bytes of whole voxels to `dtype`. */
   readonly narrow: (bytes: Uint8Array) => Uint8Array;
 }
 
 const AS_THEY_ARE: Readonly<Record<string, number>> = { uint8: 1, int16: 2, uint16: 2, float32: 4 };
 
-/** Types that become another one: bytes exactly, wide numbers to 24 bits. */
+/** Bytes exactly, wider types to 24 bits. */
 const OTHERS = {
   int8: { From: Int8Array, To: Int16Array, dtype: 'int16' },
   int32: { From: Int32Array, To: Float32Array, dtype: 'float32' },

@@ -1,4 +1,4 @@
-/** One piece of work after the other, in the order in which they came. */
+/** Runs tasks one at a time, in order. */
 export class Queue {
   private last: Promise<unknown> = Promise.resolve();
 

@@ -1,13 +1,12 @@
-/** The engine as readers of files have it: it tells whether they began to replace what was open. */
+/** Study interface for readers; records whether they began to replace the open study. */
 import type { PlaceDoubt } from '../core/generated/questions';
 import type { SeriesWish } from '../core/messages';
 import type { Engine } from '../core/module';
-import type { Study, Means as StudyMeans } from '../io/study';
+import type { Study, LoadContext as StudyMeans } from '../io/study';
 import { ask, askAtOnce } from './answers';
 
 export class Replacing implements Study {
   hasBegun = false;
-  /** What speaks against where centerlines were read. */
   doubt: PlaceDoubt | null = null;
 
   constructor(
@@ -40,7 +39,6 @@ export class Replacing implements Study {
   }
 }
 
-/** What a study is loaded with. */
-export interface Means extends StudyMeans {
+export interface LoadContext extends StudyMeans {
   readonly study: Study & { close(): void };
 }

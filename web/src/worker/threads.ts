@@ -1,15 +1,14 @@
-/** Starts the threads that compute, where the page may share memory between workers. */
+/** Starts compute threads if workers may share memory. */
 import { type Shared, useThreads } from '../core/module';
 
-/** The most threads: beyond them memory, not arithmetic, is what a picture waits for. */
-const MOST = 16;
+/** More threads do not help, because memory bandwidth limits rendering. */
+const MAX_THREADS = 16;
 
-/** The name of a worker that is a thread. */
 export const THREAD = 'thread';
 
-/** Starts as many threads as the machine runs at once; tells how many compute. */
+/** Starts one thread per logical core; returns their number. */
 export async function startThreads(shared: Shared): Promise<number> {
-  const count = Math.min(navigator.hardwareConcurrency || 1, MOST);
+  const count = Math.min(navigator.hardwareConcurrency || 1, MAX_THREADS);
   if (!self.crossOriginIsolated || count < 2) {
     return 1;
   }
@@ -19,7 +18,7 @@ export async function startThreads(shared: Shared): Promise<number> {
 }
 
 function startThread(shared: Shared): Promise<void> {
-  // Its own file once more: what all of them need is loaded and compiled once.
+  // The same file, so that it is loaded and compiled once.
   const worker = new Worker(self.location.href, { type: 'module', name: THREAD });
   return new Promise((resolve, reject) => {
     worker.onmessage = () => resolve();

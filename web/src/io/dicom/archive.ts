@@ -1,18 +1,17 @@
-/** The members of a zip archive, unpacked into memory one at a time and no further than they claim. */
+/** Members of a zip archive, unpacked into memory one at a time and never beyond the size they claim. */
 import { configure, type FileEntry, Reader, ZipReader } from '@zip.js/zip.js/lib/zip-core-custom.js';
 import { Failure } from '../../core/failure';
 import type { Bytes } from '../payload';
 import type { Source } from '../source';
 import { damaged, formatFailure, printable } from '../words';
 
-/** Unpacked bytes that any archive may claim; real slices beyond that pack far less than the ratio below. */
+/** Unpacked bytes always allowed; larger archives of real slices stay far below the ratio. */
 const ALWAYS_ALLOWED = 2 ** 30;
 const RATIO = 200;
 
-// Workers of blobs are what the page's policy forbids, and this is a worker already.
+// The content security policy forbids blob workers, and this already is a worker.
 configure({ useWebWorkers: false });
 
-/** The files of an archive in the order of their names. */
 export async function membersOf(archive: Source): Promise<Source[]> {
   const entries = (await entriesOf(archive)).filter((entry): entry is FileEntry => !entry.directory);
   if (entries.some((entry) => entry.encrypted)) {
@@ -31,9 +30,7 @@ async function entriesOf(archive: Source) {
   try {
     return await new ZipReader(new SourceReader(archive)).getEntries();
   } catch (error) {
-    throw error instanceof Failure
-      ? error
-      : damaged(archive.path, 'an archive that is damaged', 'a whole one');
+    throw error instanceof Failure ? error : damaged(archive.path, 'a damaged archive', 'an intact one');
   }
 }
 
@@ -48,7 +45,6 @@ class SourceReader extends Reader<Source> {
   }
 }
 
-/** One file of an archive. */
 class Member implements Source {
   readonly path: string;
 
@@ -85,7 +81,7 @@ class Member implements Source {
       await this.entry.getData(sink, { checkSignature: true, signal: stop.signal });
     } catch {
       if (!stop.signal.aborted) {
-        throw damaged(this.path, 'a member of an archive that is damaged', 'a whole one');
+        throw damaged(this.path, 'a damaged member of the archive', 'an intact one');
       }
     }
     return wanted.subarray(0, Math.max(Math.min(count, stopAt) - start, 0));

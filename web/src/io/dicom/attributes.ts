@@ -1,6 +1,5 @@
-/** Where the attributes of headers stand, and how they are written (PS3.6). Which are read the judge says. */
+/** Tags and value representations (PS3.6) of the attributes that the judge can ask for. */
 
-/** How a value is written, by the standard's two letters. */
 export type Vr =
   | 'CS'
   | 'DA'
@@ -20,7 +19,7 @@ export type Vr =
   | 'US or SS';
 
 interface Attribute {
-  /** Group and element, as dicom-parser writes them. */
+  /** Group and element in the notation of dicom-parser. */
   readonly tag: string;
   readonly vr: Vr;
 }
@@ -92,7 +91,6 @@ const TABLE: readonly (readonly [string, string, Vr])[] = [
 
 const BY_KEYWORD = new Map(TABLE.map(([keyword, tag, vr]) => [keyword, { tag: `x${tag}`, vr }] as const));
 
-/** The attribute of a keyword, null where it is not in the table. */
 export function attribute(keyword: string): Attribute | null {
   return BY_KEYWORD.get(keyword) ?? null;
 }

@@ -1,12 +1,11 @@
-/** Decoders of compressed frames, each loaded when the first frame needs it. */
+/** Decoders of compressed frames, each loaded with the first frame that needs it. */
 import type { Bytes } from '../payload';
 import type { Decoded } from './decoded';
 import { decodeLossless } from './jpeg-lossless';
 
-/** Decodes a frame; throws whatever its decoder throws where it is damaged. */
+/** Decodes a frame; throws if it is damaged. */
 export type Decode = (frame: Bytes) => Decoded;
 
-/** A decoder as the packages of Cornerstone have it. */
 interface Decoder {
   getEncodedBuffer(length: number): Uint8Array;
   getDecodedBuffer(): Uint8Array;
@@ -15,7 +14,6 @@ interface Decoder {
   delete(): void;
 }
 
-/** What the decoders' libraries print is for their makers. */
 const SILENT = { print: () => {}, printErr: () => {} };
 
 type Glue = (options: { wasmBinary: ArrayBuffer } & typeof SILENT) => Promise<Record<string, unknown>>;
@@ -51,7 +49,6 @@ const PACKAGES = {
 
 export type CodecName = keyof typeof PACKAGES | 'jpegLossless';
 
-/** Which decoder reads a transfer syntax. */
 export const CODECS: Readonly<Record<string, CodecName>> = {
   '1.2.840.10008.1.2.4.50': 'jpeg',
   '1.2.840.10008.1.2.4.51': 'jpeg',
@@ -68,7 +65,6 @@ export const CODECS: Readonly<Record<string, CodecName>> = {
 
 const loaded = new Map<CodecName, Promise<Decode>>();
 
-/** The decoder of that name. */
 export function decoderOf(name: CodecName): Promise<Decode> {
   const known =
     loaded.get(name) ??
@@ -77,7 +73,7 @@ export function decoderOf(name: CodecName): Promise<Decode> {
   return known;
 }
 
-/** Loads the decoder anew for the next frame: one that failed may be left in any state. */
+/** Reloads the decoder for the next frame, since a failure leaves it in an unknown state. */
 export function forgetDecoder(name: CodecName): void {
   loaded.delete(name);
 }
@@ -95,7 +91,7 @@ function decodedBy(decoder: Decoder, frame: Bytes): Decoded {
     decoder.getEncodedBuffer(frame.length).set(frame);
     decoder.decode();
     const { width, height, bitsPerSample, componentCount } = decoder.getFrameInfo();
-    // The memory of the decoder is used again for the next frame.
+    // The decoder reuses its memory for the next frame.
     const bytes = decoder.getDecodedBuffer().slice();
     return {
       columns: width,

@@ -1,12 +1,12 @@
-/** Whether slices that a plan takes for one hold the same values: the judge sees headers alone. */
+/** Compares the values of slices that a plan treats as copies; the judge sees headers only. */
 import type { Numbers } from '../numbers';
-import type { Image, LookedInto } from './headers';
+import type { ExaminedFile, Image } from './headers';
 import type { Compared, Plan, PlannedSlice } from './judging';
 import { PixelReader } from './pixels';
 import { inUnit } from './stack';
 
-/** The pairs of a plan whose values differ; equal copies are not decoded. */
-export async function unlikePairs(plan: Plan, files: readonly LookedInto[]): Promise<Compared[]> {
+/** Pairs with different values; byte-identical copies are not decoded. */
+export async function unlikePairs(plan: Plan, files: readonly ExaminedFile[]): Promise<Compared[]> {
   const [kept, others] = [new Values(files), new Values(files)];
   const equal = new Map<string, boolean>();
   const unlike: Compared[] = [];
@@ -22,11 +22,10 @@ export async function unlikePairs(plan: Plan, files: readonly LookedInto[]): Pro
   return unlike;
 }
 
-/** Reads the values of slices, one after the other. */
 class Values {
   private readonly reader = new PixelReader();
 
-  constructor(private readonly files: readonly LookedInto[]) {}
+  constructor(private readonly files: readonly ExaminedFile[]) {}
 
   image({ file }: PlannedSlice): Image {
     const image = this.files[file]?.image;
@@ -41,7 +40,7 @@ class Values {
   }
 }
 
-/** Whether two files have one identifier; frames of one file are no copies. */
+/** Two files with one identifier; frames of one file are not copies. */
 function areCopies(one: Image, other: Image): boolean {
   const uid = one.header.attributes.SOPInstanceUID;
   return one !== other && Boolean(uid) && uid === other.header.attributes.SOPInstanceUID;

@@ -1,12 +1,11 @@
-/** What a decoder makes of a frame. */
+/** The result of a decoder. */
 import type { Bytes } from '../payload';
 
-/** A frame that is decoded: its numbers as the decoder has them. */
 export interface Decoded {
   readonly columns: number;
   readonly rows: number;
   readonly components: number;
-  /** One or two bytes each, in this machine's order. */
+  /** One or two bytes each, native byte order. */
   readonly bytes: Bytes;
   readonly unit: number;
 }

@@ -1,4 +1,4 @@
-/** The bytes of each frame of an image. */
+/** Bytes of the frames of an image. */
 
 import type { Failure } from '../../core/failure';
 import type { Bytes } from '../payload';
@@ -7,16 +7,15 @@ import { damaged, formatFailure } from '../words';
 import type { Image } from './headers';
 import { parsed, SYNTAXES } from './parsing';
 
-/** Transfer syntaxes whose pixels are not compressed, or deflated with all of the file. */
+/** Transfer syntaxes with uncompressed pixels, or with the whole file deflated. */
 export const NATIVE: readonly string[] = Object.values(SYNTAXES);
 
 const ITEM = 0xe000;
 const GROUP = 0xfffe;
 const END = 0xe0dd;
-/** So many bytes are read first, and twice as many again where the items go on. */
+/** Size of the first read; it doubles while items follow. */
 const FIRST_WINDOW = 1 << 20;
 
-/** What the pixels of an image look like. */
 export interface Shape {
   readonly rows: number;
   readonly columns: number;
@@ -26,7 +25,7 @@ export interface Shape {
   readonly frameCount: number;
 }
 
-/** The shape that a header states; the judge has looked at it. */
+/** Shape stated by the header, which the judge has checked. */
 export function shapeOf({ header }: Image): Shape {
   const number = (keyword: string, otherwise: number) => {
     const value = header.attributes[keyword];
@@ -43,12 +42,10 @@ export function shapeOf({ header }: Image): Shape {
   };
 }
 
-/** How many bytes a frame takes that is not compressed. */
 export function frameBytes({ rows, columns, bitsAllocated }: Shape): number {
   return (rows * columns * bitsAllocated) / 8;
 }
 
-/** The frames of one image, whose file is read no more often than it must. */
 export class Frames {
   private readonly shape: Shape;
   private content: Bytes | null = null;
@@ -61,12 +58,10 @@ export class Frames {
     }
   }
 
-  /** The bytes of a frame, as the file has them. */
   frame(number: number): Promise<Bytes> {
     return NATIVE.includes(this.image.header.transfer_syntax) ? this.native(number) : this.compressed(number);
   }
 
-  /** How short the pixels are. */
   tooShort(held: number): Failure {
     const { frameCount, columns, rows } = this.shape;
     const frames = frameCount > 1 ? `${frameCount} × ` : '';
@@ -130,12 +125,11 @@ export class Frames {
 }
 
 interface Item {
-  /** From the first item behind the table. */
+  /** Relative to the first item after the table. */
   readonly offset: number;
   readonly bytes: Bytes;
 }
 
-/** The bytes of the items that begin at a place; what follows them, of whatever size, is not read. */
 async function itemBytes(source: Source, start: number): Promise<Bytes> {
   for (let window = FIRST_WINDOW; ; window *= 2) {
     const bytes = await source.slice(start, Math.min(start + window, source.size));
@@ -146,7 +140,7 @@ async function itemBytes(source: Source, start: number): Promise<Bytes> {
   }
 }
 
-/** The byte behind the items and their end, null where more bytes must tell. */
+/** Position after the items and their delimiter; null if more bytes are needed. */
 function endOfItems(bytes: Bytes): number | null {
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
   let at = 0;
@@ -160,7 +154,7 @@ function endOfItems(bytes: Bytes): number | null {
   return null;
 }
 
-/** The items of encapsulated pixels: the basic offset table, then fragments of frames. */
+/** Items of encapsulated pixels: the basic offset table, then fragments. */
 function itemsIn(path: string, bytes: Bytes): { table: number[]; items: Item[]; start: number } {
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
   let [at, start, table] = [0, -1, [] as number[]];
@@ -172,7 +166,7 @@ function itemsIn(path: string, bytes: Bytes): { table: number[]; items: Item[]; 
   ) {
     const length = view.getUint32(at + 4, true);
     if (view.getUint16(at + 2, true) !== ITEM || at + 8 + length > bytes.length) {
-      throw damaged(path, 'compressed pixels that break off', 'whole ones');
+      throw damaged(path, 'truncated compressed pixels', 'complete ones');
     }
     const content = bytes.subarray(at + 8, at + 8 + length);
     if (start < 0) {
@@ -203,7 +197,6 @@ function joinedItems(items: readonly Item[]): Bytes {
   return whole;
 }
 
-/** Frames that end where a JPEG stream of any kind ends. */
 function byEndMarkers(items: readonly Item[]): Bytes[] {
   const frames: Bytes[] = [];
   let begun: Item[] = [];

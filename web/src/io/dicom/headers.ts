@@ -1,4 +1,4 @@
-/** The header of one DICOM file: the record that it is judged by, and what its pixels are read with. */
+/** Header of one DICOM file: the record for the judge, and what is needed to read its pixels. */
 import { Failure } from '../../core/failure';
 import type { Source } from '../source';
 import { fileName } from '../source';
@@ -9,31 +9,28 @@ import { isDicom } from './recognising';
 import type { HeaderRecord, Recorder } from './records';
 import { bytesIn, textsOf } from './values';
 
-/** Bytes that hold the headers of nearly all images, then those of most multi-frame ones, before all of the file is read. */
+/** Bytes that hold nearly all single-frame headers, then most multi-frame ones, before reading the whole file. */
 const HEADS = [1 << 17, 1 << 23];
 
-/** One DICOM file with its pixels still in it. */
+/** A DICOM file whose pixels are not read yet. */
 export interface Image {
   readonly source: Source;
   readonly header: HeaderRecord;
-  /** The UID of its study. */
   readonly study: string;
   readonly pixels: PixelElement | null;
   readonly isBig: boolean;
   readonly isDeflated: boolean;
-  /** Where each frame begins and how long it is, where the file has such a table. */
+  /** Extended offset table: start and length of each frame. */
   readonly extended: readonly (readonly [number, number])[] | null;
 }
 
-/** A file that was looked into. */
-export interface LookedInto {
+export interface ExaminedFile {
   readonly source: Source;
   readonly image: Image | null;
   readonly record: { readonly name: string; readonly kind: string; readonly header?: HeaderRecord };
 }
 
-/** Reads the header of a file where it is DICOM. */
-export async function lookInto(source: Source, recorder: Recorder): Promise<LookedInto> {
+export async function examine(source: Source, recorder: Recorder): Promise<ExaminedFile> {
   const name = printable(fileName(source.path));
   const head = await source.slice(0, HEADS[0] ?? 0);
   if (!isDicom(head)) {
@@ -43,12 +40,12 @@ export async function lookInto(source: Source, recorder: Recorder): Promise<Look
   return { source, image, record: { name, kind: '', header: image.header } };
 }
 
-/** Where the pixels of a file are, and whether it is deflated. */
+/** Position of the pixels, and whether the file is deflated. */
 export async function pixelsOf(source: Source): Promise<Pick<Parsed, 'pixels' | 'isDeflated'>> {
   return header(source, await source.slice(0, HEADS[0] ?? 0));
 }
 
-/** Parses as much of the file as its header needs; pixels must follow unless all of it was read. */
+/** Parses the header; pixels must follow unless the whole file was read. */
 async function header(source: Source, head: Uint8Array<ArrayBuffer>): Promise<Parsed> {
   for (const length of [...HEADS, source.size]) {
     const isWhole = length >= source.size;
@@ -70,7 +67,7 @@ async function header(source: Source, head: Uint8Array<ArrayBuffer>): Promise<Pa
 }
 
 function unreadable(source: Source): Failure {
-  return damaged(source.path, 'a header that is damaged or breaks off', 'a sound DICOM file');
+  return damaged(source.path, 'a damaged or truncated header', 'an intact DICOM file');
 }
 
 function imageOf(source: Source, file: Parsed, recorder: Recorder): Image {
@@ -91,7 +88,6 @@ function imageOf(source: Source, file: Parsed, recorder: Recorder): Image {
   }
 }
 
-/** The extended offset table, null where there is none. */
 function extendedTable(file: Parsed): Image['extended'] {
   const [offsets, lengths] = ['x7fe00001', 'x7fe00002'].map((tag) => {
     const element = file.elements[tag];
@@ -106,7 +102,7 @@ function extendedTable(file: Parsed): Image['extended'] {
   return offsets?.length ? offsets.map((offset, i) => [offset, lengths?.[i] ?? 0] as const) : null;
 }
 
-/** What a file is that is no DICOM as it lies there. */
+/** Why the file is not readable as DICOM. */
 function otherKind(head: Uint8Array): string {
   const isZip = head[0] === 0x50 && head[1] === 0x4b && (head[2] === 3 || head[2] === 5);
   const packed = isZip ? 'zip archive' : head[0] === 0x1f && head[1] === 0x8b ? 'gzipped' : '';

@@ -1,4 +1,4 @@
-/** DICOM: one series of grey images, of a folder, a zip archive or single files, becomes one volume. */
+/** DICOM: one greyscale series from a folder, a zip archive or single files becomes one volume. */
 
 import type { Judge } from '../../core/judge';
 import type { ReadScan } from '../../core/scan-study';
@@ -6,7 +6,7 @@ import { inOrder, type Source } from '../source';
 import type { Steps } from '../steps';
 import type { Sink } from '../volume-file';
 import { unlikePairs } from './comparing';
-import { type LookedInto, lookInto } from './headers';
+import { type ExaminedFile, examine } from './headers';
 import { asked, judged, type Plan } from './judging';
 import { Recorder } from './records';
 import { loadStack } from './stack';
@@ -16,29 +16,26 @@ import type { Wanted } from './wanted';
 
 export { headOf } from './study';
 
-/** What the files are: named together, and what of them is wanted. */
 export interface Series {
   readonly subject: string;
   readonly sources: readonly Source[];
   readonly wanted: Wanted;
 }
 
-/** What is told of a series beside its voxels: what was odd, and its study. */
 export interface ReadSeries {
   readonly notes: readonly string[];
   readonly study: ReadScan | null;
 }
 
-/** Reads a series into the engine. */
 export async function openDicom(series: Series, judge: Judge, sink: Sink, steps: Steps): Promise<ReadSeries> {
-  const files = await lookIntoAll(series.sources, judge, steps);
+  const files = await examineAll(series.sources, judge, steps);
   const plan = await planned(series, judge, files);
   await loadStack(series.subject, plan, files, sink, steps);
   return { notes: plan.notes, study: await studyOf(plan, files) };
 }
 
-/** The plan of the volume; where a series is to be chosen first, the refusal shows a picture of each. */
-async function planned(series: Series, judge: Judge, files: readonly LookedInto[]): Promise<Plan> {
+/** The plan of the volume; a failure that asks for a series includes thumbnails. */
+async function planned(series: Series, judge: Judge, files: readonly ExaminedFile[]): Promise<Plan> {
   try {
     const question = { ...series, files };
     const plan = judged(judge, question);
@@ -49,11 +46,11 @@ async function planned(series: Series, judge: Judge, files: readonly LookedInto[
   }
 }
 
-async function lookIntoAll(sources: readonly Source[], judge: Judge, steps: Steps): Promise<LookedInto[]> {
+async function examineAll(sources: readonly Source[], judge: Judge, steps: Steps): Promise<ExaminedFile[]> {
   const recorder = new Recorder(asked(judge));
-  const files: LookedInto[] = [];
+  const files: ExaminedFile[] = [];
   for (const source of inOrder(sources)) {
-    files.push(await lookInto(source, recorder));
+    files.push(await examine(source, recorder));
     await steps.step('Looking into files', files.length, sources.length);
   }
   return files;

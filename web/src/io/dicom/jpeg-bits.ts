@@ -1,13 +1,12 @@
-/** The bits of a JPEG scan, and the Huffman codes in them. */
+/** Bit reader and Huffman codes of a JPEG scan. */
 import type { Bytes } from '../payload';
 
-/** Bits that a decoder may look at beyond the end of a scan. */
+/** Bits that a decoder may peek beyond the end of a scan. */
 const LOOK_AHEAD = 32;
 const CODE_BITS = 16;
 
 export class DamagedScan extends Error {}
 
-/** The bits of a scan, up to the next marker. */
 export class Bits {
   private held = 0;
   private count = 0;
@@ -18,7 +17,7 @@ export class Bits {
     public at: number,
   ) {}
 
-  /** The next 16 bits, which stay. */
+  /** The next 16 bits, without consuming them. */
   peek(): number {
     this.fill(CODE_BITS);
     return (this.held >>> (this.count - CODE_BITS)) & 0xffff;
@@ -31,7 +30,6 @@ export class Bits {
     }
   }
 
-  /** The next bits as a number, at most 16 of them. */
   take(count: number): number {
     this.fill(count);
     const value = (this.held >>> (this.count - count)) & ((1 << count) - 1);
@@ -39,7 +37,6 @@ export class Bits {
     return value;
   }
 
-  /** Goes on behind a restart marker. */
   restart(): void {
     [this.held, this.count, this.missing] = [0, 0, 0];
     const isMarker = this.bytes[this.at] === 0xff && ((this.bytes[this.at + 1] ?? 0) & 0xf8) === 0xd0;
@@ -56,7 +53,7 @@ export class Bits {
     }
   }
 
-  /** The next byte; zeros behind the end, which is damage where too many of them are used. */
+  /** The next byte; zeros after the end, which counts as damage if too many are used. */
   private nextByte(): number {
     const byte = this.bytes[this.at];
     if (byte === undefined || (byte === 0xff && this.bytes[this.at + 1] !== 0)) {
@@ -68,7 +65,7 @@ export class Bits {
   }
 }
 
-/** A table of Huffman codes: for every 16 bits the length of the code that they begin with, and what it stands for. */
+/** Huffman table: for every 16 bits, length and value of the leading code. */
 export class Codes {
   private readonly table = new Uint16Array(1 << CODE_BITS);
 

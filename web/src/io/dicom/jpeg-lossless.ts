@@ -1,9 +1,8 @@
-/** Lossless JPEG (ITU T.81, process 14) of one component: the packages with decoders have none. */
+/** Lossless JPEG (ITU T.81, process 14) of one component, which the decoder packages lack. */
 import type { Bytes } from '../payload';
 import type { Decoded } from './decoded';
 import { Bits, Codes, DamagedScan } from './jpeg-bits';
 
-/** What the markers before the scan state. */
 interface Scan {
   readonly columns: number;
   readonly rows: number;
@@ -18,7 +17,6 @@ interface Scan {
 
 const [FRAME, HUFFMAN, START, RESTARTS] = [0xc3, 0xc4, 0xda, 0xdd];
 
-/** Decodes a frame; throws where it is damaged or of another kind. */
 export function decodeLossless(frame: Bytes): Decoded {
   const scan = readMarkers(frame);
   const { columns, rows, precision } = scan;
@@ -84,7 +82,7 @@ function samples(scan: Scan, bits: Bits): Uint16Array<ArrayBuffer> {
   return shift > 0 ? values.map((value) => value << shift) : values;
 }
 
-/** What a sample is expected to be; the first line behind a restart has none above. */
+/** Predictor of a sample; the first line after a restart has no line above. */
 function predicted(
   { columns, precision, shift, predictor }: Scan,
   values: Uint16Array,

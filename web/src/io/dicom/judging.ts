@@ -1,41 +1,39 @@
-/** What the judge makes of headers: a plan of the volume, or why there is none. */
+/** Calls the judge: a plan of the volume, or a failure. */
 import { Failure, type SeriesChoice } from '../../core/failure';
 import type { Judge } from '../../core/judge';
 import type { Mend } from '../../core/mends';
-import type { LookedInto } from './headers';
+import type { ExaminedFile } from './headers';
 import { TRANSFER_SYNTAXES } from './pixels';
 import type { Asked } from './records';
 import type { Wanted } from './wanted';
 
-/** The volume that a series becomes. */
 export interface Plan {
   readonly size: readonly [number, number, number];
   readonly world_from_index: readonly (readonly number[])[];
   readonly slices: readonly PlannedSlice[];
   readonly fills: readonly Fill[];
-  /** Slices that are taken for one if their values are the same. */
+  /** Slices that count as one if their values are equal. */
   readonly compared: readonly Compared[];
   readonly notes: readonly string[];
-  /** How the scan was made, as the engine takes it. */
+  /** Acquisition data in the engine's form. */
   readonly scan: object;
 }
 
 export interface PlannedSlice {
   readonly file: number;
   readonly frame: number;
-  /** The index k at which it lies. */
   readonly place: number;
   readonly slope: number;
   readonly intercept: number;
 }
 
-/** A slice that is read, and one that is left out. */
+/** A slice that is kept, and its presumed copy. */
 export interface Compared {
   readonly kept: PlannedSlice;
   readonly other: PlannedSlice;
 }
 
-/** A slice that is made of two that are read: (1 - part) × before + part × after. */
+/** An interpolated slice: (1 - part) × before + part × after. */
 export interface Fill {
   readonly k: number;
   readonly before: number;
@@ -48,7 +46,6 @@ interface Trouble {
   readonly file: number | null;
   readonly found: string;
   readonly expected: string;
-  /** Advice in words. */
   readonly advice: string;
   readonly mends: readonly Mend[];
   readonly series: readonly SeriesChoice[];
@@ -58,15 +55,13 @@ export function asked(judge: Judge): Asked {
   return JSON.parse(judge.dicom_attributes());
 }
 
-/** What is judged: the files, named together, what of them is wanted, and which slices were found to differ. */
 export interface Question {
   readonly subject: string;
-  readonly files: readonly LookedInto[];
+  readonly files: readonly ExaminedFile[];
   readonly wanted: Wanted;
   readonly unlike?: readonly Compared[];
 }
 
-/** Finds the one series that is to be read, and how. */
 export function judged(judge: Judge, { subject, files, wanted, unlike = [] }: Question): Plan {
   const records = files.map((file) => file.record);
   const headers = { transfer_syntaxes: TRANSFER_SYNTAXES, files: records, unlike };

@@ -1,4 +1,4 @@
-/** The packages with decoders have no types of their own. */
+/** Declarations for decoder packages without types. */
 declare module '@cornerstonejs/codec-libjpeg-turbo-8bit/decodewasmjs';
 declare module '@cornerstonejs/codec-charls/decodewasmjs';
 declare module '@cornerstonejs/codec-openjpeg/decodewasmjs';

@@ -1,4 +1,4 @@
-/** A DICOM file up to its pixels, by dicom-parser. */
+/** Parses a DICOM file up to its pixels with dicom-parser. */
 import dicomParser, { type ByteStream, type Element } from 'dicom-parser';
 import { Part } from '../inflating';
 import type { Bytes } from '../payload';
@@ -13,20 +13,18 @@ export const SYNTAXES = {
   big: '1.2.840.10008.1.2.2',
 } as const;
 
-/** Where the pixels of a file are. */
 export interface PixelElement {
   readonly keyword: 'PixelData' | 'FloatPixelData' | 'DoubleFloatPixelData';
   readonly vr: string;
-  /** The byte at which the value begins, in the file or in what it inflates to. */
+  /** Start of the value, in the file or its inflated bytes. */
   readonly at: number;
 }
 
-/** The elements of a file before its pixels. */
 export interface Parsed {
   readonly syntax: string;
   readonly bytes: Bytes;
   readonly isBig: boolean;
-  /** Whether `bytes` are not those of the file but what they inflate to. */
+  /** Whether `bytes` were inflated. */
   readonly isDeflated: boolean;
   readonly elements: Elements;
   readonly meta: Elements;
@@ -44,7 +42,7 @@ const DEFLATE_FLOOR = 64 << 20;
 const DEFLATE_RATIO = 20;
 const PIECE = 1 << 20;
 
-/** Parses bytes, the first of a file or all of them; throws where they are cut off before the pixels. */
+/** Parses the whole file or its beginning; throws if cut off before the pixels. */
 export function parsed(path: string, given: Bytes): Parsed {
   const { meta, start, syntax } = metaOf(given);
   const isDeflated = syntax === SYNTAXES.deflated;
@@ -56,7 +54,7 @@ export function parsed(path: string, given: Bytes): Parsed {
   return { syntax, bytes, isBig, isDeflated, meta, elements, pixels };
 }
 
-/** The file meta information; a dataset without it is plain, and tells by its first element in which way. */
+/** File meta information; for a dataset without it, the first element shows the encoding. */
 function metaOf(given: Bytes): { meta: Elements; start: number; syntax: string } {
   const hasPreamble = lettersAt(given, 128, 4) === 'DICM';
   const order = dicomParser.littleEndianByteArrayParser;
@@ -78,7 +76,6 @@ interface Found {
   readonly pixels: PixelElement | null;
 }
 
-/** The elements of a dataset up to the pixels. */
 function elementsOf(stream: ByteStream, isImplicit: boolean): Found {
   const elements: Record<string, Element> = {};
   while (stream.position + 8 <= stream.byteArray.length) {
@@ -108,13 +105,13 @@ function elementsOf(stream: ByteStream, isImplicit: boolean): Found {
 interface Head {
   readonly tag: string;
   readonly vr: string;
-  /** Where the value begins, for elements whose length takes four bytes. */
+  /** Start of the value, for elements with a four-byte length. */
   readonly at: number;
   readonly length: number;
   readonly isUnknownToTheParser: boolean;
 }
 
-/** Looks at the element that comes next; dicom-parser does not know the types of 64-bit integers. */
+/** Peeks at the next element; dicom-parser lacks the 64-bit integer types. */
 function nextElement(stream: ByteStream, isImplicit: boolean): Head {
   const start = stream.position;
   const number = (at: number, count: 2 | 4) => {
@@ -132,7 +129,7 @@ function nextElement(stream: ByteStream, isImplicit: boolean): Head {
   return { tag, vr, at: start + 12, length: number(start + 8, 4), isUnknownToTheParser };
 }
 
-/** Inflates a dataset, but not one that becomes far more than scans do. */
+/** Inflates a dataset, up to a size that real scans reach. */
 function inflatedFrom(path: string, bytes: Bytes, start: number): Bytes {
   const limit = Math.max(DEFLATE_FLOOR, DEFLATE_RATIO * bytes.length);
   const part = new Part('bare', path);

@@ -1,4 +1,4 @@
-/** The stored numbers of a slice. */
+/** Stored values of a slice. */
 import { type Kind, type Numbers, numbersOf } from '../numbers';
 import type { Bytes } from '../payload';
 import { damaged, formatFailure } from '../words';
@@ -10,19 +10,17 @@ import { unpackRle } from './rle';
 import { codestreamSize, jpegSize } from './stream-size';
 
 export const RLE = '1.2.840.10008.1.2.5';
-/** All that is decoded here. */
 export const TRANSFER_SYNTAXES: readonly string[] = [...NATIVE, RLE, ...Object.keys(CODECS)];
 
-/** Bytes that any frame may become: an empty one of 2048 × 2048 pixels is packed to a hundred bytes. */
+/** Bytes always allowed per frame: an empty 2048 × 2048 frame compresses to a hundred bytes. */
 const ALWAYS_ALLOWED = 16 << 20;
-/** Beyond, no codec makes a real slice this much smaller; a header that claims more lies. */
+/** No codec compresses real slices more; a header that claims more is wrong. */
 const COMPRESSION_LIMIT = 10_000;
 
-/** Reads slices one after the other; the file of the last one is kept at hand. */
+/** Reads slices in sequence, and caches the last file. */
 export class PixelReader {
   private frames: Frames | null = null;
 
-  /** The numbers of a frame, as many as it has pixels. */
   async read(image: Image, frame: number): Promise<Numbers> {
     if (this.frames?.image !== image) {
       this.frames = new Frames(image);
@@ -44,7 +42,6 @@ export class PixelReader {
   }
 }
 
-/** The type of stored numbers. */
 export function kindOf(image: Image, shape: Shape): Kind {
   const bits = shape.bitsAllocated;
   if (image.pixels?.keyword !== 'PixelData') {
@@ -56,14 +53,14 @@ export function kindOf(image: Image, shape: Shape): Kind {
 function nativeNumbers(image: Image, shape: Shape, bytes: Bytes): Numbers {
   const kind = kindOf(image, shape);
   if (image.isBig && shape.bitsAllocated === 8 && image.pixels?.vr === 'OW') {
-    // Two bytes make a word, whose higher one comes first.
+    // The high byte of each 16-bit word comes first.
     const swapped = numbersOf({ kind: 'uint16', isBig: true }, bytes);
     return used(numbersOf({ kind, isBig: false }, new Uint8Array(swapped.buffer as ArrayBuffer)), shape);
   }
   return used(numbersOf({ kind, isBig: image.isBig }, bytes), shape);
 }
 
-/** Numbers without the bits that are not used; the highest that is used is the sign. */
+/** Drops unused bits; the highest used bit is the sign. */
 function used(numbers: Numbers, { bitsAllocated, bitsStored }: Shape): Numbers {
   const unused = bitsAllocated - bitsStored;
   if (unused <= 0 || unused >= bitsAllocated || !(numbers instanceof Int8Array || isSmall(numbers))) {
@@ -71,7 +68,7 @@ function used(numbers: Numbers, { bitsAllocated, bitsStored }: Shape): Numbers {
   }
   const result = numbers as Int16Array<ArrayBuffer>;
   for (let i = 0; i < result.length; i += 1) {
-    // An array of its type drops what was shifted out, and shifts the sign in.
+    // The typed array truncates and extends the sign.
     result[i] = (result[i] ?? 0) << unused;
     result[i] = (result[i] ?? 0) >> unused;
   }
@@ -94,7 +91,7 @@ function unpackedRle(path: string, shape: Shape, frame: Bytes): Numbers {
 async function decoded(path: string, syntax: string, shape: Shape, frame: Bytes): Promise<Numbers> {
   const name = CODECS[syntax];
   if (!name) {
-    throw formatFailure(path, `pixels of the transfer syntax ${syntax}`, 'one that is read here');
+    throw formatFailure(path, `pixels of the transfer syntax ${syntax}`, 'a supported one');
   }
   requireSize(path, name, shape, frame);
   const decode = await decoderOf(name);
@@ -115,7 +112,7 @@ async function decoded(path: string, syntax: string, shape: Shape, frame: Bytes)
     : numbers;
 }
 
-/** Refuses a frame of another size than the header's before its decoder sets memory aside. */
+/** Rejects a frame whose size differs from the header's, before its decoder allocates memory. */
 function requireSize(path: string, name: CodecName, shape: Shape, frame: Bytes): void {
   const isCodestream = name === 'jpeg2000' || name === 'highThroughput';
   const size = isCodestream ? codestreamSize(frame) : jpegSize(frame);
@@ -132,7 +129,7 @@ function requireSize(path: string, name: CodecName, shape: Shape, frame: Bytes):
     throw formatFailure(path, found, `${shape.columns} × ${shape.rows} as the header says`);
   }
   if (name === 'jpeg' && size.bits > 8) {
-    const mend = 'write the series without compression, or convert it by the Python package';
+    const mend = 'write the series without compression, or convert it with the Python package';
     throw formatFailure(
       path,
       `JPEG Extended of ${size.bits} bits`,

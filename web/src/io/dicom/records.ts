@@ -1,4 +1,4 @@
-/** Headers as plain records, in the form of the crate `lumencut-dicom`, which judges series by them. */
+/** Headers as plain records for the crate `lumencut-dicom`. */
 import type { Element } from 'dicom-parser';
 import { attribute, TAGS } from './attributes';
 import type { Parsed } from './parsing';
@@ -15,12 +15,11 @@ export interface HeaderRecord {
   readonly frames: readonly Attributes[];
 }
 
-/** The attributes that the judge asks for, and the functional groups that may have each. */
+/** Attributes the judge needs, with the functional groups that may contain them. */
 export type Asked = Readonly<Record<string, readonly string[]>>;
 
 type Elements = Readonly<Record<string, Element>>;
 
-/** Reads the attributes that are asked for. */
 export class Recorder {
   private readonly keywords: readonly string[];
   private readonly groups = new Map<string, string[]>();
@@ -58,7 +57,7 @@ export class Recorder {
     return found;
   }
 
-  /** The attributes of functional groups side by side; the first group that has one counts. */
+  /** Flattens functional groups; the first group with an attribute counts. */
   private ofGroups(reader: Reader, groups: Elements): Attributes {
     let found: Record<string, Value> = {};
     for (const [sequence, keywords] of this.groups) {
@@ -69,7 +68,6 @@ export class Recorder {
   }
 }
 
-/** Reads values of one file. */
 class Reader {
   private readonly decoder: TextDecoder;
 
@@ -87,7 +85,6 @@ class Reader {
     return meta ? (textsOf(this.file, meta)[0] ?? '') : '';
   }
 
-  /** The value of an attribute, undefined where it is not there at all. */
   value(elements: Elements, keyword: string): Value | undefined {
     const known = attribute(keyword);
     const element = known ? elements[known.tag] : undefined;
@@ -98,7 +95,7 @@ class Reader {
     return valueIn(this.file, element, stated === 'US or SS' ? this.signed() : stated, this.decoder);
   }
 
-  /** The type of stored numbers. */
+  /** Signedness by Pixel Representation. */
   private signed(): string {
     return this.value(this.file.elements, 'PixelRepresentation') === 1 ? 'SS' : 'US';
   }

@@ -1,9 +1,9 @@
-/** RLE of DICOM (PS3.5 G): bytes of the same weight together, packed by runs. */
+/** DICOM RLE (PS3.5 G): run-length coded byte planes. */
 import type { Bytes } from '../payload';
 
 const HEADER = 64;
 
-/** Unpacks a frame of numbers of `unit` bytes into those of this machine's order; null where it is damaged. */
+/** Decodes values of `unit` bytes into native byte order; null if damaged. */
 export function unpackRle(frame: Bytes, count: number, unit: number): Bytes | null {
   if (frame.length < HEADER) {
     return null;
@@ -19,7 +19,6 @@ export function unpackRle(frame: Bytes, count: number, unit: number): Bytes | nu
     if (start < HEADER || next > frame.length || start > next) {
       return null;
     }
-    // The heaviest byte comes first.
     const found = unpackSegment(frame.subarray(start, next), pixels, unit - 1 - segment, unit);
     if (found < count) {
       return null;
@@ -28,7 +27,7 @@ export function unpackRle(frame: Bytes, count: number, unit: number): Bytes | nu
   return pixels;
 }
 
-/** Unpacks runs into every `step`th byte from `first` on; tells how many there were. */
+/** Writes runs to every `step`th byte from `first` on; returns their number. */
 function unpackSegment(packed: Bytes, pixels: Bytes, first: number, step: number): number {
   const count = pixels.length / step;
   let [at, found] = [0, 0];

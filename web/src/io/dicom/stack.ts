@@ -1,4 +1,4 @@
-/** The slices of a plan become the voxels of one volume, holes interpolated. */
+/** Assembles the planned slices into one volume and interpolates gaps. */
 import {
   ARRAYS,
   byteCount,
@@ -13,23 +13,23 @@ import {
 import { isIntegral, isScaled, type Scaling, scaled } from '../rescale';
 import type { Steps } from '../steps';
 import { begin, type Sink } from '../volume-file';
-import type { LookedInto } from './headers';
+import type { ExaminedFile } from './headers';
 import type { Plan, PlannedSlice } from './judging';
 import { PixelReader } from './pixels';
 
 type Range = readonly [number, number];
 
-/** The type of a volume, and whether its values are whole numbers, also where they are held as floats. */
+/** Type of a volume, and whether its values are whole numbers even if stored as floats. */
 interface Type {
   readonly kind: Kind;
   readonly isWhole: boolean;
 }
 
-/** Reads the slices into the engine, in the narrowest type that holds all their values. */
+/** Reads the slices in the narrowest type that holds all values. */
 export async function loadStack(
   subject: string,
   plan: Plan,
-  files: readonly LookedInto[],
+  files: readonly ExaminedFile[],
   sink: Sink,
   steps: Steps,
 ): Promise<void> {
@@ -45,11 +45,11 @@ export async function loadStack(
   }
 }
 
-function isFloat({ file }: PlannedSlice, files: readonly LookedInto[]): boolean {
+function isFloat({ file }: PlannedSlice, files: readonly ExaminedFile[]): boolean {
   return files[file]?.image?.pixels?.keyword !== 'PixelData';
 }
 
-/** Fills a volume of one type with slices, as far as it holds their values. */
+/** Fills a volume of one type until a value does not fit. */
 class Filler {
   private readonly reader = new PixelReader();
   private range: Range = [Number.POSITIVE_INFINITY, Number.NEGATIVE_INFINITY];
@@ -58,7 +58,7 @@ class Filler {
 
   constructor(
     private readonly plan: Plan,
-    private readonly files: readonly LookedInto[],
+    private readonly files: readonly ExaminedFile[],
     private readonly sink: Sink,
     private readonly type: Type,
   ) {}
@@ -67,7 +67,7 @@ class Filler {
     return this.type.kind;
   }
 
-  /** Reads all slices; the first type that holds the values so far, where this one does not. */
+  /** Reads all slices; returns a wider type if this one is too narrow. */
   async fill(steps: Steps): Promise<Kind | null> {
     for (const [number, slice] of this.plan.slices.entries()) {
       const values = await this.values(slice);
@@ -95,7 +95,7 @@ class Filler {
     return inUnit(await this.reader.read(image, slice.frame), slice);
   }
 
-  /** The type that is needed now, null where this one still holds all values. */
+  /** The type needed now; null if this one suffices. */
   private widened(values: Numbers): Kind | null {
     if (this.kind === 'float32') {
       return null;
@@ -114,7 +114,6 @@ class Filler {
     this.sink.take_voxels(place * ni * nj * byteCount(this.kind), bytesOf(values));
   }
 
-  /** Makes the slices that lie between the last one and this one, the planned slice of that number. */
   private fillUpTo(number: number, values: Numbers): void {
     for (;;) {
       const fill = this.plan.fills[this.nextFill];
@@ -127,7 +126,7 @@ class Filler {
   }
 }
 
-/** slope · stored + intercept of one slice, whole numbers wherever that is exact. */
+/** slope · stored + intercept; whole numbers if exact. */
 export function inUnit(stored: Numbers, scaling: Scaling): Numbers {
   if (!isScaled(scaling)) {
     return stored;
@@ -162,7 +161,7 @@ function mixed(before: Numbers, after: Numbers, part: number, { kind, isWhole }:
   return result;
 }
 
-/** The nearest whole number, the even one of two. */
+/** Rounds half to even. */
 function toEven(value: number): number {
   const low = Math.floor(value);
   const above = value - low;

@@ -1,4 +1,4 @@
-/** The size that a compressed frame states itself, before a decoder sets memory aside for it. */
+/** The image size stated inside a compressed frame, checked before a decoder allocates memory. */
 import type { Bytes } from '../payload';
 
 export interface StreamSize {
@@ -8,7 +8,6 @@ export interface StreamSize {
   readonly bits: number;
 }
 
-/** The size of a codestream of JPEG 2000, null where there is none. */
 export function codestreamSize(frame: Bytes): StreamSize | null {
   const view = new DataView(frame.buffer, frame.byteOffset, frame.byteLength);
   for (let at = 0; at + 43 <= frame.length; at += 1) {
@@ -25,7 +24,6 @@ export function codestreamSize(frame: Bytes): StreamSize | null {
   return null;
 }
 
-/** The size of a frame of JPEG or JPEG-LS, null where there is none. */
 export function jpegSize(frame: Bytes): StreamSize | null {
   const view = new DataView(frame.buffer, frame.byteOffset, frame.byteLength);
   let at = 2;
@@ -47,7 +45,7 @@ export function jpegSize(frame: Bytes): StreamSize | null {
   return null;
 }
 
-/** Whether a marker begins the header of a frame: all from SOF0 on but tables, and that of JPEG-LS. */
+/** SOF markers, including JPEG-LS, but not table markers. */
 function isFrameHeader(marker: number): boolean {
   const isOfJpeg = marker >= 0xc0 && marker <= 0xcf && ![0xc4, 0xc8, 0xcc].includes(marker);
   return isOfJpeg || marker === 0xf7;

@@ -1,13 +1,13 @@
-/** The study that a series belongs to: the header of one image, and which images there are. */
+/** The study of a series: the header of one image, and its image UIDs. */
 import type { ReadScan } from '../../core/scan-study';
 import type { Bytes } from '../payload';
 import type { Source } from '../source';
 import { formatFailure } from '../words';
-import { type LookedInto, pixelsOf } from './headers';
+import { type ExaminedFile, pixelsOf } from './headers';
 import type { Plan } from './judging';
 import { isDicom } from './recognising';
 
-/** What of a file stands before its pixels; all of it where it has none, or where it is deflated. */
+/** The part before the pixels; the whole file if it has none or is deflated. */
 export async function headOf(source: Source): Promise<Bytes> {
   if (!isDicom(await source.slice(0, Math.min(source.size, 256)))) {
     const advice = "choose a file of the scan's own folder of DICOM";
@@ -17,8 +17,7 @@ export async function headOf(source: Source): Promise<Bytes> {
   return source.slice(0, pixels && !isDeflated ? pixels.at : source.size);
 }
 
-/** The study of the images of a plan. */
-export async function studyOf(plan: Plan, files: readonly LookedInto[]): Promise<ReadScan | null> {
+export async function studyOf(plan: Plan, files: readonly ExaminedFile[]): Promise<ReadScan | null> {
   const images = [...new Set(plan.slices.map(({ file }) => files[file]?.image))].filter((one) => !!one);
   const [first] = images;
   if (!first) {

@@ -1,17 +1,14 @@
-/** Small pictures of series among which the reader chooses: the middle slice of each, 64 pixels at its longer side. */
+/** Thumbnails of series to choose from: the middle slice, 64 pixels at its longer side. */
 import { Failure, type SeriesChoice, type Thumbnail } from '../../core/failure';
 import type { Numbers } from '../numbers';
 import { shapeOf } from './frames';
-import type { Image, LookedInto } from './headers';
+import type { ExaminedFile, Image } from './headers';
 import { PixelReader } from './pixels';
 
-/** The longer side (pixels). */
 const SIDE = 64;
-/** From black to white lie all values but this share at each end. */
-const ENDS = 0.02;
+const CLIPPED_SHARE = 0.02;
 
-/** The same failure with a picture of each series to choose from; any other one as it is. */
-export async function withThumbnails(failure: unknown, files: readonly LookedInto[]): Promise<unknown> {
+export async function withThumbnails(failure: unknown, files: readonly ExaminedFile[]): Promise<unknown> {
   if (!(failure instanceof Failure) || failure.series.length === 0) {
     return failure;
   }
@@ -24,11 +21,11 @@ export async function withThumbnails(failure: unknown, files: readonly LookedInt
   return new Failure(kind, subject, found, expected, advice, { ...more, series });
 }
 
-function imagesOf({ uid }: SeriesChoice, files: readonly LookedInto[]): readonly Image[] {
+function imagesOf({ uid }: SeriesChoice, files: readonly ExaminedFile[]): readonly Image[] {
   return files.flatMap(({ image }) => (image?.header.attributes.SeriesInstanceUID === uid ? [image] : []));
 }
 
-/** The middle slice of images that belong together, in the order of their places; null of none with pixels. */
+/** The middle slice of a series, by position; null without pixels. */
 async function thumbnailOf(images: readonly Image[]): Promise<Thumbnail | null> {
   const inOrder = images.filter(({ pixels }) => pixels).toSorted((a, b) => placeOf(a) - placeOf(b));
   const middle = inOrder[Math.floor(inOrder.length / 2)];
@@ -40,7 +37,7 @@ async function thumbnailOf(images: readonly Image[]): Promise<Thumbnail | null> 
   return pictureOf(values, [columns, rows]);
 }
 
-/** Where a slice lies across its plane (mm), or its number where no place is stated. */
+/** Position along the slice normal (mm), or the instance number. */
 function placeOf({ header: { attributes } }: Image): number {
   const numbers = (keyword: string) => [attributes[keyword] ?? []].flat().map(Number);
   const [at, axes] = [numbers('ImagePositionPatient'), numbers('ImageOrientationPatient')];
@@ -50,7 +47,6 @@ function placeOf({ header: { attributes } }: Image): number {
   return Number.isFinite(place) ? place : Number(attributes.InstanceNumber ?? 0);
 }
 
-/** Grey bytes of a slice, made smaller by taking the nearest of its pixels. */
 export function pictureOf(values: Numbers, [columns, rows]: readonly [number, number]): Thumbnail {
   const step = Math.max(columns, rows) / SIDE;
   const [width, height] = [Math.max(1, Math.round(columns / step)), Math.max(1, Math.round(rows / step))];
@@ -62,7 +58,7 @@ export function pictureOf(values: Numbers, [columns, rows]: readonly [number, nu
   const taken = Float64Array.from({ length: width * height }, (_, n) => at(n));
   const sorted = taken.toSorted();
   const end = (share: number) => sorted[Math.round(share * (sorted.length - 1))] ?? 0;
-  const [low, high] = [end(ENDS), end(1 - ENDS)];
+  const [low, high] = [end(CLIPPED_SHARE), end(1 - CLIPPED_SHARE)];
   const grey = taken.map((value) => (255 * (value - low)) / Math.max(high - low, 1e-9));
   return { width, height, grey: [...Uint8ClampedArray.from(grey)] };
 }

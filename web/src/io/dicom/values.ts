@@ -1,4 +1,4 @@
-/** Elements as plain values, in the form that the judge takes. */
+/** Elements as plain values for the judge. */
 import type { Element } from 'dicom-parser';
 import type { Parsed } from './parsing';
 
@@ -14,7 +14,7 @@ const NUMBERS = {
   FD: [8, 'getFloat64'],
 } as const;
 
-/** What the standard's names of character sets are called by browsers; all others are read as UTF-8's first letters. */
+/** Names of DICOM character sets in browsers; others are read as UTF-8. */
 const CHARACTER_SETS: Readonly<Record<string, string>> = {
   'ISO_IR 100': 'latin1',
   'ISO_IR 101': 'iso-8859-2',
@@ -36,24 +36,22 @@ const CHARACTER_SETS: Readonly<Record<string, string>> = {
   GBK: 'gbk',
 };
 
-/** The bytes of an element's value. */
 export function bytesIn(file: Parsed, element: Element): Uint8Array {
   return file.bytes.subarray(element.dataOffset, element.dataOffset + element.length);
 }
 
-/** How the texts of a file are read, by its character sets: the last that is known counts. */
+/** Decoder for the character sets of a file: the last known one counts. */
 export function decoderOf(sets: readonly string[]): TextDecoder {
   const known = sets.map((name) => CHARACTER_SETS[name]).filter((label) => label !== undefined);
   return new TextDecoder(known.at(-1) ?? 'utf-8');
 }
 
-/** The texts of an element, apart at each backslash. */
+/** Values separated by backslashes. */
 export function textsOf(file: Parsed, element: Element, decoder = new TextDecoder()): string[] {
   const text = decoder.decode(bytesIn(file, element));
   return text.split('\\').map((one) => one.replace(/[\0 ]+$/, ''));
 }
 
-/** The value of an element whose type the standard states as `vr`. */
 export function valueIn(file: Parsed, element: Element, vr: string, decoder: TextDecoder): Value {
   if (vr === 'SQ') {
     return element.items?.length ?? (element.length === 0 ? 0 : true);

@@ -1,10 +1,8 @@
-/** What of DICOM files is to be read. */
+/** What to read from DICOM files. */
 
-/** What of the files is to be read. */
 export interface Wanted {
-  /** The number or UID of a series. */
   readonly series: string | null;
-  /** The value of an attribute that one phase has. */
+  /** Value of the attribute that distinguishes the phases. */
   readonly phase: string | null;
   readonly fill_gaps: boolean;
   readonly resample_slices: boolean;

@@ -1,19 +1,19 @@
-/** What is told of the vessel that was traced last: its length, what it joins, and where it is doubtful, to look at and to cut. */
+/** Summary of the vessel traced last: length, connections, and doubts with buttons to show and cut. */
 import { useSignal } from '@preact/signals';
 import { engine } from '../client/shared';
 import type { Told } from '../core/messages';
 import { tree } from '../edit/shown';
-import { told } from '../edit/telling';
+import { tracedSummary } from '../edit/traced-summary';
 import { cut } from '../edit/vessels';
 import { moveTo } from '../link/along';
 import { pickedVessel } from '../state/store';
 
-export function ToldVessel() {
-  return told.value && <ToldOf key={told.value.words} told={told.value} />;
+export function TracedSummary() {
+  return tracedSummary.value && <Summary key={tracedSummary.value.words} summary={tracedSummary.value} />;
 }
 
-/** One doubt at a time: the bar has two lines. */
-function ToldOf({ told: { vessel, words, doubts } }: { readonly told: Told }) {
+/** Shows one doubt at a time, since the bar has two lines. */
+function Summary({ summary: { vessel, words, doubts } }: { readonly summary: Told }) {
   const number = useSignal(0);
   const doubt = doubts[number.value];
   const at = doubt?.at ?? null;
@@ -33,7 +33,7 @@ function ToldOf({ told: { vessel, words, doubts } }: { readonly told: Told }) {
       {doubts.length > 1 && (
         <button
           type="button"
-          title="What else is doubtful of this vessel"
+          title="Shows the next doubt about this vessel"
           onClick={() => {
             number.value = (number.value + 1) % doubts.length;
           }}
@@ -45,7 +45,6 @@ function ToldOf({ told: { vessel, words, doubts } }: { readonly told: Told }) {
   );
 }
 
-/** Puts section and cross-hair on a vessel of the document, at an arc length (mm). */
 function goTo(vessel: number, at: number): void {
   const place = tree.value.findIndex(({ id }) => id === vessel);
   if (place >= 0) {

@@ -1,6 +1,6 @@
 import { expect, test } from 'vitest';
 import type { DocumentVessel, Told } from '../src/core/messages';
-import { hear, told } from '../src/edit/telling';
+import { storeSummary, tracedSummary } from '../src/edit/traced-summary';
 import { EMPTY } from '../src/state/document';
 import { begin, change, undo } from '../src/state/history';
 
@@ -27,22 +27,22 @@ const edited = (vessel: DocumentVessel, told: Told | null) => ({
 test('what is told of a vessel holds as long as the vessel runs where it ran', () => {
   begin(EMPTY);
   change('trace', document(VESSEL));
-  hear(edited(VESSEL, TOLD));
-  expect(told.value).toEqual(TOLD);
+  storeSummary(edited(VESSEL, TOLD));
+  expect(tracedSummary.value).toEqual(TOLD);
   change('name', document({ ...VESSEL, name: 'aorta' }));
-  expect(told.value).toEqual(TOLD);
+  expect(tracedSummary.value).toEqual(TOLD);
   change('cut', document({ ...VESSEL, line: 8 }));
-  expect(told.value).toBeNull();
+  expect(tracedSummary.value).toBeNull();
   undo();
-  expect(told.value).toEqual(TOLD);
+  expect(tracedSummary.value).toEqual(TOLD);
   undo();
   undo();
-  expect(told.value).toBeNull();
+  expect(tracedSummary.value).toBeNull();
 });
 
 test('an edit that traces no single vessel tells nothing', () => {
   begin(document(VESSEL));
-  hear(edited(VESSEL, TOLD));
-  hear(edited(VESSEL, null));
-  expect(told.value).toBeNull();
+  storeSummary(edited(VESSEL, TOLD));
+  storeSummary(edited(VESSEL, null));
+  expect(tracedSummary.value).toBeNull();
 });
