@@ -81,6 +81,7 @@ class ViewerServer:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
+        # force_exit: uvicorn would otherwise wait for connections that still load.
         self._server.should_exit = self._server.force_exit = True
         self._thread.join(_PATIENCE)
         if self._scene is not None:
