@@ -21,7 +21,7 @@ impl DeviceBlocks {
     ///
     /// # Errors
     /// [`lumencut_core::error::ErrorKind::Device`] where it has no room.
-    pub fn new(device: &Device, blocks: &Blocks) -> Result<Self> {
+    pub(crate) fn new(device: &Device, blocks: &Blocks) -> Result<Self> {
         let room = device.limits.max_storage_buffer_binding_size.min(device.limits.max_buffer_size);
         let all: Vec<_> = blocks.levels().collect();
         let finest = first_that_fits(&all, room as usize / size_of::<[f32; 2]>());

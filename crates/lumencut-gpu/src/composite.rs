@@ -39,7 +39,7 @@ pub(crate) struct Composite {
 }
 
 impl Composite {
-    pub fn new(device: &Device) -> Self {
+    pub(crate) fn new(device: &Device) -> Self {
         Self {
             stages: Default::default(),
             layer: OnceLock::new(),
@@ -49,12 +49,12 @@ impl Composite {
     }
 
     /// Tells the shader of the settings.
-    pub fn write(&self, device: &Device, settings: &Settings) {
+    pub(crate) fn write(&self, device: &Device, settings: &Settings) {
         device.write(&self.parameters, &[CompositeParameters::new(settings)]);
     }
 
     /// Writes the picture, RGBA with straight alpha, of the layers over the background.
-    pub fn record(
+    pub(crate) fn record(
         &self,
         recording: &mut Recording,
         view: &Buffer,
@@ -83,7 +83,7 @@ impl Composite {
     }
 
     /// Writes a layer of colours times opacity and opacity as RGBA with straight alpha.
-    pub fn record_layer(
+    pub(crate) fn record_layer(
         &self,
         recording: &mut Recording,
         view: &Buffer,

@@ -82,7 +82,7 @@ pub(crate) struct ContextImages<'a> {
 
 impl ContextStage {
     /// No rays compiled yet.
-    pub fn new(device: &Device) -> Self {
+    pub(crate) fn new(device: &Device) -> Self {
         Self {
             starts: Default::default(),
             stages: Vec::new(),
@@ -95,7 +95,7 @@ impl ContextStage {
     ///
     /// # Errors
     /// As the stage of the CPU.
-    pub fn write(
+    pub(crate) fn write(
         &mut self,
         device: &Device,
         settings: &Settings,
@@ -128,7 +128,7 @@ impl ContextStage {
     }
 
     /// Writes where the rays start, and what they gather. `on_device` is placed in the view by `grid`.
-    pub fn record(
+    pub(crate) fn record(
         &mut self,
         recording: &mut Recording,
         [view, grid]: [&Buffer; 2],

@@ -51,7 +51,7 @@ pub(crate) struct CutSurfaceStages {
 
 impl CutSurfaceStages {
     /// Compiles the stages.
-    pub fn new(device: &Device) -> Self {
+    pub(crate) fn new(device: &Device) -> Self {
         let [across, rows] = tile_of(device);
         let tile = [("ACROSS", across as f64), ("ROWS", rows as f64)];
         Self {
@@ -69,7 +69,7 @@ impl CutSurfaceStages {
     }
 
     /// Tells the shaders of a view of `levels`; where the levels lie only once.
-    pub fn look(&mut self, device: &Device, levels: &DeviceLevels, request: &Request) {
+    pub(crate) fn look(&mut self, device: &Device, levels: &DeviceLevels, request: &Request) {
         let parameters = levels.parameters(request.camera, request.settings);
         let bytes = bytemuck::bytes_of(&parameters);
         let is_told = self.told.as_ref() == Some(&parameters.levels);
@@ -79,7 +79,13 @@ impl CutSurfaceStages {
     }
 
     /// Projects the levels that are needed: their points, then what stands at each, then the boxes around them.
-    pub fn project(&self, recording: &mut Recording, view: &Buffer, levels: &DeviceLevels, coarsest: usize) {
+    pub(crate) fn project(
+        &self,
+        recording: &mut Recording,
+        view: &Buffer,
+        levels: &DeviceLevels,
+        coarsest: usize,
+    ) {
         let all = [view, &self.parameters, &levels.alongs, &levels.points, &levels.projected];
         let points = levels.point_count(coarsest).div_ceil(POINT_THREADS);
         recording.run(&self.projection, &all.map(Buffer::as_entire_binding), in_rows(points));
@@ -91,13 +97,19 @@ impl CutSurfaceStages {
     }
 
     /// The distance of every pixel to the finest level.
-    pub fn distance(&self, recording: &mut Recording, view: &Buffer, levels: &DeviceLevels, images: &Images) {
+    pub(crate) fn distance(
+        &self,
+        recording: &mut Recording,
+        view: &Buffer,
+        levels: &DeviceLevels,
+        images: &Images,
+    ) {
         let all = [view, &self.parameters, &levels.slots, &levels.boxes, &images.distance];
         recording.run(&self.distance, &all.map(Buffer::as_entire_binding), groups(images.size, self.group));
     }
 
     /// How much of the cut surface every pixel shows around a focus.
-    pub fn focus(
+    pub(crate) fn focus(
         &self,
         recording: &mut Recording,
         view: &Buffer,
@@ -117,7 +129,7 @@ impl CutSurfaceStages {
     }
 
     /// Depth, into a buffer of its own choice, vessel and sheet of every pixel.
-    pub fn depth(
+    pub(crate) fn depth(
         &mut self,
         recording: &mut Recording,
         view: &Buffer,
@@ -164,7 +176,7 @@ pub(crate) struct DepthRules {
 
 impl DepthRules {
     /// The rules of a view.
-    pub fn of(request: &Request) -> Self {
+    pub(crate) fn of(request: &Request) -> Self {
         let &Request { settings, images, .. } = request;
         Self {
             is_own: settings.level_choice == LevelChoice::Own,

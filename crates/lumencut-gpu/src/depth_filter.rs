@@ -36,24 +36,30 @@ pub(crate) struct ZoneImages<'a> {
 const ROOM: &str = "stages/depth_filter";
 
 impl DepthFilter {
-    pub fn new(device: &Device) -> Self {
+    pub(crate) fn new(device: &Device) -> Self {
         let parameters = device.uniform::<DepthFilterParameters>("depth_filter parameters");
         device.write(&parameters, &[DepthFilterParameters::new()]);
         Self { stage: Stage::new(device, ROOM, &[]), within_zones: OnceLock::new(), parameters }
     }
 
     /// Tells the shader of the settings.
-    pub fn write(&self, device: &Device, settings: &Settings) {
+    pub(crate) fn write(&self, device: &Device, settings: &Settings) {
         device.write(&self.parameters, &[DepthFilterParameters::of(settings)]);
     }
 
     /// Writes the smoothed image.
-    pub fn record(&self, recording: &mut Recording, view: &Buffer, size: [usize; 2], from_to: [&Buffer; 2]) {
+    pub(crate) fn record(
+        &self,
+        recording: &mut Recording,
+        view: &Buffer,
+        size: [usize; 2],
+        from_to: [&Buffer; 2],
+    ) {
         self.record_as(self.stage.name, recording, view, size, from_to);
     }
 
     /// The same as a part of the stage `name`, whose time it counts to.
-    pub fn record_as(
+    pub(crate) fn record_as(
         &self,
         name: &'static str,
         recording: &mut Recording,
@@ -66,7 +72,7 @@ impl DepthFilter {
     }
 
     /// Writes the image smoothed within zones: columns first, then rows.
-    pub fn record_within_zones(
+    pub(crate) fn record_within_zones(
         &self,
         recording: &mut Recording,
         view: &Buffer,

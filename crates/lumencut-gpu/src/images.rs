@@ -35,7 +35,7 @@ impl Images {
     ///
     /// # Errors
     /// [`lumencut_core::error::ErrorKind::Device`] for more pixels than the GPU's buffers hold.
-    pub fn new(device: &Device, size: [usize; 2]) -> Result<Self> {
+    pub(crate) fn new(device: &Device, size: [usize; 2]) -> Result<Self> {
         let pixels = size[0] * size[1];
         let most = device.limits.max_storage_buffer_binding_size as usize / MOST_BYTES;
         if pixels > most {
@@ -63,7 +63,7 @@ impl Images {
     }
 
     /// The buffer of an image. Where nothing filters the depth, it is the depth as it is found.
-    pub fn buffer(&self, image: Image, has_filter: bool) -> &Buffer {
+    pub(crate) fn buffer(&self, image: Image, has_filter: bool) -> &Buffer {
         match image {
             Image::Distance => &self.distance,
             Image::UnfilteredDepth if has_filter => &self.unfiltered_depth,
@@ -82,7 +82,7 @@ impl Images {
     }
 
     /// The number of pixels.
-    pub fn pixels(&self) -> usize {
+    pub(crate) fn pixels(&self) -> usize {
         self.size[0] * self.size[1]
     }
 }

@@ -19,18 +19,18 @@ pub(crate) struct Leap {
 }
 
 impl Leap {
-    pub fn new(device: &Device) -> Self {
+    pub(crate) fn new(device: &Device) -> Self {
         let parameters = device.uniform::<LeapParameters>("leap parameters");
         Self { stage: Stage::new(device, "stages/leap", &[]), parameters }
     }
 
     /// Tells the shader of a view.
-    pub fn write(&self, device: &Device, camera: &Camera) {
+    pub(crate) fn write(&self, device: &Device, camera: &Camera) {
         device.write(&self.parameters, &[LeapParameters::new(camera)]);
     }
 
     /// Writes the leaps of a depth before its filter.
-    pub fn record(&self, recording: &mut Recording, view: &Buffer, images: &Images, depth: &Buffer) {
+    pub(crate) fn record(&self, recording: &mut Recording, view: &Buffer, images: &Images, depth: &Buffer) {
         let buffers = [view, &self.parameters, depth, &images.sheet, &images.leap];
         let buffers = buffers.map(Buffer::as_entire_binding);
         recording.run(&self.stage, &buffers, groups(images.size, GROUP));

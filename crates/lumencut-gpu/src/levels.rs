@@ -18,7 +18,7 @@ use crate::view::{AXIS_UNIT, power_above, split_at};
 /// `Point` of `math/projection.wgsl`.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
-pub struct Point {
+pub(crate) struct Point {
     /// From the tree's origin (mm): multiples of the tree's unit.
     pub coarse: [f32; 3],
     /// Radius (mm).
@@ -32,7 +32,7 @@ pub struct Point {
 /// `Along` of `math/projection.wgsl`.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
-pub struct Along {
+pub(crate) struct Along {
     /// The next point of the vessel; the last point is its own.
     pub next: u32,
     /// The arc length of the point (mm).
@@ -42,7 +42,7 @@ pub struct Along {
 /// `Span` of `math/levels.wgsl`: the slots of one vessel at one level.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
-pub struct Span {
+pub(crate) struct Span {
     /// The first slot.
     pub first: u32,
     /// The slot after the last.
@@ -58,7 +58,7 @@ pub struct Span {
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
 #[allow(missing_docs)]
-pub struct Projected {
+pub(crate) struct Projected {
     pub point: [f32; 3],
     pub radius: f32,
     pub edge: [f32; 2],
@@ -73,7 +73,7 @@ pub struct Projected {
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
 #[allow(missing_docs)]
-pub struct Slot {
+pub(crate) struct Slot {
     pub start: [f32; 2],
     pub next: [f32; 2],
     pub edge: [f32; 2],
@@ -110,7 +110,7 @@ impl Slot {
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
 #[allow(missing_docs)]
-pub struct NodeBox {
+pub(crate) struct NodeBox {
     pub low: [f32; 2],
     pub high: [f32; 2],
     pub z: f32,
@@ -153,7 +153,7 @@ impl DeviceLevels {
     ///
     /// # Errors
     /// [`lumencut_core::error::ErrorKind::Device`] for more points than the GPU's buffers hold.
-    pub fn new(device: &Device, levels: &[Level]) -> Result<Self> {
+    pub(crate) fn new(device: &Device, levels: &[Level]) -> Result<Self> {
         let origin = middle(&levels[0].points);
         let points = levels.iter().flat_map(|level| &level.points);
         let reach = points.map(|point| point.distance(origin)).fold(1.0, f64::max);
@@ -191,7 +191,7 @@ impl DeviceLevels {
 
     /// Puts lumen and wall of these vessels before those of all others, in all views from now on, from where they leave the others'
     /// lumens; `levels` are those of the tree.
-    pub fn put_first(&mut self, device: &Device, levels: &[Level], vessels: &[usize]) {
+    pub(crate) fn put_first(&mut self, device: &Device, levels: &[Level], vessels: &[usize]) {
         if self.first == vessels {
             return;
         }
@@ -204,17 +204,17 @@ impl DeviceLevels {
     }
 
     /// The vessels of the first levels, each counted once per level.
-    pub fn span_count(&self, coarsest: usize) -> u32 {
+    pub(crate) fn span_count(&self, coarsest: usize) -> u32 {
         self.spans_up_to[coarsest]
     }
 
     /// The points of the first levels.
-    pub fn point_count(&self, coarsest: usize) -> u32 {
+    pub(crate) fn point_count(&self, coarsest: usize) -> u32 {
         self.points_up_to[coarsest]
     }
 
     /// The parameters of the stages in a view of the tree.
-    pub fn parameters(&self, camera: &Camera, settings: &Settings) -> CutSurfaceParameters {
+    pub(crate) fn parameters(&self, camera: &Camera, settings: &Settings) -> CutSurfaceParameters {
         let origin = camera.view_from_world(self.origin).to_array();
         let away = origin.iter().fold(0.0, |most: f64, c| most.max(c.abs()));
         let split = origin.map(|c| split_at(c, self.unit * AXIS_UNIT));

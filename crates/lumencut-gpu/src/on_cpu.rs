@@ -18,7 +18,7 @@ impl OnCpu {
     ///
     /// # Errors
     /// [`ErrorKind::Settings`] for a name that is not in [`on_either`].
-    pub fn named(names: &[String]) -> Result<Self> {
+    pub(crate) fn named(names: &[String]) -> Result<Self> {
         let stages = names.iter().map(|name| {
             on_either().find(|stage| stage.name() == name.as_str()).ok_or_else(|| {
                 let known: Vec<_> = on_either().map(Stage::name).collect();
@@ -29,7 +29,7 @@ impl OnCpu {
         Ok(Self { stages: stages.collect::<Result<_>>()?, ..Self::default() })
     }
 
-    pub fn has(&self, stage: Stage) -> bool {
+    pub(crate) fn has(&self, stage: Stage) -> bool {
         self.stages.contains(&stage)
     }
 }

@@ -50,7 +50,7 @@ pub(crate) struct Pass<'a> {
 
 impl<'a> Pass<'a> {
     /// Finds where the pixels look: projection, distance, depth and its filter.
-    pub async fn cut_surface(&mut self) -> Result<()> {
+    pub(crate) async fn cut_surface(&mut self) -> Result<()> {
         self.projection();
         for stage in Stage::of_cut_surface(self.request.settings, self.request.images) {
             self.run(stage).await?;
@@ -60,7 +60,7 @@ impl<'a> Pass<'a> {
     }
 
     /// Shows what is there: values, silhouettes, context, picture.
-    pub async fn look(&mut self) -> Result<()> {
+    pub(crate) async fn look(&mut self) -> Result<()> {
         let Request { settings, images, .. } = *self.request;
         for stage in Stage::of_look(settings, &self.geometry, self.made, images) {
             self.run(stage).await?;
@@ -72,7 +72,7 @@ impl<'a> Pass<'a> {
     ///
     /// # Panics
     /// Where they are not those of every pixel: a mistake in the program, never in its input.
-    pub fn send_surface(&mut self, vessel: &[i32], leap: &[u32], focus: &[Shares]) {
+    pub(crate) fn send_surface(&mut self, vessel: &[i32], leap: &[u32], focus: &[Shares]) {
         let depth = self.geometry.depth();
         for (image, bytes) in [
             (Image::Depth, bytemuck::cast_slice::<_, u8>(depth)),
@@ -223,12 +223,12 @@ impl<'a> Pass<'a> {
     }
 
     /// The buffer of an image.
-    pub fn buffer(&self, image: Image) -> &'a Buffer {
+    pub(crate) fn buffer(&self, image: Image) -> &'a Buffer {
         self.images.buffer(image, self.request.settings.depth_filter)
     }
 
     /// Runs what is recorded, and reads the images that are asked for.
-    pub async fn frame(mut self) -> Result<Frame> {
+    pub(crate) async fn frame(mut self) -> Result<Frame> {
         if !self.made.has(Image::Gathered) {
             self.made = self.made.without(Image::Context);
         }
@@ -259,7 +259,7 @@ impl<'a> Pass<'a> {
     }
 
     /// Runs what is recorded so far, and asks for images.
-    pub async fn finish(&mut self, wanted: &[Image]) -> Result<Results> {
+    pub(crate) async fn finish(&mut self, wanted: &[Image]) -> Result<Results> {
         let mut recording = std::mem::replace(&mut self.recording, Recording::new(self.device));
         for image in wanted {
             recording.read(self.buffer(*image), (bytes_of(*image) * self.images.pixels()) as u64);

@@ -35,7 +35,7 @@ pub(crate) struct Results {
 
 impl Results {
     /// The numbers of the buffer that was asked for as the `n`th.
-    pub fn numbers<T: Pod + Send + Sync>(&self, n: usize) -> Vec<T> {
+    pub(crate) fn numbers<T: Pod + Send + Sync>(&self, n: usize) -> Vec<T> {
         self.view.as_ref().map_or_else(Vec::new, |all| copied(&all[self.places[n].clone()]))
     }
 }
@@ -50,7 +50,7 @@ impl Drop for Results {
 
 impl<'a> Recording<'a> {
     /// Nothing to do yet.
-    pub fn new(device: &'a Device) -> Self {
+    pub(crate) fn new(device: &'a Device) -> Self {
         let clock = device.has_timestamps.then(|| {
             device.device.create_query_set(&wgpu::QuerySetDescriptor {
                 label: Some("clock"),
@@ -63,12 +63,12 @@ impl<'a> Recording<'a> {
     }
 
     /// Runs `stage` over `groups` of threads.
-    pub fn run(&mut self, stage: &Stage, resources: &[BindingResource], groups: [u32; 2]) {
+    pub(crate) fn run(&mut self, stage: &Stage, resources: &[BindingResource], groups: [u32; 2]) {
         self.run_as(stage.name, stage, resources, groups);
     }
 
     /// Runs `stage` as a part of the stage `name`, whose time it counts to.
-    pub fn run_as(
+    pub(crate) fn run_as(
         &mut self,
         name: &'static str,
         stage: &Stage,
@@ -91,7 +91,7 @@ impl<'a> Recording<'a> {
     }
 
     /// Asks for the first `bytes` of a buffer as they are once all stages have run.
-    pub fn read(&mut self, buffer: &Buffer, bytes: u64) {
+    pub(crate) fn read(&mut self, buffer: &Buffer, bytes: u64) {
         self.reads.push((buffer.clone(), bytes));
     }
 
@@ -100,7 +100,7 @@ impl<'a> Recording<'a> {
     /// # Errors
     /// [`lumencut_core::error::ErrorKind::Interrupted`] once `stop` says so,
     /// [`lumencut_core::error::ErrorKind::Device`] where the GPU failed.
-    pub async fn finish(mut self, stop: Stop<'_>) -> Result<Results> {
+    pub(crate) async fn finish(mut self, stop: Stop<'_>) -> Result<Results> {
         let times = self.names.len() as u64 * 2 * 8;
         if let Some(clock) = &self.clock {
             let usage = BufferUsages::QUERY_RESOLVE | BufferUsages::COPY_SRC;

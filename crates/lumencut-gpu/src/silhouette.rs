@@ -37,7 +37,7 @@ pub(crate) struct SilhouetteImages<'a> {
 }
 
 impl Silhouette {
-    pub fn new(device: &Device) -> Self {
+    pub(crate) fn new(device: &Device) -> Self {
         const ROOM: &str = "stages/silhouette";
         Self {
             raise: Stage::new(device, ROOM, &[]),
@@ -48,19 +48,19 @@ impl Silhouette {
     }
 
     /// Tells the shaders of a view.
-    pub fn write(&self, device: &Device, settings: &Settings, camera: &Camera) {
+    pub(crate) fn write(&self, device: &Device, settings: &Settings, camera: &Camera) {
         device.write(&self.parameters, &[SilhouetteParameters::new(settings, camera)]);
     }
 
     /// Writes how much of each pixel the lines of the leaps cover.
-    pub fn record_leaps(&self, recording: &mut Recording, view: &Buffer, images: &Images) {
+    pub(crate) fn record_leaps(&self, recording: &mut Recording, view: &Buffer, images: &Images) {
         let Images { size, leap, strength, value, .. } = images;
         let buffers = [view, leap, strength, &self.parameters, value].map(Buffer::as_entire_binding);
         recording.run(&self.lines, &buffers, groups(*size, GROUP));
     }
 
     /// Writes the strength of the silhouettes of a steep depth.
-    pub fn record(
+    pub(crate) fn record(
         &self,
         recording: &mut Recording,
         filter: &DepthFilter,

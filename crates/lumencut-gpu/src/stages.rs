@@ -33,7 +33,7 @@ pub(crate) struct Stages {
 
 impl Stages {
     /// The stages on a GPU.
-    pub fn new(device: &Device) -> Self {
+    pub(crate) fn new(device: &Device) -> Self {
         Self {
             view: device.uniform::<ViewParameters>("view"),
             grid: device.uniform::<GridParameters>("grid"),
@@ -48,7 +48,13 @@ impl Stages {
     }
 
     /// Tells the shaders where a volume lies in the view. A curved geometry has no view: its pixels lie in the volume.
-    pub fn place(&self, device: &Device, on_device: &DeviceVolume, volume: &Volume, geometry: &Geometry) {
+    pub(crate) fn place(
+        &self,
+        device: &Device,
+        on_device: &DeviceVolume,
+        volume: &Volume,
+        geometry: &Geometry,
+    ) {
         device.write(&self.grid, &[on_device.grid(volume, geometry.camera())]);
     }
 }

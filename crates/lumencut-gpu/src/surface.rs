@@ -73,7 +73,7 @@ pub(crate) struct Surface {
 
 impl Surface {
     /// Nothing compiled yet.
-    pub fn new(device: &Device) -> Self {
+    pub(crate) fn new(device: &Device) -> Self {
         Self {
             stages: Default::default(),
             parameters: device.uniform::<SurfaceParameters>("surface parameters"),
@@ -86,7 +86,7 @@ impl Surface {
     ///
     /// # Errors
     /// As the stage of the CPU.
-    pub fn record(
+    pub(crate) fn record(
         &mut self,
         recording: &mut Recording,
         [view, grid]: [&Buffer; 2],

@@ -11,7 +11,7 @@ use crate::device::Device;
 /// `ViewParameters` of `math/view.wgsl`.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
-pub struct ViewParameters {
+pub(crate) struct ViewParameters {
     /// Pixels along x and y.
     pub size: [u32; 2],
     /// The side of a pixel (mm): twelve digits, and the rest.
@@ -23,7 +23,7 @@ pub struct ViewParameters {
 /// `Axis` of `math/view.wgsl`: a unit vector as a part of few digits and the rest.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
-pub struct Axis {
+pub(crate) struct Axis {
     /// Whole multiples of 2⁻¹⁰.
     pub coarse: [f32; 4],
     /// The rest.
@@ -42,13 +42,13 @@ impl Axis {
 
 impl ViewParameters {
     /// The view of `camera`.
-    pub fn new(camera: &Camera) -> Self {
+    pub(crate) fn new(camera: &Camera) -> Self {
         let axes = [camera.right(), camera.up(), camera.direction()].map(Axis::new);
         Self { size: camera.size().map(|n| n as u32), spacing: split(camera.pixel_spacing(), 12), axes }
     }
 
     /// The view that a geometry belongs to; of a curved one only the size means anything.
-    pub fn of(geometry: &Geometry) -> Self {
+    pub(crate) fn of(geometry: &Geometry) -> Self {
         match geometry.camera() {
             Some(camera) => Self::new(camera),
             None => Self { size: geometry.size().map(|n| n as u32), ..Self::zeroed() },

@@ -52,7 +52,7 @@ pub(crate) struct GridParameters {
 
 impl GridParameters {
     /// The grid of `volume` in the view of `camera`, its voxels stored `shift` lower than they are.
-    pub fn new(volume: &Volume, camera: &Camera, shift: f32) -> Self {
+    pub(crate) fn new(volume: &Volume, camera: &Camera, shift: f32) -> Self {
         let to = IndexFromView::new(volume, camera);
         let [width, height] = camera.size().map(|n| n as f64);
         let (x, y) = (to.x * camera.pixel_spacing(), to.y * camera.pixel_spacing());
@@ -89,7 +89,7 @@ impl GridParameters {
     }
 
     /// The grid of `volume` alone, for places that are indices already.
-    pub fn without_view(volume: &Volume, shift: f32) -> Self {
+    pub(crate) fn without_view(volume: &Volume, shift: f32) -> Self {
         Self {
             last: volume.size().map(|n| (n - 1) as f32),
             shift,
@@ -162,7 +162,7 @@ impl DeviceVolume {
     /// # Errors
     /// [`lumencut_core::error::ErrorKind::Device`] where the GPU has no room for it,
     /// [`lumencut_core::error::ErrorKind::Interrupted`] once `stop` says so.
-    pub fn new(device: &Device, volume: &Volume, stop: Stop) -> Result<Self> {
+    pub(crate) fn new(device: &Device, volume: &Volume, stop: Stop) -> Result<Self> {
         let (texel, size) = (Texel::of(volume.voxels()), volume.size());
         let side = device.limits.max_texture_dimension_3d;
         if size.iter().any(|n| *n > side as usize) {
@@ -191,12 +191,12 @@ impl DeviceVolume {
     }
 
     /// Whether the stages have to read floats.
-    pub fn is_float(&self) -> bool {
+    pub(crate) fn is_float(&self) -> bool {
         self.texel == Texel::Float
     }
 
     /// The grid of `volume`, which is this one, in the view of `camera`, or by itself.
-    pub fn grid(&self, volume: &Volume, camera: Option<&Camera>) -> GridParameters {
+    pub(crate) fn grid(&self, volume: &Volume, camera: Option<&Camera>) -> GridParameters {
         camera.map_or_else(
             || GridParameters::without_view(volume, self.shift),
             |camera| GridParameters::new(volume, camera, self.shift),
@@ -207,7 +207,7 @@ impl DeviceVolume {
     ///
     /// # Errors
     /// As [`DeviceVolume::new`].
-    pub fn blocks(&self, device: &Device, shared: &SharedVolume, stop: Stop) -> Result<&DeviceBlocks> {
+    pub(crate) fn blocks(&self, device: &Device, shared: &SharedVolume, stop: Stop) -> Result<&DeviceBlocks> {
         if let Some(blocks) = self.blocks.get() {
             return Ok(blocks);
         }

@@ -210,7 +210,7 @@ mod x86 {
 
     /// The one place where the crate promises the compiler something it cannot check.
     #[allow(unsafe_code)]
-    pub fn dispatch<K: Kernel>(isa: Isa, kernel: K) -> K::Output {
+    pub(super) fn dispatch<K: Kernel>(isa: Isa, kernel: K) -> K::Output {
         let widest = Isa::widest();
         match isa {
             // SAFETY: `widest` was detected on this processor and includes the narrower sets.

@@ -12,12 +12,12 @@ pub(super) struct Clock {
 }
 
 impl Clock {
-    pub fn start() -> Self {
+    pub(super) fn start() -> Self {
         Self { last: Instant::now(), timings: Vec::new() }
     }
 
     /// Notes that a stage has ended.
-    pub fn lap(&mut self, stage: Stage) {
+    pub(super) fn lap(&mut self, stage: Stage) {
         let now = Instant::now();
         let milliseconds = (now - self.last).as_secs_f64() * 1e3;
         self.timings.push(Timing { stage: stage.name(), milliseconds });

@@ -233,12 +233,12 @@ pub(super) struct Lines<'a> {
 
 impl<'a> Lines<'a> {
     /// Those of a frame, whatever it shows.
-    pub fn of(frame: &'a Frame) -> Self {
+    pub(super) fn of(frame: &'a Frame) -> Self {
         Self { depth: frame.depth(), vessel: &frame.vessel, leap: &frame.leap, value: &[] }
     }
 
     /// The strength of the silhouettes by the rule of the settings.
-    pub fn strength(&self, work: &Work, settings: &Settings, camera: &Camera) -> Result<Vec<f32>> {
+    pub(super) fn strength(&self, work: &Work, settings: &Settings, camera: &Camera) -> Result<Vec<f32>> {
         let (mut strength, parameters) =
             (vec![0.0; work.pixels()], SilhouetteParameters::new(settings, camera));
         match settings.silhouette_rule {

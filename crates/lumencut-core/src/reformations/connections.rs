@@ -166,7 +166,7 @@ pub(super) struct Ends {
 
 impl Ends {
     /// The junctions of these ends of vessels.
-    pub fn of(places: impl Iterator<Item = DVec3>) -> Self {
+    pub(super) fn of(places: impl Iterator<Item = DVec3>) -> Self {
         let mut ends = Self { places: PlaceMap::new(VESSEL_END), count: 0 };
         places.for_each(|end| ends.add(end));
         ends
@@ -181,7 +181,7 @@ impl Ends {
     }
 
     /// The junction at `point`.
-    pub fn at(&self, point: DVec3) -> Option<u32> {
+    pub(super) fn at(&self, point: DVec3) -> Option<u32> {
         self.places.at(point).copied()
     }
 }

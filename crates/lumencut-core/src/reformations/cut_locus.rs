@@ -16,13 +16,13 @@ pub(super) struct CutLocus<'a> {
 }
 
 impl<'a> CutLocus<'a> {
-    pub fn new(path: &'a CenterlinePath) -> Self {
+    pub(super) fn new(path: &'a CenterlinePath) -> Self {
         let ends = path.points().windows(2).map(|ends| [ends[0], ends[1]]).collect();
         Self { path, segments: Segments::new(ends) }
     }
 
     /// Whether a point that is shown beside the vessel at an arc length (mm) lies beyond.
-    pub fn is_beyond(&self, point: DVec3, at: f64) -> bool {
+    pub(super) fn is_beyond(&self, point: DVec3, at: f64) -> bool {
         self.segments.any_within(point, point.distance(self.path.at(at)) * (1.0 - NEARER))
     }
 }

@@ -28,7 +28,7 @@ pub(super) struct Place {
 
 impl Place {
     /// Nothing: beyond every volume, and no depth leaps to it.
-    pub const NOTHING: Self =
+    pub(super) const NOTHING: Self =
         Self { depth: FAR, vessel: NO_VESSEL, sheet: [0.0, 0.0, -ABSENT, 0.0], is_folded: false };
 }
 
@@ -42,7 +42,7 @@ pub(super) struct Found {
 
 impl Found {
     /// A view that shows nothing yet.
-    pub fn nothing(pixels: usize) -> Self {
+    pub(super) fn nothing(pixels: usize) -> Self {
         let Place { depth, vessel, sheet, is_folded } = Place::NOTHING;
         Self {
             depth: vec![depth; pixels],
@@ -53,7 +53,7 @@ impl Found {
     }
 
     /// The frame of the view, with the leaps between its pixels where silhouettes need them.
-    pub fn into_frame(self, request: &Request) -> Result<Frame> {
+    pub(super) fn into_frame(self, request: &Request) -> Result<Frame> {
         let &Request { camera, settings, images, .. } = request;
         let mut leaps = Vec::new();
         if Stage::of_cut_surface(settings, images).contains(&Stage::Leap) {

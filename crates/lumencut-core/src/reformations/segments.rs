@@ -31,7 +31,7 @@ pub(super) struct Segments {
 }
 
 impl Segments {
-    pub fn new(ends: Vec<[DVec3; 2]>) -> Self {
+    pub(super) fn new(ends: Vec<[DVec3; 2]>) -> Self {
         let around = |boxes: &[Bounds]| boxes.iter().skip(1).fold(boxes[0], |all, one| all.around(one));
         let single: Vec<_> = ends.iter().map(|[a, b]| Bounds { low: a.min(*b), high: a.max(*b) }).collect();
         let mut levels: Vec<Vec<Bounds>> = vec![single.chunks(FAN).map(around).collect()];
@@ -42,7 +42,7 @@ impl Segments {
     }
 
     /// The square of the distance (mm²) between a segment and a point. It is the same for two segments that share the nearest end.
-    pub fn squared_distance(&self, segment: usize, point: DVec3) -> f64 {
+    pub(super) fn squared_distance(&self, segment: usize, point: DVec3) -> f64 {
         let [start, end] = self.ends[segment];
         let along = end - start;
         let share = (point - start).dot(along) / along.length_squared();
@@ -55,7 +55,7 @@ impl Segments {
     }
 
     /// The nearest segment, no farther than `limit` (mm): the first one of several. With the square of its distance.
-    pub fn nearest(&self, point: DVec3, limit: f64) -> Option<(usize, f64)> {
+    pub(super) fn nearest(&self, point: DVec3, limit: f64) -> Option<(usize, f64)> {
         let mut best = (usize::MAX, limit * limit);
         self.visit(
             point,
@@ -72,7 +72,7 @@ impl Segments {
     }
 
     /// The segments no farther than `limit` (mm), in their order.
-    pub fn within(&self, point: DVec3, limit: f64) -> Vec<usize> {
+    pub(super) fn within(&self, point: DVec3, limit: f64) -> Vec<usize> {
         let mut found = Vec::new();
         self.visit(
             point,
@@ -87,7 +87,7 @@ impl Segments {
     }
 
     /// Whether any segment is nearer than `limit` (mm).
-    pub fn any_within(&self, point: DVec3, limit: f64) -> bool {
+    pub(super) fn any_within(&self, point: DVec3, limit: f64) -> bool {
         let mut is_any = false;
         self.visit(
             point,

@@ -28,7 +28,7 @@ pub(super) struct Projected {
 impl Projected {
     /// # Errors
     /// [`crate::error::ErrorKind::Camera`] for a vessel less than a row high.
-    pub fn new(path: Arc<CenterlinePath>, axes: Axes, row: f64) -> Result<Self> {
+    pub(super) fn new(path: Arc<CenterlinePath>, axes: Axes, row: f64) -> Result<Self> {
         let heights: Vec<_> = path.points().iter().map(|point| point.dot(axes.up)).collect();
         let [low, high] = range(heights.iter().copied());
         if high - low < row {

@@ -21,7 +21,7 @@ pub(super) struct Run {
 }
 
 impl Run {
-    pub fn at(anchor: Anchor) -> Self {
+    pub(super) fn at(anchor: Anchor) -> Self {
         Self { from: anchor, to: anchor }
     }
 
@@ -51,7 +51,7 @@ pub(super) struct Row {
 impl Row {
     /// The world point at `x`: on the line through the vessel's point that is nearest along the row, of several the one
     /// nearest to the viewer.
-    pub fn place(&self, x: f64) -> DVec3 {
+    pub(super) fn place(&self, x: f64) -> DVec3 {
         let mut best = self.runs[0].nearest_anchor(x);
         for run in &self.runs[1..] {
             let other = run.nearest_anchor(x);
@@ -65,7 +65,7 @@ impl Row {
     }
 
     /// The world points at all of `x`.
-    pub fn place_all(&self, x: &[f64], places: &mut [DVec3]) {
+    pub(super) fn place_all(&self, x: &[f64], places: &mut [DVec3]) {
         if let [Run { from, to }] = self.runs[..]
             && from.x == to.x
         {
@@ -81,12 +81,12 @@ impl Row {
     }
 
     /// The arc length of the first point (mm).
-    pub fn arc_length(&self) -> f64 {
+    pub(super) fn arc_length(&self) -> f64 {
         self.runs[0].from.arc_length
     }
 
     /// Whether several points of the vessel share the row.
-    pub fn is_shared(&self) -> bool {
+    pub(super) fn is_shared(&self) -> bool {
         self.runs.len() > 1 || self.runs[0].from.arc_length < self.runs[0].to.arc_length
     }
 }

@@ -46,7 +46,7 @@ impl Section {
 }
 
 impl Sections {
-    pub fn new(path: Arc<CenterlinePath>, frames: Frames) -> Self {
+    pub(super) fn new(path: Arc<CenterlinePath>, frames: Frames) -> Self {
         let mut at = path.arc_length().to_vec();
         for ends in frames.stations().windows(2) {
             let [from, to] = [ends[0].at, ends[1].at];
@@ -62,12 +62,12 @@ impl Sections {
     }
 
     /// How many intervals there are between marks.
-    pub fn intervals(&self) -> usize {
+    pub(super) fn intervals(&self) -> usize {
         self.marks.len() - 1
     }
 
     /// The sections that a point lies in, at least one: before and after the vessel the sections go on straight.
-    pub fn through(&self, point: DVec3) -> Vec<Section> {
+    pub(super) fn through(&self, point: DVec3) -> Vec<Section> {
         let mut found = Vec::new();
         let [first, last] = [self.marks[0], self.marks[self.intervals()]];
         if first.section(point).ahead() < 0.0 {
@@ -83,7 +83,7 @@ impl Sections {
     }
 
     /// Adds the sections of one interval that a point lies in.
-    pub fn within(&self, n: usize, point: DVec3, found: &mut Vec<Section>) {
+    pub(super) fn within(&self, n: usize, point: DVec3, found: &mut Vec<Section>) {
         let ends = [self.marks[n], self.marks[n + 1]];
         let [low, high] = ends.map(|mark| mark.section(point).ahead());
         let [from, to] = ends.map(|mark| mark.at);
@@ -126,7 +126,7 @@ impl Sections {
 
     /// Whether a line surely meets no section of an interval where the picture from an angle, if there is one for all, is: as far as the interval turns,
     /// its sections lie beyond those at its ends by no more than the margin.
-    pub fn is_apart(&self, n: usize, line: [DVec3; 2], angle: Option<[f64; 2]>) -> bool {
+    pub(super) fn is_apart(&self, n: usize, line: [DVec3; 2], angle: Option<[f64; 2]>) -> bool {
         let ends = [self.marks[n], self.marks[n + 1]];
         let length = ends[1].at - ends[0].at;
         let turn = self.frames.station(ends[0].at).turn.length() * length;
@@ -142,7 +142,7 @@ impl Sections {
 
     /// Whether an interval holds the section at `at`, and surely no other one through a point that lies in it `aside` mm from
     /// its centre: where the image moves so far for each mm of the vessel that it turns back nowhere in the interval.
-    pub fn holds_no_other(&self, n: usize, at: f64, aside: f64, moves: f64) -> bool {
+    pub(super) fn holds_no_other(&self, n: usize, at: f64, aside: f64, moves: f64) -> bool {
         let [from, to] = [self.marks[n].at, self.marks[n + 1].at];
         let rate = self.frames.station(from).turn.length();
         from <= at && at <= to && moves > rate * (to - from) * (aside.abs() * rate + 2.0)

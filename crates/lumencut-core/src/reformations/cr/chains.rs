@@ -17,7 +17,7 @@ pub(super) struct Chains {
 }
 
 impl Chains {
-    pub fn new(level: &Level, view: &ProjectedLevel) -> Self {
+    pub(super) fn new(level: &Level, view: &ProjectedLevel) -> Self {
         let mut places = vec![0; level.points.len()];
         for (place, slot) in level.order.iter().enumerate().filter(|(_, slot)| **slot != NO_SLOT) {
             places[*slot as usize] = place;
@@ -56,20 +56,20 @@ impl Chains {
     }
 
     /// The chain that a slot of a vessel is in.
-    pub fn chain_of(&self, level: &Level, vessel: i32, slot: u32) -> u32 {
+    pub(super) fn chain_of(&self, level: &Level, vessel: i32, slot: u32) -> u32 {
         let vessel = vessel as usize;
         self.first_of_vessel[vessel] + (slot - level.first_slot[vessel]) / FAN as u32
     }
 
     /// The arc lengths (mm) between which a chain lies.
-    pub fn span(&self, level: &Level, vessel: i32, chain: u32) -> [f64; 2] {
+    pub(super) fn span(&self, level: &Level, vessel: i32, chain: u32) -> [f64; 2] {
         let [first, end] = [vessel, vessel + 1].map(|id| level.first_slot[id as usize]);
         let start = first + (chain - self.first_of_vessel[vessel as usize]) * FAN as u32;
         [start, (start + FAN as u32).min(end - 1)].map(|slot| f64::from(level.arc_length[slot as usize]))
     }
 
     /// The chains of a vessel between two arc lengths (mm), and a little more.
-    pub fn between(&self, level: &Level, vessel: u32, [low, high]: [f64; 2]) -> [u32; 2] {
+    pub(super) fn between(&self, level: &Level, vessel: u32, [low, high]: [f64; 2]) -> [u32; 2] {
         let [first, end] = [vessel, vessel + 1].map(|id| level.first_slot[id as usize] as usize);
         let arc_length = &level.arc_length[first..end];
         let slack = 1e-5 * (1.0 + low.abs().max(high.abs()));
@@ -81,7 +81,7 @@ impl Chains {
 
     /// The squared distance (mm²) between an area and the box around a chain.
     #[inline(always)]
-    pub fn squared_distance(&self, chain: u32, area: &Area) -> f32 {
+    pub(super) fn squared_distance(&self, chain: u32, area: &Area) -> f32 {
         let [low_x, high_x, low_y, high_y] = self.boxes.each_ref().map(|bounds| bounds[chain as usize]);
         let gx = gap(low_x, high_x, area.center[0], area.half[0]);
         let gy = gap(low_y, high_y, area.center[1], area.half[1]);

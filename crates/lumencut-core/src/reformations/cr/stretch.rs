@@ -22,19 +22,19 @@ pub(super) struct StretchSearch<'a> {
 }
 
 impl<'a> StretchSearch<'a> {
-    pub fn new(view: &'a CrView<'a>) -> Self {
+    pub(super) fn new(view: &'a CrView<'a>) -> Self {
         Self { view, around: HashMap::new(), in_tile: Vec::new() }
     }
 
     /// Goes on to another tile.
-    pub fn begin_tile(&mut self) {
+    pub(super) fn begin_tile(&mut self) {
         self.in_tile.clear();
     }
 
     /// The piece nearest to the pixel at (x, y) among those of the stretch around `front`, which is one of them; of those
     /// equally near the first one.
     #[inline(never)]
-    pub fn nearest_piece(&mut self, tile: &Tile, front: Seen, [x, y]: [f32; 2]) -> Seen {
+    pub(super) fn nearest_piece(&mut self, tile: &Tile, front: Seen, [x, y]: [f32; 2]) -> Seen {
         let view = self.view;
         let chain = view.chains.chain_of(view.level, front.vessel, front.piece / 2);
         let known = self.in_tile.iter().position(|(known, _)| *known == chain);

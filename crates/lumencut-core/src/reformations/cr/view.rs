@@ -32,7 +32,7 @@ pub(super) struct CrView<'a> {
 }
 
 impl<'a> CrView<'a> {
-    pub fn new(level: &'a Level, parameters: &CrParameters, request: &Request<'a>) -> Self {
+    pub(super) fn new(level: &'a Level, parameters: &CrParameters, request: &Request<'a>) -> Self {
         let &Request { camera, settings, .. } = request;
         let side = camera.pixel_spacing();
         let mut view = ProjectedLevel::new(level);
@@ -51,7 +51,7 @@ impl<'a> CrView<'a> {
 
     /// The piece of each pixel that is nearest in the image; of those equally near the first one.
     #[inline(always)]
-    pub fn nearest_pieces(&self, tile: &Tile, seeds: &mut Seeds) -> [u32; PIXELS] {
+    pub(super) fn nearest_pieces(&self, tile: &Tile, seeds: &mut Seeds) -> [u32; PIXELS] {
         let mut nearest = Envelope::new(&[1.0; PIXELS]);
         lowest_keys::<false>(&self.plane, tile, &self.plane_rule, seeds, &mut nearest);
         *seeds = Seeds::collect(&nearest, &self.level.bundle_of_slot);
@@ -60,7 +60,7 @@ impl<'a> CrView<'a> {
 
     /// The foremost piece whose disc holds each pixel, [`NO_PIECE`] where none does.
     #[inline(always)]
-    pub fn foremost(&self, tile: &Tile, seeds: &mut Seeds) -> [u32; PIXELS] {
+    pub(super) fn foremost(&self, tile: &Tile, seeds: &mut Seeds) -> [u32; PIXELS] {
         let mut foremost = Envelope::new(&[1.0; PIXELS]);
         // No piece counts whose disc does not hold the pixel: its key is above this.
         foremost.key = [-1.5 * self.disc_rule.lift; PIXELS];
@@ -70,7 +70,7 @@ impl<'a> CrView<'a> {
     }
 
     /// The chains that may lie within the threshold of a place on one of them, from and to.
-    pub fn around(&self, chain: u32) -> Vec<[u32; 2]> {
+    pub(super) fn around(&self, chain: u32) -> Vec<[u32; 2]> {
         let slot = self.chains.bundles[chain as usize].slot[0];
         let vessel = self.level.vessel_of_slot[slot as usize];
         let span = self.chains.span(self.level, vessel, chain);
@@ -89,7 +89,7 @@ impl<'a> CrView<'a> {
 
     /// How the pixel at (x, y) lies to a piece.
     #[inline(always)]
-    pub fn seen(&self, piece: u32, x: f32, y: f32) -> Seen {
+    pub(super) fn seen(&self, piece: u32, x: f32, y: f32) -> Seen {
         let here = &self.projected[(piece / 2) as usize];
         let [z, radius, arc_length] = [here.point[2], here.radius, here.arc_length];
         let at_start = Seen {
@@ -145,12 +145,12 @@ pub(super) struct Seen {
 impl Seen {
     /// Where on the tree it is.
     #[inline(always)]
-    pub fn place(&self) -> (i32, f32) {
+    pub(super) fn place(&self) -> (i32, f32) {
         (self.vessel, self.arc_length)
     }
 
     #[inline(always)]
-    pub fn sheet(&self) -> Sheet {
+    pub(super) fn sheet(&self) -> Sheet {
         let radius = if self.distance <= self.radius { self.radius } else { -self.radius };
         [self.slope[0], self.slope[1], radius, 0.0]
     }

@@ -41,7 +41,7 @@ impl Bent {
     /// It bends about its middle. The line from its first point to its last turns from its own direction to downwards in the image,
     /// and the middle of that line moves from its own place to that of the image. At 1 the vessel is seen as the straightened CPR
     /// whose viewer stands at its first point as far as possible where the camera does.
-    pub fn new(path: &CenterlinePath, camera: &Camera, amount: f64) -> Self {
+    pub(super) fn new(path: &CenterlinePath, camera: &Camera, amount: f64) -> Self {
         let first = path.direction()[0];
         let frames = Frames::new(path, MovingFrame::looking(first, ahead_at(first, camera)));
         let middle = path.length() / 2.0;
@@ -56,7 +56,7 @@ impl Bent {
 
     /// The rotation from the surroundings of the bent vessel to those of the true one at an arc length (mm).
     #[inline]
-    pub fn true_from_bent(&self, at: f64) -> DQuat {
+    pub(super) fn true_from_bent(&self, at: f64) -> DQuat {
         let turning = &self.turnings[self.turnings.partition_point(|turning| turning.at <= at).max(1) - 1];
         if turning.undone == DVec3::ZERO {
             return turning.from_bent;
@@ -65,7 +65,7 @@ impl Bent {
     }
 
     /// The arc lengths between which the vessel turns at an even rate (mm).
-    pub fn stations(&self) -> impl Iterator<Item = f64> {
+    pub(super) fn stations(&self) -> impl Iterator<Item = f64> {
         self.turnings.iter().map(|turning| turning.at)
     }
 

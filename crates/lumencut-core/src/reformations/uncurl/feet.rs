@@ -37,18 +37,18 @@ pub(super) struct Feet {
 
 impl Feet {
     /// A vessel by its points (mm, LPS) and their arc lengths (mm).
-    pub fn new(camera: &Camera, points: Vec<DVec3>, arc_length: &[f64]) -> Self {
+    pub(super) fn new(camera: &Camera, points: Vec<DVec3>, arc_length: &[f64]) -> Self {
         let places = points.iter().map(|point| camera.view_from_world(*point).truncate()).collect();
         Self { camera: *camera, points, places, arc_length: arc_length.into() }
     }
 
     /// The points in the image (mm).
-    pub fn places(&self) -> &[DVec2] {
+    pub(super) fn places(&self) -> &[DVec2] {
         &self.places
     }
 
     /// The foot of a place in the image (mm).
-    pub fn of(&self, place: DVec2) -> Foot {
+    pub(super) fn of(&self, place: DVec2) -> Foot {
         self.among(place, 0, self.places.len() - 1)
     }
 
@@ -56,7 +56,7 @@ impl Feet {
     ///
     /// # Errors
     /// Those of a vessel tree that cannot be made of the points, and [`crate::error::ErrorKind::Interrupted`].
-    pub fn of_pixels(&self, stop: Stop) -> Result<impl Fn(usize) -> Foot + Sync + '_> {
+    pub(super) fn of_pixels(&self, stop: Stop) -> Result<impl Fn(usize) -> Foot + Sync + '_> {
         let vessel = Vessel::new(self.points.clone(), None)?;
         let levels = LeveledTree::new(VesselTree::new(vec![vessel])?).levels(0, 0.0);
         let slots = nearest_slots(&levels[0], &self.camera, stop)?;

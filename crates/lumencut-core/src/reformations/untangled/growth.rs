@@ -44,7 +44,7 @@ impl Growth {
     ///
     /// # Errors
     /// [`ErrorKind::VesselTree`] for a part without a free end, where `root` does not name one.
-    pub fn new(pieces: &[Piece], nodes: usize, root: Option<DVec3>) -> Result<Self> {
+    pub(super) fn new(pieces: &[Piece], nodes: usize, root: Option<DVec3>) -> Result<Self> {
         let graph = Graph::new(pieces, nodes);
         let mut growth = Self {
             parts: Vec::new(),

@@ -93,30 +93,30 @@ pub(super) struct Hull {
 }
 
 impl Hull {
-    pub fn new(discs: Vec<Disc>) -> Self {
+    pub(super) fn new(discs: Vec<Disc>) -> Self {
         let circles: Vec<Circle> = discs.iter().map(|disc| (disc.center, disc.radius.max(0.0))).collect();
         let around = |circles: &[Circle]| circles.chunks(RUN).map(circle_around).collect::<Vec<_>>();
         let runs = around(&circles);
         Self { groups: around(&runs), runs, discs }
     }
 
-    pub fn discs(&self) -> &[Disc] {
+    pub(super) fn discs(&self) -> &[Disc] {
         &self.discs
     }
 
     /// The discs turned about the origin (radians).
-    pub fn turned(&self, angle: f64) -> Vec<Disc> {
+    pub(super) fn turned(&self, angle: f64) -> Vec<Disc> {
         let turn = DVec2::from_angle(angle);
         self.discs.iter().map(|disc| Disc { center: turn.rotate(disc.center), ..*disc }).collect()
     }
 
     /// Whether a disc of this hull overlaps one of another that is turned about the origin (radians).
-    pub fn overlaps(&self, other: &Self, angle: f64) -> bool {
+    pub(super) fn overlaps(&self, other: &Self, angle: f64) -> bool {
         self.pairs(other, angle, &mut |_, _| true)
     }
 
     /// Adds all pieces of two hulls, the other one turned, whose discs overlap.
-    pub fn add_overlapping(&self, other: &Self, angle: f64, pieces: &mut Vec<usize>) {
+    pub(super) fn add_overlapping(&self, other: &Self, angle: f64, pieces: &mut Vec<usize>) {
         self.pairs(other, angle, &mut |disc, other| {
             pieces.extend([disc.piece, other.piece]);
             false
@@ -124,7 +124,7 @@ impl Hull {
     }
 
     /// Whether discs of this hull, one piece, overlap each other farther apart along it than twice the sum of their radii.
-    pub fn overlaps_itself(&self) -> bool {
+    pub(super) fn overlaps_itself(&self) -> bool {
         let is_far =
             |disc: &Disc, other: &Disc| (disc.at - other.at).abs() > 2.0 * (disc.radius + other.radius);
         self.pairs(self, 0.0, &mut |disc, other| is_far(disc, other))

@@ -34,12 +34,12 @@ pub(super) struct Piece {
 
 impl Piece {
     /// The length along the vessel (mm).
-    pub fn length(&self) -> f64 {
+    pub(super) fn length(&self) -> f64 {
         self.at[self.at.len() - 1] - self.at[0]
     }
 
     /// The mean radius over the first `reach` mm from one of its ends (0 or 1).
-    pub fn mean_radius(&self, end: usize, reach: f64) -> f64 {
+    pub(super) fn mean_radius(&self, end: usize, reach: f64) -> f64 {
         let reach = reach.min(self.length());
         let (mut sum, mut walked) = (0.0, 0.0);
         for n in 0..self.at.len() - 1 {

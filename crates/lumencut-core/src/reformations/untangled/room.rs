@@ -13,7 +13,7 @@ const BETWEEN_PARTS: f64 = 10.0;
 
 /// Where the roots of parts lie in the image (mm): as they are seen, but from left to right none nearer to the one before it
 /// than to be clear of its hull.
-pub fn roots(parts: &[Part], hulls: &[Vec<Disc>], camera: &Camera, width: f64) -> Vec<DVec2> {
+pub(super) fn roots(parts: &[Part], hulls: &[Vec<Disc>], camera: &Camera, width: f64) -> Vec<DVec2> {
     let mut roots: Vec<DVec2> =
         parts.iter().map(|part| camera.view_from_world(part.root).truncate()).collect();
     let mut order: Vec<usize> = (0..parts.len()).collect();
@@ -30,7 +30,7 @@ pub fn roots(parts: &[Part], hulls: &[Vec<Disc>], camera: &Camera, width: f64) -
 }
 
 /// The centre of the first pixel (mm), and how wide and high all vessels are with what lies beside them (mm).
-pub fn extent(places: &[Vec<DVec2>], width: f64) -> (DVec2, DVec2) {
+pub(super) fn extent(places: &[Vec<DVec2>], width: f64) -> (DVec2, DVec2) {
     let all = places.iter().flatten();
     let (low, high) = all.fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(low, high), place| {
         (low.min(*place), high.max(*place))
@@ -39,7 +39,7 @@ pub fn extent(places: &[Vec<DVec2>], width: f64) -> (DVec2, DVec2) {
 }
 
 /// The size in pixels that holds an extent (mm).
-pub fn size_of(extent: DVec2, pixel_spacing: f64) -> Result<[usize; 2]> {
+pub(super) fn size_of(extent: DVec2, pixel_spacing: f64) -> Result<[usize; 2]> {
     let pixels = extent / pixel_spacing;
     checked_size("size of the untangled CPR", pixels.to_array().map(|length| length.ceil() + 1.0))
 }

@@ -18,7 +18,7 @@ pub(super) struct Sector {
 
 impl Sector {
     /// The sector of discs about the origin; `None` where there are none.
-    pub fn of(discs: &[Disc], forward: DVec2) -> Option<Self> {
+    pub(super) fn of(discs: &[Disc], forward: DVec2) -> Option<Self> {
         let middle: DVec2 = discs.iter().map(|disc| disc.center.normalize_or_zero()).sum();
         let middle = wrapped(middle.try_normalize()?.to_angle() - forward.to_angle());
         let sector = Self { low: f64::INFINITY, high: f64::NEG_INFINITY };
@@ -31,7 +31,7 @@ impl Sector {
         Some(grown)
     }
 
-    pub fn width(&self) -> f64 {
+    pub(super) fn width(&self) -> f64 {
         self.high - self.low
     }
 }

@@ -57,7 +57,7 @@ pub(super) struct Sheet {
 
 impl Sheet {
     /// The sheet of strips whose stations have these places in the image.
-    pub fn new(pieces: &[Piece], strips: &[Strip], places: &[Vec<DVec2>], width: f64) -> Self {
+    pub(super) fn new(pieces: &[Piece], strips: &[Strip], places: &[Vec<DVec2>], width: f64) -> Self {
         let (mut stations, mut start, mut piece_of) = (Vec::new(), Vec::new(), Vec::new());
         for (n, piece) in pieces.iter().enumerate() {
             let first = stations.len();
@@ -82,18 +82,18 @@ impl Sheet {
         Self { seen, world, reach, stations, start, piece: piece_of, width }
     }
 
-    pub fn stations_of(&self, piece: usize) -> &[Station] {
+    pub(super) fn stations_of(&self, piece: usize) -> &[Station] {
         let [first, end] = [piece, piece + 1].map(|n| self.piece.partition_point(|of| *of < n));
         &self.stations[self.start[first]..self.start[end - 1] + 2]
     }
 
     /// The piece that a place belongs to.
-    pub fn piece(&self, place: &Place) -> usize {
+    pub(super) fn piece(&self, place: &Place) -> usize {
         self.piece[place.segment]
     }
 
     /// The segments that may be nearest to some place no farther than `radius` (mm) from a point of the image.
-    pub fn near(&self, middle: DVec2, radius: f64) -> Vec<usize> {
+    pub(super) fn near(&self, middle: DVec2, radius: f64) -> Vec<usize> {
         let middle = middle.extend(0.0);
         let Some((_, squared)) = self.seen.nearest(middle, self.width + radius) else { return Vec::new() };
         // A little more, for rounding.
@@ -101,7 +101,7 @@ impl Sheet {
     }
 
     /// What a point of the image (mm) shows: the nearest segment, the first one of several.
-    pub fn place(&self, seen: DVec2) -> Option<Place> {
+    pub(super) fn place(&self, seen: DVec2) -> Option<Place> {
         self.place_within(seen, self.width)
     }
 
@@ -112,7 +112,7 @@ impl Sheet {
     }
 
     /// The nearest segment, the first one of several, where it is known to be one of those named, which are in their order.
-    pub fn nearest_among(&self, segments: &[usize], seen: DVec2) -> Option<usize> {
+    pub(super) fn nearest_among(&self, segments: &[usize], seen: DVec2) -> Option<usize> {
         let mut best = (None, self.width * self.width);
         for segment in segments {
             let squared = self.seen.squared_distance(*segment, seen.extend(0.0));
@@ -124,7 +124,7 @@ impl Sheet {
     }
 
     /// The place at a point of the image to which a segment is nearest; at corners it may belong to the next segment.
-    pub fn on_segment(&self, mut segment: usize, seen: DVec2) -> Place {
+    pub(super) fn on_segment(&self, mut segment: usize, seen: DVec2) -> Place {
         let mut place = self.across_segment(segment, seen);
         for _ in 0..STEPS {
             let next = if place.share > 1.0 { segment + 1 } else { segment.wrapping_sub(1) };
@@ -179,7 +179,7 @@ impl Sheet {
     }
 
     /// The world point of a place (mm, LPS).
-    pub fn point(&self, place: &Place) -> DVec3 {
+    pub(super) fn point(&self, place: &Place) -> DVec3 {
         let [a, b] = self.ends(place.segment);
         self.center(place) + a.across.lerp(b.across, place.share.clamp(0.0, 1.0)) * place.aside
     }
@@ -191,27 +191,27 @@ impl Sheet {
     }
 
     /// Across the sheet at a place, into the scene where the vessel is seen from its side.
-    pub fn slab_direction(&self, place: &Place) -> DVec3 {
+    pub(super) fn slab_direction(&self, place: &Place) -> DVec3 {
         let [a, b] = self.ends(place.segment);
         let across = a.across.lerp(b.across, place.share.clamp(0.0, 1.0));
         (b.point - a.point).cross(across).normalize_or_zero()
     }
 
     /// The arc length of a place (mm); that of the end beyond it.
-    pub fn arc_length(&self, place: &Place) -> f64 {
+    pub(super) fn arc_length(&self, place: &Place) -> f64 {
         let [a, b] = self.ends(place.segment);
         a.at + (b.at - a.at) * place.share.clamp(0.0, 1.0)
     }
 
     /// Where the image has a place (mm).
-    pub fn seen(&self, place: &Place) -> DVec2 {
+    pub(super) fn seen(&self, place: &Place) -> DVec2 {
         let [a, b] = self.ends(place.segment);
         let share = place.share.clamp(0.0, 1.0);
         a.place.lerp(b.place, place.share) + a.normal.lerp(b.normal, share) * place.aside
     }
 
     /// Whether the sheet runs backwards at a place, or another part of the tree is nearer to what it shows.
-    pub fn is_folded(&self, place: &Place) -> bool {
+    pub(super) fn is_folded(&self, place: &Place) -> bool {
         let [a, b] = self.ends(place.segment);
         let along = b.point - a.point;
         let is_beyond = !(0.0..=1.0).contains(&place.share);
@@ -226,7 +226,7 @@ impl Sheet {
 
     /// Where the image shows a world point: of the places that are shown those on the sheet first, then the one nearest to its
     /// vessel, then the first one.
-    pub fn place_of(&self, point: DVec3) -> Option<Place> {
+    pub(super) fn place_of(&self, point: DVec3) -> Option<Place> {
         let mut best: Option<(Place, [f64; 2])> = None;
         for segment in self.world.within(point, self.reach) {
             for place in self.sections(segment, point) {

@@ -33,7 +33,7 @@ pub(super) struct Strip {
 
 impl Strip {
     /// The strip of a piece as a camera sees it, its directions smoothed by `smoothing` mm.
-    pub fn new(piece: &Piece, camera: &Camera, smoothing: f64) -> Self {
+    pub(super) fn new(piece: &Piece, camera: &Camera, smoothing: f64) -> Self {
         let directions: Vec<DVec3> =
             piece.points.windows(2).map(|ends| (ends[1] - ends[0]).normalize_or_zero()).collect();
         let seen: Vec<DVec3> =
@@ -56,7 +56,7 @@ impl Strip {
     }
 
     /// The places of the stations in the image (mm) from where the piece begins to grow, with `stiffness` of its bends left.
-    pub fn bent(&self, piece: &Piece, is_reversed: bool, stiffness: f64) -> Vec<DVec2> {
+    pub(super) fn bent(&self, piece: &Piece, is_reversed: bool, stiffness: f64) -> Vec<DVec2> {
         let last = self.theta.len() - 1;
         let first = if is_reversed { self.theta[last] } else { self.theta[0] };
         let mut place = DVec2::ZERO;

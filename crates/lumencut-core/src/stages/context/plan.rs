@@ -59,7 +59,7 @@ pub(super) struct Plan<'a> {
 
 impl<'a> Plan<'a> {
     /// Prepares the rays of `context`, which is that of `settings`.
-    pub fn new(
+    pub(super) fn new(
         &Surroundings { camera, volume, blocks }: &Surroundings<'a>,
         settings: &Settings,
         context: &Context,

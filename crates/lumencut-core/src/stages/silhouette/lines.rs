@@ -31,7 +31,7 @@ struct Border {
 }
 
 impl<'a> LeapLines<'a> {
-    pub fn new(leap: &'a [u32], value: &'a [f32], width: usize, line_width: f32) -> Self {
+    pub(super) fn new(leap: &'a [u32], value: &'a [f32], width: usize, line_width: f32) -> Self {
         let size = [width as isize, (leap.len() / width) as isize];
         let most = line_width.min(1.0);
         // A line narrower than a pixel is one of a pixel, only fainter.
@@ -40,7 +40,7 @@ impl<'a> LeapLines<'a> {
     }
 
     /// Writes how much of each pixel of a row the lines cover.
-    pub fn fill_row(&self, row: usize, strength: &mut [f32]) {
+    pub(super) fn fill_row(&self, row: usize, strength: &mut [f32]) {
         for (n, strength) in strength.chunks_mut(FAN).enumerate() {
             let [i, j] = [(n * FAN) as isize, row as isize];
             if !self.has_leaps_near(i, j) {
