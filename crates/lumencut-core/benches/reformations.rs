@@ -1,5 +1,4 @@
-//! mpCPR and CR beside the cut surface: 512 × 512 pixels of the workloads from the front, without context, where the pixels
-//! look and what is shown there.
+//! mpCPR, CR and the cut surface: 512 × 512 pixels of the workloads from the front, without context.
 //!
 //! `cargo bench -p lumencut-core --bench reformations`
 
@@ -16,13 +15,11 @@ use lumencut_scenes::timing::{head, row, time};
 use lumencut_scenes::views::fitted;
 use lumencut_scenes::workloads::{ASKED, WORKLOADS};
 
-/// How often each picture is made.
 const RUNS: usize = 31;
 
-/// A method that finds where the pixels look.
 type Find<'a> = &'a dyn Fn(&LeveledTree, &Request) -> Result<Frame>;
 
-/// The median and the fastest milliseconds of finding the places, and of the whole picture.
+/// Median and fastest milliseconds of finding the positions, and of the whole picture.
 fn times(volume: &SharedVolume, tree: &LeveledTree, request: &Request, find: Find) -> [String; 2] {
     let renderer = CpuRenderer::default();
     let found = || find(tree, request).expect("a frame");

@@ -1,5 +1,5 @@
-//! The reference: every pixel against every piece of every level it needs. Vectorised and parallel like the
-//! product, without its hierarchy; for tests and benches only.
+//! The reference: every pixel against every piece of every level it needs. Vectorised and parallel, but
+//! without the hierarchy; for tests and benches only.
 
 use crate::error::Result;
 use crate::math::cost::Rule;

@@ -1,7 +1,7 @@
 //! The method from end to end: the stages in the order of the paper's Fig. 4.
 //!
-//! `cut_surface` finds where the pixels look, `look` shows what is there. A reformation that finds its places in another
-//! way brings its own geometry and shares `look`.
+//! `cut_surface` finds the position of every pixel, `look` shows what is there. A reformation brings its own
+//! geometry and shares `look`.
 
 mod clock;
 mod details;
@@ -17,7 +17,8 @@ use self::clock::Clock;
 pub use self::details::SurfaceDetails;
 pub use self::images::Images;
 use self::pass::Lines;
-pub use self::pass::{CutSurfacePass, LookPass};
+pub(crate) use self::pass::CutSurfacePass;
+pub use self::pass::LookPass;
 use crate::camera::Camera;
 use crate::error::{Error, ErrorKind, Result};
 use crate::frame::{Frame, clear_outside};
@@ -33,31 +34,32 @@ use crate::stages::depth::{CutSurface, Sheet};
 use crate::stages::{Image, ImageSet, Stage, Work};
 use crate::stop::Stop;
 
-/// What is asked for: a view of a scene.
+/// A view of a scene to render.
 #[derive(Clone, Copy)]
 pub struct Request<'a> {
     /// The view.
     pub camera: &'a Camera,
     /// How it is made and shown.
     pub settings: &'a Settings,
-    /// The images that the frame is to have, where the view has them.
+    /// The images that the frame shall have, if the view has them.
     pub images: ImageSet,
     /// Whether to stop.
     pub stop: Stop<'a>,
-    /// Where to tell how far the view is.
+    /// Receives the progress of the view.
     pub progress: Option<&'a Progress>,
 }
 
 impl<'a> Request<'a> {
-    /// All images of a view, without a way to stop or to tell how far it is.
+    /// All images of a view, without stop or progress.
     pub fn new(camera: &'a Camera, settings: &'a Settings) -> Self {
         Self { camera, settings, images: ImageSet::ALL, stop: &|| false, progress: None }
     }
 
-    /// The settings as they are for the vessels of the scene, checked.
+    /// The settings adapted to the vessels of the scene, checked.
     ///
     /// # Errors
-    /// [`ErrorKind::Settings`] for a setting outside its range, or a focus or chosen vessels that are not there.
+    /// [`ErrorKind::Settings`] for a setting outside its range, or a focus or chosen vessel that the scene
+    /// lacks.
     pub fn settings_for(&self, scene: &Scene) -> Result<Cow<'a, Settings>> {
         self.settings.check()?;
         if let Some(tree) = &scene.tree {
@@ -71,14 +73,14 @@ impl<'a> Request<'a> {
             .mend(format!("give centerlines, or leave the {setting} out")))
     }
 
-    /// The same without the picture where the scene has no volume to show: nothing is made for it then.
+    /// Removes the picture if the scene has no volume to show.
     #[must_use]
     pub fn without_unseen_picture(self, scene: &Scene) -> Self {
         let images = if scene.volume.is_some() { self.images } else { self.images.without(Image::Picture) };
         Self { images, ..self }
     }
 
-    /// Tells that the view begins on the CPU, and by which stages.
+    /// Starts the progress of a view on the CPU with the costs of its stages.
     fn begin_view(&self, scene: &Scene) {
         let Some(progress) = self.progress else { return };
         let asked = self.without_unseen_picture(scene).images;
@@ -102,15 +104,15 @@ impl<'a> Request<'a> {
     }
 }
 
-/// Renders views on the CPU. It keeps the buffers that hold a projected tree, and that of the sheet, from view to view; all
-/// else belongs to the scenes.
+/// Renders views on the CPU. It keeps the buffers of the projected tree and of the sheet from view to view;
+/// scenes own everything else.
 #[derive(Debug)]
 pub struct CpuRenderer {
     levels: Arc<Vec<Level>>,
     projected: Vec<ProjectedLevel>,
-    /// The vessels that come before all others in them.
+    /// The vessels that take precedence in them.
     first: Vec<usize>,
-    /// The sheet of the view before: the largest of the images that no frame keeps.
+    /// The sheet of the previous view: the largest image that no frame keeps.
     sheet: Vec<Sheet>,
     isa: Isa,
 }
@@ -127,8 +129,8 @@ impl CpuRenderer {
         Self { levels: Arc::default(), projected: Vec::new(), first: Vec::new(), sheet: Vec::new(), isa }
     }
 
-    /// One view of a scene: the whole picture; without a volume the cut surface alone, and without a tree the context
-    /// alone. `Settings::samples` is not read here: hosts average several pictures.
+    /// Renders one view of a scene: without a volume the cut surface alone, without a tree the context alone.
+    /// `Settings::samples` does not apply here: hosts average several pictures.
     ///
     /// # Errors
     /// Those of [`Request::settings_for`], [`ErrorKind::Volume`] for a scene without volume and tree,
@@ -148,7 +150,7 @@ impl CpuRenderer {
         }
     }
 
-    /// The details of the cut surface of one view; of the request the images do not count.
+    /// The details of the cut surface of one view; ignores the images of the request.
     ///
     /// # Errors
     /// As [`CpuRenderer::render`].
@@ -160,8 +162,8 @@ impl CpuRenderer {
         SurfaceDetails::of(&self.pass(&Request { settings, images: SurfaceDetails::WANTED, ..*request }))
     }
 
-    /// The strength of the silhouettes of a frame that a reformation made, 0 to 1, as if all of it showed something. Its request
-    /// asked for [`crate::stages::Image::Leap`].
+    /// The strength of the silhouettes of a reformation's frame, 0 to 1, as if all of it were shown. The
+    /// frame needs [`crate::stages::Image::Leap`].
     ///
     /// # Errors
     /// [`ErrorKind::Interrupted`] once the caller asks to stop.
@@ -171,7 +173,6 @@ impl CpuRenderer {
         Lines::of(frame).strength(&work, settings, camera)
     }
 
-    /// Where the pixels of a view look: depth, vessel and distance of the cut surface.
     fn cut_surface(&mut self, tree: &LeveledTree, request: &Request) -> Result<Frame> {
         let mut clock = Clock::start();
         let mut images = Images { sheet: std::mem::take(&mut self.sheet), ..Images::default() };
@@ -189,8 +190,8 @@ impl CpuRenderer {
         Ok(images.into_cut_surface(*request.camera, clock.timings))
     }
 
-    /// Shows the volume where a frame's geometry looks: values, silhouettes, context, picture. Frames of any method are
-    /// shown in this way; of the request only settings, images and the way to stop count.
+    /// Shows the volume at the positions of a frame of any method: values, silhouettes, context, picture. Of
+    /// the request only settings, images and stop apply.
     ///
     /// # Errors
     /// As [`CpuRenderer::render`].
@@ -213,8 +214,8 @@ impl CpuRenderer {
         Ok(images.into_frame(frame, clock.timings).keeping(request.images))
     }
 
-    /// Takes over the levels of a tree that is another one than in the view before, or smoothed in another way, or shown
-    /// with more levels, and the vessels that come before all others.
+    /// Takes over the levels of a tree, if tree, smoothing, number of levels or chosen vessels changed since
+    /// the last view.
     pub fn prepare(&mut self, tree: &LeveledTree, settings: &Settings) {
         let levels = tree.levels(settings.levels, settings.centerline_smoothing);
         if !Arc::ptr_eq(&self.levels, &levels) {
@@ -230,7 +231,7 @@ impl CpuRenderer {
         }
     }
 
-    /// Projects the levels into the view of `camera`, once they are prepared.
+    /// Projects the prepared levels into the view of `camera`.
     pub fn project(&mut self, camera: &Camera, settings: &Settings) {
         let (levels, projected) = (&self.levels, &mut self.projected[..=settings.levels]);
         projected
@@ -239,8 +240,8 @@ impl CpuRenderer {
             .for_each(|(projected, level)| projected.project(level, camera, Radii::new(settings)));
     }
 
-    /// What the stages of the cut surface read, once the levels are projected into the view.
-    pub fn pass<'a>(&'a self, request: &Request<'a>) -> CutSurfacePass<'a> {
+    /// The input of the cut-surface stages, once the levels are projected.
+    pub(crate) fn pass<'a>(&'a self, request: &Request<'a>) -> CutSurfacePass<'a> {
         let &Request { camera, settings, images, stop, progress } = request;
         let (levels, projected) = (&self.levels[..=settings.levels], &self.projected[..=settings.levels]);
         CutSurfacePass {
@@ -253,10 +254,12 @@ impl CpuRenderer {
     }
 }
 
-/// The picture of values in the window and opacity of `settings`, over their background; transparent where the value is NaN.
+/// The picture of values in the window and opacity of `settings`, over their background; transparent where
+/// the value is NaN.
 ///
 /// # Errors
-/// [`ErrorKind::Settings`] for a setting outside its range, [`ErrorKind::Interrupted`] once the caller asks to stop.
+/// [`ErrorKind::Settings`] for a setting outside its range, [`ErrorKind::Interrupted`] once the caller asks
+/// to stop.
 pub fn picture(value: &[f32], size: [usize; 2], (settings, stop): (&Settings, Stop)) -> Result<Vec<[u8; 4]>> {
     settings.check()?;
     let work = Work { size, isa: Isa::widest(), stop, progress: None };
@@ -267,7 +270,7 @@ pub fn picture(value: &[f32], size: [usize; 2], (settings, stop): (&Settings, St
     Ok(image)
 }
 
-/// An error for a scene of nothing.
+/// The error for an empty scene.
 pub fn nothing_to_show() -> Error {
     let found = "neither a volume nor vessels";
     Error::new(ErrorKind::Volume, "scene of the renderer", found, "one of them or both")

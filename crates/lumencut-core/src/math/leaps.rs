@@ -4,9 +4,9 @@
 pub const TO_THE_RIGHT: u32 = 1;
 /// The bit of a leap between a pixel and the one below it.
 pub const DOWNWARDS: u32 = 2;
-/// Beside [`TO_THE_RIGHT`]: the line lies in the right neighbour, not in the pixel itself.
+/// With [`TO_THE_RIGHT`]: the line lies in the right neighbour, not in the pixel itself.
 pub const LINE_TO_THE_RIGHT: u32 = 4;
-/// Beside [`DOWNWARDS`]: the line lies in the pixel below, not in the pixel itself.
+/// With [`DOWNWARDS`]: the line lies in the pixel below, not in the pixel itself.
 pub const LINE_DOWNWARDS: u32 = 8;
 /// The bit of a pixel that shows the lumen of a vessel.
 pub const LUMEN: u32 = 16;

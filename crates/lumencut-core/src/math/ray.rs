@@ -9,15 +9,15 @@ use crate::camera::Camera;
 use crate::volume::Volume;
 
 /// The columns and rows of a packet (pixels).
-pub const PACKET: [usize; 2] = [4, 4];
-/// The parts of a ray that are sampled, or skipped, together.
+pub(crate) const PACKET: [usize; 2] = [4, 4];
+/// Parts of a ray that are sampled or skipped together.
 pub const STEPS: usize = 8;
 
-/// The most samples along a ray, and of a slab.
+/// The most samples along a ray and across a slab.
 pub const MOST_SAMPLES: f64 = 65_536.0;
 
-/// How much of a step a chord may be longer than whole steps without a part more: n voxels have n parts, however n · side
-/// is rounded, on a GPU with the digits of `f32`.
+/// The share of a step by which a chord may exceed whole steps without another part: n voxels give n parts
+/// whatever the rounding of n · side, also in `f32` on a GPU.
 pub const SPARE: f64 = 1e-3;
 
 /// What all rays of a view share.
@@ -26,7 +26,7 @@ pub struct Rays {
     /// The grid of the volume.
     pub grid: Grid,
     /// From view to index.
-    pub index_from_view: IndexFromView,
+    pub(crate) index_from_view: IndexFromView,
     /// The longest part of a ray (mm).
     pub step: f64,
 }
@@ -38,23 +38,21 @@ impl Rays {
     }
 }
 
-/// Sixteen rays of a square of pixels. The chord of each within the volume, between the depths where it is wanted, is cut
-/// into equal parts no longer than a step. So the parts of a ray fill it, whatever the step.
+/// Sixteen rays of a square of pixels. Each chord within the volume and the wanted depths is cut into equal
+/// parts no longer than a step, so the parts fill it.
 #[derive(Clone, Debug)]
-pub struct Packet {
+pub(crate) struct Packet {
     lines: Lines,
-    /// The length of a part (mm).
     part: [f64; FAN],
     /// The number of parts of each ray; 0 where it misses the volume or is not needed.
     pub count: [i32; FAN],
     /// The length of a part (mm).
     pub thickness: [f32; FAN],
-    /// The largest number of parts.
     pub longest: i32,
     bounds: Bounds,
 }
 
-/// The smallest and the largest of a packet's numbers.
+/// Bounds on a packet's numbers.
 #[derive(Clone, Copy, Debug, Default)]
 struct Bounds {
     foot: [[f64; 2]; 3],
@@ -68,12 +66,12 @@ struct Bounds {
 impl Packet {
     /// Cuts `lines` within `grid` into parts of at most `step` mm.
     #[inline(always)]
-    pub fn new(grid: &Grid, mut lines: Lines, step: f64) -> Self {
+    pub(crate) fn new(grid: &Grid, mut lines: Lines, step: f64) -> Self {
         lines.clip(grid);
         let (mut count, mut part) = ([0; FAN], [0.0; FAN]);
         for l in 0..FAN {
             let chord = lines.far[l] - lines.near[l];
-            // The whole number above the quotient, without the system's function.
+            // Rounds up without the system's function.
             let steps = chord / step - SPARE;
             let parts = steps as i32 + i32::from(f64::from(steps as i32) < steps);
             count[l] = if chord > 0.0 { parts.max(1) } else { 0 };
@@ -90,7 +88,7 @@ impl Packet {
         packet
     }
 
-    /// Lets the rays that see nothing run along with one that does, so that they widen no range.
+    /// Copies a ray that sees something over those that see nothing, so that they widen no bounds.
     #[inline(always)]
     fn settle_idle(&mut self) {
         let mut busy = 0;
@@ -125,18 +123,24 @@ impl Packet {
 
     /// The segment of samples in the middle of the parts from `first` on, within bounds of the whole packet.
     #[inline(always)]
-    pub fn segment(&self, grid: &Grid, blocks: Option<&Blocks>, first: i32) -> Segment {
+    pub(crate) fn segment(&self, grid: &Grid, blocks: Option<&Blocks>, first: i32) -> Segment {
         let [first_part, end_part] = [f64::from(first) + 0.5, f64::from(first + STEPS as i32) - 0.5];
         self.between(grid, blocks, first, [first_part, end_part])
     }
 
-    /// The segment of all that lies in `count` parts from `first` on, within bounds of the whole packet.
+    /// The segment of `count` parts from `first` on, within bounds of the whole packet.
     #[inline(always)]
-    pub fn whole_segment(&self, grid: &Grid, blocks: Option<&Blocks>, first: i32, count: i32) -> Segment {
+    pub(crate) fn whole_segment(
+        &self,
+        grid: &Grid,
+        blocks: Option<&Blocks>,
+        first: i32,
+        count: i32,
+    ) -> Segment {
         self.between(grid, blocks, first, [f64::from(first), f64::from(first + count)])
     }
 
-    /// The segment that begins with the part `first`; what is looked at lies between two places, counted in parts.
+    /// The segment from part `first` on whose bounds hold the given interval, counted in parts.
     #[inline(always)]
     fn between(&self, grid: &Grid, blocks: Option<&Blocks>, first: i32, parts: [f64; 2]) -> Segment {
         let Bounds { foot, toward, near, part, far } = &self.bounds;
@@ -162,15 +166,14 @@ impl Packet {
         Segment { first, base: low, range }
     }
 
-    /// The places of a segment's samples.
     #[inline(always)]
-    pub fn line(&self, segment: &Segment) -> Line {
+    pub(crate) fn line(&self, segment: &Segment) -> Line {
         Line { start: self.places(segment, 0.5), part: self.way(1.0) }
     }
 
-    /// All that lies in `count` parts from the beginning of a segment on.
+    /// The first `count` parts of a segment.
     #[inline(always)]
-    pub fn stretch(&self, segment: &Segment, count: i32) -> RaySpan {
+    pub(crate) fn stretch(&self, segment: &Segment, count: i32) -> RaySpan {
         let count = count as f32;
         let mut stretch = RaySpan {
             start: self.places(segment, 0.0),
@@ -186,7 +189,7 @@ impl Packet {
         stretch
     }
 
-    /// Where the rays are `parts` behind the beginning of a segment.
+    /// The positions `parts` behind the beginning of a segment.
     #[inline(always)]
     fn places(&self, segment: &Segment, parts: f64) -> Places {
         let mut places = [[0.0; FAN]; 3];
@@ -200,7 +203,6 @@ impl Packet {
         places
     }
 
-    /// How far the rays go in some parts.
     #[inline(always)]
     fn way(&self, parts: f64) -> Places {
         let mut way = [[0.0; FAN]; 3];
@@ -215,18 +217,17 @@ impl Packet {
 
 /// Sixteen rays from the beginning of a segment on, counted from its base.
 #[derive(Clone, Copy, Debug)]
-pub struct RaySpan {
+pub(crate) struct RaySpan {
     /// Where they begin (voxels).
     pub start: Places,
-    /// How far they go in the whole segment (voxels).
+    /// Extent over the whole segment (voxels).
     pub way: Places,
-    /// Where they end, as a share of the segment; 0 or less where a ray has ended before.
+    /// Where they end, as a share of the segment; at most 0 if a ray has ended before.
     pub end: [f32; FAN],
     /// The length of the whole segment (mm).
     pub length: [f32; FAN],
 }
 
-/// The smallest and the largest of sixteen numbers.
 #[inline(always)]
 fn ends(numbers: &[f64; FAN]) -> [f64; 2] {
     let (mut low, mut high) = (numbers[0], numbers[0]);
@@ -237,10 +238,9 @@ fn ends(numbers: &[f64; FAN]) -> [f64; 2] {
     [low, high]
 }
 
-/// Some parts of a packet's rays in a row.
+/// Consecutive parts of a packet's rays.
 #[derive(Clone, Copy, Debug)]
-pub struct Segment {
-    /// The first part.
+pub(crate) struct Segment {
     pub first: i32,
     /// A voxel before all its samples.
     pub base: [i32; 3],
@@ -248,7 +248,7 @@ pub struct Segment {
     pub range: Range,
 }
 
-/// The places of a segment's samples, counted from its base.
+/// The positions of a segment's samples, counted from its base.
 #[derive(Clone, Copy, Debug)]
 pub struct Line {
     start: Places,

@@ -1,4 +1,4 @@
-//! Where rays are: which a view has, where they lie in the volume, and which part of each is wanted.
+//! The rays of a view: their position in the volume and the wanted part of each.
 
 use glam::DVec3;
 
@@ -7,9 +7,9 @@ use super::sampling::Grid;
 use crate::camera::Camera;
 use crate::volume::Volume;
 
-/// Where a ray starts that crosses the whole volume (depth in mm).
+/// The start of a ray that crosses the whole volume (depth in mm).
 pub const WHOLE: f32 = -1e9;
-/// Where a ray starts that is not needed.
+/// The start of a ray that is not needed.
 pub const NONE: f32 = 1e9;
 /// Beyond both.
 pub const NEVER: f64 = 2e9;
@@ -17,7 +17,7 @@ pub const NEVER: f64 = 2e9;
 /// A direction that moves less than this along an axis (voxels per mm) runs along the volume's sides.
 pub const PARALLEL: f64 = 1e-9;
 /// The chord of a pixel without a ray.
-pub const NO_CHORD: [f64; 2] = [NONE as f64, -(NONE as f64)];
+pub(crate) const NO_CHORD: [f64; 2] = [NONE as f64, -(NONE as f64)];
 
 /// Continuous index as an affine map of view coordinates.
 #[derive(Clone, Copy, Debug)]
@@ -44,7 +44,7 @@ impl IndexFromView {
         }
     }
 
-    /// How far a ray goes from a voxel to the next along the axis where it meets most of them (mm).
+    /// The length of a ray between voxels along the axis where it meets most of them (mm).
     pub fn voxel(&self) -> f64 {
         1.0 / self.z.abs().max_element()
     }
@@ -57,7 +57,7 @@ pub struct RayGrid {
     pub size: [usize; 2],
     /// View x and y of the first ray (mm).
     pub first: [f64; 2],
-    /// View x from a column to the next, and y from a row to the next (mm).
+    /// Change of view x per column and of view y per row (mm).
     pub next: [f64; 2],
 }
 
@@ -76,24 +76,24 @@ impl RayGrid {
     }
 }
 
-/// Sixteen rays, each with where it is at depth 0, where it goes, and between which depths it is wanted.
+/// Sixteen rays: index at depth 0, direction, and the wanted depths.
 #[derive(Clone, Debug)]
 pub struct Lines {
     /// Continuous index at depth 0.
     pub foot: [[f64; FAN]; 3],
-    /// What 1 mm of depth adds to it.
+    /// Change of the index per mm of depth.
     pub toward: [[f64; FAN]; 3],
-    /// The first depth (mm), and the last; no ray where they are the wrong way round.
+    /// The first depth (mm); above `far` if there is no ray.
     pub near: [f64; FAN],
     /// The last depth (mm).
     pub far: [f64; FAN],
 }
 
 impl Lines {
-    /// The rays of a raster through sixteen pixels, by their columns and rows, each between the two depths that `chord`
-    /// gives (mm). Those of pixels beyond the image see nothing.
+    /// The rays of a raster through sixteen pixels, by their columns and rows, each between the two depths of
+    /// `chord` (mm). Pixels beyond the image have no ray.
     #[inline(always)]
-    pub fn of_pixels(
+    pub(crate) fn of_pixels(
         to: &IndexFromView,
         rays: &RayGrid,
         pixels: &[Option<[usize; 2]>; FAN],
@@ -123,9 +123,9 @@ impl Lines {
         lines
     }
 
-    /// Keeps of each ray what lies within the volume's box.
+    /// Restricts each ray to the volume's box.
     #[inline(always)]
-    pub fn clip(&mut self, grid: &Grid) {
+    pub(crate) fn clip(&mut self, grid: &Grid) {
         let last = grid.last();
         for a in 0..3 {
             for l in 0..FAN {

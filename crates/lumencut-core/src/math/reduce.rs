@@ -1,13 +1,13 @@
-//! What rays are reduced to. The shader follows each ray on its own; on the CPU sixteen are followed together, by
-//! `stages/along_rays.rs`.
+//! The reduction of the values along rays. The shader follows each ray alone; the CPU follows sixteen
+//! together (`stages/along_rays.rs`).
 
 use super::blocks::HUGE;
 use crate::settings::SlabMode;
 
-/// What is kept of the values along a ray.
+/// How the values along a ray become one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reduction {
-    /// The mean, each value weighted with the length that it takes of the ray.
+    /// The mean, weighted by length along the ray.
     Mean,
     /// The largest.
     Largest,
@@ -16,7 +16,7 @@ pub enum Reduction {
 }
 
 impl Reduction {
-    /// What a slab shows.
+    /// The reduction of a slab.
     pub fn of(mode: SlabMode) -> Self {
         match mode {
             SlabMode::Mean => Self::Mean,
@@ -25,13 +25,13 @@ impl Reduction {
         }
     }
 
-    /// The number by which the shaders know it.
+    /// The number that the shaders use.
     pub const fn code(self) -> u32 {
         self as u32
     }
 
     /// A limit that no value reaches.
-    pub fn no_limit(self) -> f32 {
+    pub(crate) fn no_limit(self) -> f32 {
         if self == Self::Smallest { -HUGE } else { HUGE }
     }
 }

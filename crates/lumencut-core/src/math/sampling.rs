@@ -5,10 +5,10 @@ use glam::DVec3;
 use super::lanes::{FAN, larger, smaller};
 use crate::volume::{Real, Volume, Voxel};
 
-/// Wider than what rounding moves a place (voxels).
+/// A bound on the rounding of positions (voxels).
 pub const PLACE_ROUNDING: f64 = 1e-3;
 
-/// The grid of a volume, ready to find the voxels around a continuous index.
+/// The grid of a volume, prepared to find the voxels around a continuous index.
 #[derive(Clone, Copy, Debug)]
 pub struct Grid {
     /// The last index along (i, j, k).
@@ -22,13 +22,13 @@ pub struct Grid {
     wide: bool,
 }
 
-/// Continuous indices of sixteen places, axis by axis, counted from a voxel near them so that `f32` holds them to a
+/// Continuous indices of sixteen positions, axis by axis, relative to a voxel nearby so that `f32` resolves a
 /// millionth of a voxel.
 pub type Places = [[f32; FAN]; 3];
 
-/// A run of places to sample: sixteen at each of some steps.
+/// Positions to sample: sixteen at each of some steps.
 pub trait SampledRun {
-    /// The places of step `n`, counted from a voxel before all of them.
+    /// The positions of step `n`, relative to a voxel before all of them.
     fn places(&self, n: usize) -> Places;
 }
 
@@ -40,7 +40,7 @@ pub struct Around {
 }
 
 impl Around {
-    /// Around places that are counted from a voxel `shift` voxels before theirs.
+    /// Around positions that are relative to a voxel `shift` voxels before theirs.
     pub fn new(places: Places, shift: [f32; 3]) -> Self {
         Self { places, shift }
     }
@@ -80,19 +80,19 @@ impl Grid {
     }
 
     /// The last voxel along (i, j, k) that has a neighbour above it; 0 along an axis with one voxel.
-    pub fn last_cell(&self) -> [i32; 3] {
+    pub(crate) fn last_cell(&self) -> [i32; 3] {
         self.low.map(|n| n as i32)
     }
 
-    /// The voxels' value at continuous index `p`: NaN more than half a voxel beyond the outermost centres,
-    /// the outermost voxels' within that half voxel.
+    /// The value at continuous index `p`: NaN more than half a voxel beyond the outermost centres, the
+    /// outermost voxel's value within that half voxel.
     #[inline]
     pub fn trilinear<T: Voxel>(&self, voxels: &[T], p: DVec3) -> f32 {
         self.interpolated(voxels, p, Voxel::real)
     }
 
-    /// [`Grid::trilinear`] in single precision, whatever the type of the voxels: the same numbers in voxels of two types give
-    /// the same values to the bit.
+    /// [`Grid::trilinear`] in single precision for every voxel type: equal numbers in voxels of two types
+    /// give equal values to the bit.
     #[inline]
     pub fn trilinear_single<T: Voxel>(&self, voxels: &[T], p: DVec3) -> f32 {
         self.interpolated(voxels, p, |voxel| voxel.real().to_f32())
@@ -102,7 +102,7 @@ impl Grid {
     fn interpolated<T: Voxel, R: Real>(&self, voxels: &[T], p: DVec3, number: impl Fn(T) -> R) -> f32 {
         let (mut offset, mut weights) = (0, [0.0; 3]);
         for a in 0..3 {
-            // What is no number lies nowhere.
+            // NaN lies outside.
             if !(p[a] >= -0.5 && p[a] <= self.last[a] + 0.5) {
                 return f32::NAN;
             }
@@ -119,7 +119,7 @@ impl Grid {
 
     /// [`Grid::trilinear`] at N times sixteen indices, given axis by axis.
     #[inline(always)]
-    pub fn trilinear_lanes<T: Voxel, const N: usize>(
+    pub(crate) fn trilinear_lanes<T: Voxel, const N: usize>(
         &self,
         voxels: &[T],
         p: &[[[f64; FAN]; 3]; N],
@@ -127,7 +127,7 @@ impl Grid {
         self.interpolated_lanes(voxels, p, |number| number)
     }
 
-    /// [`Grid::trilinear_single`] at sixteen indices, given axis by axis, all of them numbers.
+    /// [`Grid::trilinear_single`] at sixteen indices without NaN, given axis by axis.
     #[inline(always)]
     pub fn trilinear_single_lanes<T: Voxel>(&self, voxels: &[T], p: &[[f64; FAN]; 3]) -> [f32; FAN] {
         let [values] = self.interpolated_lanes(voxels, &[*p], Real::to_f32);
@@ -171,9 +171,9 @@ impl Grid {
         value
     }
 
-    /// The volume at N times sixteen places counted from the voxel `base`; beyond the outermost centres their voxels
-    /// go on. Loads and arithmetic take turns over all places: so the compiler uses vectors for the one, and the
-    /// processor has many of the others under way.
+    /// The volume at N times sixteen positions relative to the voxel `base`, extended by the outermost
+    /// voxels. Loads and arithmetic alternate over all positions: the arithmetic vectorises, and many loads
+    /// are in flight.
     #[inline(always)]
     pub fn sample<T: Voxel, const N: usize>(
         &self,
@@ -214,7 +214,7 @@ impl Grid {
         value
     }
 
-    /// Continuous indices within the outermost centres, of places counted from the voxel `base`.
+    /// Continuous indices, clamped to the outermost centres, of positions relative to the voxel `base`.
     fn indices(&self, base: [i32; 3], places: &Places) -> [[f64; FAN]; 3] {
         std::array::from_fn(|a| {
             places[a].map(|c| (f64::from(base[a]) + f64::from(c)).clamp(0.0, self.last[a]))
@@ -232,7 +232,7 @@ impl Grid {
         (0..3).map(|a| voxel[a] as usize * self.strides[a]).sum()
     }
 
-    /// The pairs of neighbours along i in the four rows around each place, j fastest.
+    /// The pairs of neighbours along i in the four rows around each position, j fastest.
     #[inline(always)]
     pub fn rows<T: Voxel, O: Offset, const N: usize>(
         &self,
@@ -242,8 +242,8 @@ impl Grid {
         let [si, sj, sk] = self.step;
         let steps = [0, sj, sk, sj + sk];
         let mut rows = [[[T::pair(T::default(), T::default()); FAN]; N]; 4];
-        // Neighbours side by side: one load fetches both. No pair begins after `last`; to say so costs less than to have
-        // it checked.
+        // Adjacent neighbours: one load fetches both. No pair begins after `last`; clamping costs less than a
+        // bounds check.
         if si == 1
             && let Some(last) = voxels.len().checked_sub(2)
         {
@@ -273,7 +273,6 @@ impl Grid {
 pub trait Offset: Copy + Default {
     /// The distance of neighbours along an axis.
     fn stride(grid: &Grid, axis: usize) -> Self;
-    /// This and `steps` times a stride more.
     fn plus(self, steps: i32, stride: Self) -> Self;
     /// The distance as an index.
     fn elements(self) -> usize;

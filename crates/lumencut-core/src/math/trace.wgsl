@@ -3,10 +3,9 @@
 // import math/blocks
 // import math/ray
 
-// The samples of a ray that are taken in a row.
+// Samples of a ray that are taken together.
 const RUN: i32 = 8;
 
-// What a ray finds.
 fn trace(ray: Ray) -> vec4f {
     let way = ray.part * (grid.z.xyz + grid.z_rest.xyz);
     var gathered = nothing();
@@ -31,7 +30,7 @@ fn trace(ray: Ray) -> vec4f {
     return finished(gathered);
 }
 
-// The first sample from `first` on that can change something, looking first at blocks of a `level`.
+// The first sample from `first` on that can change something; the search starts at blocks of `level`.
 fn skip(ray: Ray, way: vec3f, gathered: Gathered, first: i32, level: ptr<function, u32>) -> i32 {
     let coarsest = parameters.level_count - 1u;
     var n = first;

@@ -10,7 +10,7 @@ fn node_bound(tile: Tile, level: u32, node: Node) -> f32 {
     return key_bound(around.z, away, around.radius, around.tiers);
 }
 
-// The most promising of a node and its brothers after it.
+// The node with the lowest bound among a node and its later siblings.
 fn most_promising(tile: Tile, level: u32, first: Node) -> Node {
     var best = first;
     var least = ABSENT;
@@ -23,7 +23,7 @@ fn most_promising(tile: Tile, level: u32, first: Node) -> Node {
     return best;
 }
 
-// A bundle that promises low keys: from the root to the most promising box of each height.
+// A bundle likely to hold low keys: from the root to the box with the lowest bound of each height.
 fn promising_bundle(tile: Tile, level: u32) -> u32 {
     var node = most_promising(tile, level, first_node(level));
     while node.height > 0u {
@@ -49,8 +49,8 @@ fn next_bundle(tile: Tile, level: u32, first: Node, limit: f32) -> Node {
     return node;
 }
 
-// Offers the pieces of a bundle that can win; gives the limit beyond which nothing wins any more. What can win is found
-// first: threads that run in step evaluate their candidates together.
+// Offers the pieces of a bundle that can win and returns the limit beyond which nothing wins any more.
+// Candidates are found first, so that threads in step evaluate them together.
 fn offer_bundle(tile: Tile, bundle: u32, limit: f32) -> f32 {
     var candidates = 0u;
     for (var s = 0u; s < FAN; s++) {
@@ -60,7 +60,7 @@ fn offer_bundle(tile: Tile, bundle: u32, limit: f32) -> f32 {
     }
     while candidates != 0u {
         let slot = slots[bundle * FAN + countTrailingZeros(candidates) / 2u];
-        // A stripe and its wedge in one go.
+        // A stripe and its wedge together.
         let pair = 3u << (countTrailingZeros(candidates) & ~1u);
         offer_stripe(slot);
         offer_wedge(slot);

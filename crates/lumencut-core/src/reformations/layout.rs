@@ -1,5 +1,5 @@
-//! What every reformation that lays vessels out as an image has in common: a place in the world for each pixel, and the way
-//! between both.
+//! The common interface of reformations that lay vessels out as an image: a world position for each pixel,
+//! and maps in both directions.
 
 use glam::{DVec2, DVec3, Vec3};
 use rayon::prelude::*;
@@ -9,9 +9,10 @@ use crate::error::{Error, ErrorKind, Mend, Result};
 use crate::geometry::Curved;
 use crate::stop::{Stop, filled, go_on};
 
-/// An image of which every pixel looks at a place of its own.
+/// An image with one world position per pixel.
 ///
-/// Places in the image are column and row, with fractions; the centre of the first pixel is (0, 0). World points are LPS, in mm.
+/// Image positions are column and row, with fractions; the centre of the first pixel is (0, 0). World points
+/// are LPS, in mm.
 pub trait Layout: Send + Sync {
     /// Width and height in pixels.
     fn size(&self) -> [usize; 2];
@@ -19,34 +20,35 @@ pub trait Layout: Send + Sync {
     /// The side of a pixel (mm).
     fn pixel_spacing(&self) -> f64;
 
-    /// Where each pixel looks, and the direction in which a slab is thick there. Where nothing is shown the place is not finite.
+    /// The position of each pixel, and the direction in which a slab is thick there. A position that is not
+    /// finite shows nothing.
     ///
     /// # Errors
     /// [`ErrorKind::Interrupted`] once the caller asks to stop.
     fn curved(&self, stop: Stop) -> Result<Curved>;
 
-    /// The arc length of the vessel (mm): one for each row where rows run along one vessel, else one for each pixel, NaN where
-    /// nothing is shown.
+    /// The arc length of the vessel (mm): one per row if rows run along one vessel, else one per pixel, NaN
+    /// where nothing is shown.
     ///
     /// # Errors
     /// [`ErrorKind::Interrupted`] once the caller asks to stop.
     fn arc_length(&self, stop: Stop) -> Result<Vec<f64>>;
 
-    /// Whether each pixel is folded, row by row: not to be trusted, because the image runs backwards there or shows what it
-    /// shows elsewhere too.
+    /// Whether each pixel is folded, row by row: unreliable because the image runs backwards there or shows
+    /// the same elsewhere.
     ///
     /// # Errors
     /// [`ErrorKind::Interrupted`] once the caller asks to stop.
     fn folded(&self, stop: Stop) -> Result<Vec<bool>>;
 
-    /// The world point that a place in the image shows.
+    /// The world point at an image position.
     fn world_from_pixel(&self, pixel: DVec2) -> DVec3;
 
-    /// Where the image shows a world point.
+    /// The image position of a world point.
     fn pixel_from_world(&self, point: DVec3) -> DVec2;
 }
 
-/// An image of which each row is written by a function of its number. Whether to stop is asked before each row.
+/// An image whose rows are written by a function of their number, with a check for stop before each row.
 ///
 /// # Errors
 /// [`ErrorKind::Interrupted`].
@@ -65,7 +67,7 @@ pub(super) fn by_rows<T: Clone + Send>(
     Ok(image)
 }
 
-/// The same of where the pixels look, and of the directions of their slabs; a pixel that is not written shows nothing.
+/// The same for positions and slab directions; a pixel that is not written shows nothing.
 ///
 /// # Errors
 /// As [`by_rows`].
@@ -86,15 +88,15 @@ pub(super) fn curved_by_rows(
     Curved::new(size, position, direction)
 }
 
-/// A length that is a whole number of pixels but for rounding is that many.
+/// Tolerance for a length that is a whole number of pixels.
 const WHOLE: f64 = 1e-9;
 
-/// How many whole pixels of a side of `pixel_spacing` (mm) fit into a length (mm).
+/// The whole pixels with a side of `pixel_spacing` (mm) that fit into a length (mm).
 pub(super) fn whole_pixels(length: f64, pixel_spacing: f64) -> f64 {
     (length / pixel_spacing + WHOLE).floor()
 }
 
-/// The size of an image that has these numbers of columns and rows.
+/// The size of an image with these numbers of columns and rows.
 ///
 /// # Errors
 /// [`ErrorKind::Camera`], about `subject`, for too many of them.
@@ -106,7 +108,6 @@ pub(super) fn checked_size(subject: &str, size: [f64; 2]) -> Result<[usize; 2]> 
         let error = Error::new(ErrorKind::Camera, subject, found, expected);
         return Err(error.mended_by(Mend::FewerPixels));
     }
-    // Whole numbers within the limits.
     Ok(size.map(|side| side as usize))
 }
 

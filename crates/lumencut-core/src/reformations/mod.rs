@@ -1,5 +1,5 @@
-//! Reformations: methods that find where each pixel looks in another way than the cut surface does. What is shown there is
-//! up to `look` ([`crate::pipeline`]).
+//! Reformations: other methods than the cut surface to find the position of each pixel. `look` shows what is
+//! there ([`crate::pipeline`]).
 
 mod connections;
 pub mod cpr;

@@ -3,17 +3,17 @@
 use crate::error::Result;
 use crate::limits::Limits;
 
-/// Margins; those far below 0 leave the context alone.
+/// Margins far below 0 leave the context alone.
 const MARGIN: Limits = Limits::new(-1e6, 1e6, "mm");
-/// Fades.
 const FADE: Limits = Limits::new(0.0, 1e6, "mm");
 
 /// The cut surface around the vessels amid the context.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Focus {
-    /// How far beyond the nearest wall, in the view plane, all of the cut surface is shown (mm). Below 0 lumens fade too.
+    /// Distance beyond the nearest wall, in the view plane, up to which all of the cut surface is shown (mm).
+    /// Below 0 lumens fade too.
     pub margin: f64,
-    /// Over which distance from there the cut surface fades into the context (mm); 0 is a hard edge.
+    /// Distance over which the cut surface then fades into the context (mm); 0 is a hard edge.
     pub fade: f64,
 }
 

@@ -6,9 +6,9 @@ use super::slab::{Slab, SlabMode};
 use super::value::Value;
 use crate::named::Named;
 
-/// A focus that leaves nothing of the cut surface: what is shown is the context alone.
+/// A focus that shows the context alone.
 const NOTHING_OF_THE_CUT: Focus = Focus { margin: -1e6, fade: 0.0 };
-/// How thick the slab of a thick slab is (mm).
+/// Thickness of the look with a thick slab (mm).
 const THICK: f64 = 10.0;
 
 /// Several settings under one name; all others have their defaults.
@@ -16,15 +16,15 @@ const THICK: f64 = 10.0;
 pub struct Look {
     /// Its name on the command line and in Python.
     pub name: &'static str,
-    /// What a page calls it.
+    /// Its label on a page.
     pub words: &'static str,
     /// What it shows.
     pub sentence: &'static str,
-    /// The settings that it chooses, with their values.
+    /// Its settings and their values.
     pub values: fn() -> Vec<(&'static str, Value)>,
 }
 
-/// All looks, in the order to show them to users.
+/// All looks, in display order.
 pub const LOOKS: [Look; 5] = [
     Look {
         name: "lumen",

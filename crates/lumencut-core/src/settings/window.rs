@@ -3,7 +3,6 @@
 use crate::error::Result;
 use crate::limits::Limits;
 
-/// The widths that a window can have.
 const WIDTH: Limits = Limits::new(1e-12, Limits::LARGEST_INTENSITY, Limits::INTENSITY.unit);
 
 /// Intensities shown from black to white: `level` ± `width` / 2.
@@ -23,7 +22,7 @@ impl Default for Window {
 }
 
 impl Window {
-    /// Checks level and width of the window that is called `name`.
+    /// Checks level and width of the window called `name`.
     ///
     /// # Errors
     /// [`crate::error::ErrorKind::Settings`] for a number outside its range.

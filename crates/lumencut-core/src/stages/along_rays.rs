@@ -1,5 +1,4 @@
-//! The largest, the smallest or the mean value of the volume along rays, exactly: not at samples, but everywhere on the chord
-//! of each ray.
+//! The exact largest, smallest or mean value of the volume along rays: over the whole chord, not at samples.
 
 use rayon::prelude::*;
 
@@ -15,16 +14,16 @@ use crate::math::sampling::Grid;
 use crate::volume::Volume;
 use crate::with_voxels;
 
-/// What is kept of the values along the rays of an image.
+/// A reduction of the values along the rays of an image.
 #[derive(Clone, Copy)]
 pub struct AlongRays<'a> {
     /// Columns and rows of the image.
     pub size: [usize; 2],
     /// The volume.
     pub volume: &'a Volume<'a>,
-    /// What can be skipped; `None` looks at everything, with the same result.
+    /// Blocks to skip; `None` reads everything, with the same result.
     pub blocks: Option<&'a Blocks>,
-    /// What is kept.
+    /// The reduction.
     pub reduction: Reduction,
     /// The value from which on a larger (smaller) one makes no difference.
     pub limit: f32,
@@ -32,17 +31,15 @@ pub struct AlongRays<'a> {
     pub step: f64,
 }
 
-/// Gives the rays of the sixteen pixels of a square, by their columns and rows.
-pub trait RaySource: Sync {
-    /// The rays; those of pixels beyond the image are not asked for.
+pub(crate) trait RaySource: Sync {
     fn lines(&self, pixels: &[Option<[usize; 2]>; FAN]) -> Lines;
 }
 
-/// The parallel rays of a view, each between the two depths that `chord` gives for its pixel (mm).
+/// The parallel rays of a view, each between the two depths that `chord` returns for its pixel (mm).
 pub struct ViewRays<F> {
     /// From view to index.
     pub to: IndexFromView,
-    /// Where the rays are.
+    /// The raster of the rays.
     pub rays: RayGrid,
     /// The first and the last depth of a pixel's ray.
     pub chord: F,
@@ -58,7 +55,7 @@ impl<F: Fn(usize) -> [f64; 2] + Sync> RaySource for ViewRays<F> {
 ///
 /// # Errors
 /// [`crate::error::ErrorKind::Interrupted`].
-pub fn along_rays(work: &Work, along: &AlongRays, source: &dyn RaySource, values: &mut [f32]) -> Result<()> {
+pub(crate) fn along_rays(work: &Work, along: &AlongRays, source: &dyn RaySource, values: &mut [f32]) -> Result<()> {
     let (grid, isa, width) = (Grid::new(along.volume), work.isa, along.size[0]);
     with_voxels!(along.volume.voxels(), voxels => {
         let sampler: &dyn Sampler = &TypedSampler { grid, voxels, isa };
@@ -77,10 +74,10 @@ pub fn along_rays(work: &Work, along: &AlongRays, source: &dyn RaySource, values
     })
 }
 
-/// The parts of a ray that are followed, or skipped, together.
+/// Parts of a ray that are followed or skipped together.
 const PARTS: i32 = 8;
 
-/// So many columns are followed before the work asks whether to go on.
+/// Columns between two checks for stop.
 const TILE: usize = 32;
 
 /// A square of pixels in some rows of the image.
@@ -89,7 +86,7 @@ struct Square<'a> {
     grid: Grid,
     sampler: &'a dyn Sampler,
     source: &'a dyn RaySource,
-    /// The first of the rows, and where the square lies in them.
+    /// The first of the rows, and the position of the square in them.
     row: usize,
     place: [usize; 2],
     values: &'a mut [f32],
@@ -122,7 +119,7 @@ impl Kernel for Square<'_> {
 }
 
 impl Square<'_> {
-    /// The largest values, of the volume times `sign`: the segments with the largest values go first.
+    /// The largest values of `sign` · volume: segments with the largest values go first.
     #[inline(always)]
     fn largest(&self, packet: &Packet, sign: f32) -> [f32; FAN] {
         let limit = self.along.limit * sign;

@@ -40,7 +40,7 @@ impl Work<'_> {
     }
 
     /// The pixels of one row of tiles.
-    pub fn tile_row(&self) -> usize {
+    pub(crate) fn tile_row(&self) -> usize {
         ROWS * self.size[0]
     }
 
@@ -59,7 +59,7 @@ impl Work<'_> {
     ///
     /// # Panics
     /// Where the caller's buffers are not of this view: a mistake in the program, never in its input.
-    pub fn expect_whole<T>(&self, image: Image, pixels: &[T]) {
+    pub(crate) fn expect_whole<T>(&self, image: Image, pixels: &[T]) {
         let [width, height] = self.size;
         assert_eq!(
             pixels.len(),

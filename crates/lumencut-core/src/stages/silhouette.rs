@@ -19,13 +19,13 @@ pub const ZONE_BORDER: f32 = 4.0;
 /// Far beyond any slope squared.
 pub const STEEPEST: f32 = 1e12;
 /// How wide the line of a leap is (mm), as the wall around a lumen is by default.
-pub const LINE_WIDTH: f64 = 1.0;
+pub(crate) const LINE_WIDTH: f64 = 1.0;
 /// The narrowest line of a leap (pixels): less would not be seen.
-pub const NARROWEST_LINE: f64 = 0.5;
+pub(crate) const NARROWEST_LINE: f64 = 0.5;
 /// The widest line of a leap (pixels), however close the view.
-pub const WIDEST_LINE: f64 = 1.5;
+pub(crate) const WIDEST_LINE: f64 = 1.5;
 /// No line covers a pixel that is farther than this from its leap (pixels): [`WIDEST_LINE`] in whole pixels.
-pub const FARTHEST_LEAP: usize = 2;
+pub(crate) const FARTHEST_LEAP: usize = 2;
 const _: () = assert!(WIDEST_LINE <= FARTHEST_LEAP as f64);
 
 /// The parameters of the stage.

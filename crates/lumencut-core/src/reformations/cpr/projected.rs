@@ -1,5 +1,5 @@
-//! Projected CPR: the vessel as it is seen. Row and column of a pixel are its height and its place across the view; its
-//! depth is that of the vessel's point in the same row that is nearest along the row.
+//! Projected CPR: the vessel as seen. Row and column of a pixel are its height and its position across the
+//! view; its depth is that of the vessel's point in the same row that is nearest along the row.
 
 use std::sync::Arc;
 
@@ -12,15 +12,13 @@ use crate::error::Result;
 use crate::math::centerline_path::CenterlinePath;
 use crate::math::same_place::ON_PICTURE;
 
-/// The surface of the mode.
 pub(super) struct Projected {
     path: Arc<CenterlinePath>,
     axes: Axes,
     /// The height of each point along up (mm).
     heights: Vec<f64>,
-    /// The lowest and the highest of them.
     ends: [f64; 2],
-    /// Half of the way across the view that the vessel takes, and its middle (mm).
+    /// Half of the vessel's extent across the view, and its middle (mm).
     reach: f64,
     middle: f64,
 }
@@ -50,7 +48,7 @@ impl Projected {
         }
     }
 
-    /// Where the vessel lies at a height.
+    /// The parts of the vessel at a height.
     fn runs(&self, height: f64) -> Vec<Run> {
         let mut runs: Vec<Run> = Vec::new();
         for (segment, ends) in self.heights.windows(2).enumerate() {
@@ -111,7 +109,6 @@ impl Surface for Projected {
     }
 }
 
-/// The smallest and the largest of some numbers.
 fn range(numbers: impl Iterator<Item = f64>) -> [f64; 2] {
     numbers.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], n| [low.min(n), high.max(n)])
 }

@@ -1,5 +1,5 @@
-//! The angle about a vessel from which each of its sections is seen: the same everywhere, or one that follows the narrow or the wide
-//! side of the lumen, so that no eccentric stenosis hides in the wrong angle (ours).
+//! The angle about a vessel from which each of its sections is seen: constant, or following the narrow or the
+//! wide side of the lumen, so that an eccentric stenosis shows (our method).
 
 use std::f64::consts::PI;
 
@@ -8,16 +8,17 @@ use crate::math::arc_length::LinePlace;
 use crate::named::Named;
 use crate::reformations::Wall;
 
-/// How many directions of a diameter are compared, over half of a turn.
+/// Number of diameter directions compared, over half a turn.
 const DIRECTIONS: usize = 48;
 
-/// The distance of the places at which they are (mm); from one to the next the angle changes by one direction at most.
+/// Distance of the angles along the vessel (mm); neighbours differ by one direction at most.
 const STEP: f64 = 0.5;
 
-/// What a change by one direction costs (mm of diameter): enough to keep the picture calm where all directions are alike.
+/// Cost of a change by one direction (mm of diameter): keeps the picture steady where all directions are
+/// alike.
 const CHANGE: f64 = 0.15;
 
-/// By which Gaussians diameters and the angle are smoothed along the vessel: standard deviations (mm).
+/// Standard deviations (mm) of the Gaussians that smooth the diameters and the angle along the vessel.
 const SMOOTHING: [f64; 2] = [1.5, 2.0];
 
 /// Which side of the lumen a picture follows.
@@ -34,7 +35,7 @@ impl Named for Side {
         &[("narrowest", Self::Narrowest), ("widest", Self::Widest)];
 }
 
-/// An angle about the vessel (radians) by arc length (mm); between places it changes evenly.
+/// An angle about the vessel (radians) by arc length (mm), interpolated linearly.
 #[derive(Clone, Debug)]
 pub struct Roll {
     at: Vec<f64>,
@@ -42,10 +43,10 @@ pub struct Roll {
 }
 
 impl Roll {
-    /// The roll that has these angles (radians) at arc lengths that rise (mm).
+    /// The roll with these angles (radians) at rising arc lengths (mm).
     ///
     /// # Errors
-    /// [`ErrorKind::Camera`] for angles that are none, or not one for each place.
+    /// [`ErrorKind::Camera`] for angles that are not finite, or not one for each arc length.
     pub fn new(at: Vec<f64>, angle: Vec<f64>) -> Result<Self> {
         let rises = at.windows(2).all(|ends| ends[1] > ends[0]);
         if at.is_empty() || at.len() != angle.len() || !rises || !angle.iter().all(|a| a.is_finite()) {
@@ -56,8 +57,8 @@ impl Roll {
         Ok(Self { at, angle })
     }
 
-    /// The roll along which the diameters of a wall through the middle of the vessel are least, or largest, in sum, by dynamic
-    /// programming. The vessel is `length` mm long.
+    /// The roll whose diameters of a wall, through the middle of the vessel, have the smallest or largest
+    /// sum, by dynamic programming. The vessel is `length` mm long.
     pub fn following(wall: &Wall, length: f64, side: Side) -> Self {
         let count = (length / STEP).ceil().max(1.0) as usize;
         let at: Vec<f64> = (0..=count).map(|n| length * n as f64 / count as f64).collect();
@@ -74,24 +75,24 @@ impl Roll {
         Self { angle: smoothed(&angle, length, SMOOTHING[1]), at }
     }
 
-    /// The arc lengths (mm) at which angles are known.
+    /// The arc lengths (mm) of the angles.
     pub fn places(&self) -> &[f64] {
         &self.at
     }
 
-    /// The angles there (radians).
+    /// The angles (radians).
     pub fn angles(&self) -> &[f64] {
         &self.angle
     }
 
-    /// The angle at an arc length (mm), that of the nearest end beyond both.
+    /// The angle at an arc length (mm), clamped to the ends.
     pub fn angle(&self, at: f64) -> f64 {
         LinePlace::at(&self.at, at.clamp(self.at[0], self.at[self.at.len() - 1])).value(&self.angle)
     }
 }
 
-/// For each place the direction of the cheapest way through all places, counted on through whole turns. Of equally cheap ways the one
-/// that stays is taken, then the one that comes from the smaller direction.
+/// The directions of the cheapest path through all positions, counted on through whole turns. Of equally
+/// cheap paths the one that stays wins, then the one from the smaller direction.
 fn cheapest(cost: &[Vec<f64>]) -> Vec<i32> {
     let places = cost[0].len();
     let mut best: Vec<f64> = cost.iter().map(|column| column[0]).collect();
@@ -115,12 +116,13 @@ fn cheapest(cost: &[Vec<f64>]) -> Vec<i32> {
         let here: i32 = way[place];
         way[place - 1] = here - i32::from(came[place][here.rem_euclid(DIRECTIONS as i32) as usize]);
     }
-    // The whole turns of the first place are its own: the picture begins as near to angle 0 as it can.
+    // The picture begins as near to angle 0 as it can.
     let turns = (f64::from(way[0]) / DIRECTIONS as f64).round() as i32 * DIRECTIONS as i32;
     way.iter().map(|step| step - turns).collect()
 }
 
-/// Values at even places along a length (mm), smoothed by a Gaussian; beyond the ends they go on as at them.
+/// Values at even distances along a length (mm), smoothed by a Gaussian and extended constantly beyond the
+/// ends.
 fn smoothed(values: &[f64], length: f64, deviation: f64) -> Vec<f64> {
     let step = length / (values.len() - 1) as f64;
     let reach = (3.0 * deviation / step).ceil() as isize;

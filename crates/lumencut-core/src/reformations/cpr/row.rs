@@ -1,19 +1,18 @@
-//! What one row of a CPR shows: a line across the vessel, or several where the row meets it several times.
+//! One row of a CPR: a line across the vessel, or several if the row meets it several times.
 
 use glam::DVec3;
 
 /// A point of the vessel.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Anchor {
-    /// The point (mm, LPS).
     pub point: DVec3,
-    /// Its place in the image, to the right of the middle (mm).
+    /// Its position in the image, to the right of the middle (mm).
     pub x: f64,
     /// Arc length (mm).
     pub arc_length: f64,
 }
 
-/// A straight part of the vessel that lies in the row, mostly one point.
+/// A straight part of the vessel that lies in the row, usually one point.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Run {
     pub from: Anchor,
@@ -25,7 +24,6 @@ impl Run {
         Self { from: anchor, to: anchor }
     }
 
-    /// The point of the run that lies nearest to `x`.
     fn nearest_anchor(&self, x: f64) -> Anchor {
         let along = self.to.x - self.from.x;
         let share = if along == 0.0 { 0.0 } else { ((x - self.from.x) / along).clamp(0.0, 1.0) };
@@ -37,7 +35,6 @@ impl Run {
     }
 }
 
-/// A row.
 #[derive(Clone, Debug)]
 pub(super) struct Row {
     /// Unit vector to the right.
@@ -49,8 +46,8 @@ pub(super) struct Row {
 }
 
 impl Row {
-    /// The world point at `x`: on the line through the vessel's point that is nearest along the row, of several the one
-    /// nearest to the viewer.
+    /// The world point at `x`: on the line through the vessel's point that is nearest along the row; of
+    /// several, the one nearest to the viewer.
     pub(super) fn place(&self, x: f64) -> DVec3 {
         let mut best = self.runs[0].nearest_anchor(x);
         for run in &self.runs[1..] {
@@ -64,7 +61,6 @@ impl Row {
         best.point + self.across * (x - best.x)
     }
 
-    /// The world points at all of `x`.
     pub(super) fn place_all(&self, x: &[f64], places: &mut [DVec3]) {
         if let [Run { from, to }] = self.runs[..]
             && from.x == to.x

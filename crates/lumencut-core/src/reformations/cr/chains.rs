@@ -1,4 +1,4 @@
-//! The segments of a view in the order of their vessels: sixteen that follow one another are a chain.
+//! The segments of a view in the order of their vessels: sixteen consecutive ones are a chain.
 
 use crate::math::hierarchy::NO_SLOT;
 use crate::math::lanes::{FAN, gap};
@@ -6,9 +6,7 @@ use crate::math::pieces::Bundle;
 use crate::math::projection::{Level, ProjectedLevel};
 use crate::math::tile::Area;
 
-/// The chains of all vessels.
 pub(super) struct Chains {
-    /// The slots of each chain.
     pub bundles: Vec<Bundle>,
     /// The box around each chain in the image: from and to view x, from and to view y (mm).
     boxes: [Vec<f32>; 4],
@@ -35,7 +33,6 @@ impl Chains {
         chains
     }
 
-    /// Adds a chain of slots, each of which lies somewhere in a bundle.
     fn push<'a>(&mut self, slots: impl Iterator<Item = (&'a Bundle, usize)>) {
         let mut chain = Bundle::EMPTY;
         let [mut low_x, mut high_x, mut low_y, mut high_y] = [f32::MAX, f32::MIN, f32::MAX, f32::MIN];
@@ -55,7 +52,6 @@ impl Chains {
         }
     }
 
-    /// The chain that a slot of a vessel is in.
     pub(super) fn chain_of(&self, level: &Level, vessel: i32, slot: u32) -> u32 {
         let vessel = vessel as usize;
         self.first_of_vessel[vessel] + (slot - level.first_slot[vessel]) / FAN as u32
@@ -68,7 +64,7 @@ impl Chains {
         [start, (start + FAN as u32).min(end - 1)].map(|slot| f64::from(level.arc_length[slot as usize]))
     }
 
-    /// The chains of a vessel between two arc lengths (mm), and a little more.
+    /// The chains of a vessel that may lie between two arc lengths (mm).
     pub(super) fn between(&self, level: &Level, vessel: u32, [low, high]: [f64; 2]) -> [u32; 2] {
         let [first, end] = [vessel, vessel + 1].map(|id| level.first_slot[id as usize] as usize);
         let arc_length = &level.arc_length[first..end];

@@ -8,10 +8,10 @@ const MOST_PIXELS: f64 = 1e6;
 /// The two thresholds of CR.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CrParameters {
-    /// How far beyond its radius a vessel keeps what lies behind it away (pixels).
+    /// Distance beyond its radius within which a vessel displaces what lies behind it (pixels).
     pub radius_offset: f64,
-    /// Up to how far apart along the tree two places belong to one stretch, within which the nearer one in the image is shown
-    /// (pixels).
+    /// Distance along the tree up to which two points belong to one stretch, within which the one nearer in
+    /// the image is shown (pixels).
     pub arc_threshold: f64,
 }
 

@@ -1,4 +1,5 @@
-//! The pieces of a tree in one view, as CR asks for them: the nearest in the image, and the foremost whose disc holds a pixel.
+//! The pieces of a tree in one view for CR: the nearest in the image, and the foremost whose disc holds a
+//! pixel.
 
 use super::chains::Chains;
 use super::parameters::CrParameters;
@@ -14,7 +15,6 @@ use crate::pipeline::Request;
 use crate::reformations::connections::Connections;
 use crate::stages::depth::Sheet;
 
-/// A tree in one view.
 pub(super) struct CrView<'a> {
     pub level: &'a Level,
     pub camera: &'a Camera,
@@ -22,11 +22,11 @@ pub(super) struct CrView<'a> {
     projected: Vec<Projected>,
     /// Their pieces without depth and radius: the smallest key is the smallest distance.
     plane: Hierarchy,
-    pub plane_rule: Rule,
-    /// Their pieces with the radii of the discs: the smallest key is the foremost one whose disc holds the pixel.
+    pub(crate) plane_rule: Rule,
+    /// Their pieces with the radii of the discs: the smallest key is the foremost one whose disc holds the
+    /// pixel.
     discs: Hierarchy,
     disc_rule: Rule,
-    /// Their segments in the order of their vessels.
     pub chains: Chains,
     pub connections: Connections,
 }
@@ -49,7 +49,7 @@ impl<'a> CrView<'a> {
         Self { level, camera, projected, plane, plane_rule, discs, disc_rule, chains, connections }
     }
 
-    /// The piece of each pixel that is nearest in the image; of those equally near the first one.
+    /// The piece of each pixel that is nearest in the image; the first of equally near ones.
     #[inline(always)]
     pub(super) fn nearest_pieces(&self, tile: &Tile, seeds: &mut Seeds) -> [u32; PIXELS] {
         let mut nearest = Envelope::new(&[1.0; PIXELS]);
@@ -58,18 +58,18 @@ impl<'a> CrView<'a> {
         nearest.piece
     }
 
-    /// The foremost piece whose disc holds each pixel, [`NO_PIECE`] where none does.
+    /// The foremost piece whose disc holds each pixel, or [`NO_PIECE`].
     #[inline(always)]
     pub(super) fn foremost(&self, tile: &Tile, seeds: &mut Seeds) -> [u32; PIXELS] {
         let mut foremost = Envelope::new(&[1.0; PIXELS]);
-        // No piece counts whose disc does not hold the pixel: its key is above this.
+        // The key of a piece whose disc does not hold the pixel is above this.
         foremost.key = [-1.5 * self.disc_rule.lift; PIXELS];
         lowest_keys::<true>(&self.discs, tile, &self.disc_rule, seeds, &mut foremost);
         *seeds = Seeds::collect(&foremost, &self.level.bundle_of_slot);
         foremost.piece
     }
 
-    /// The chains that may lie within the threshold of a place on one of them, from and to.
+    /// The ranges of chains that may lie within the threshold of a point on a chain.
     pub(super) fn around(&self, chain: u32) -> Vec<[u32; 2]> {
         let slot = self.chains.bundles[chain as usize].slot[0];
         let vessel = self.level.vessel_of_slot[slot as usize];
@@ -87,7 +87,6 @@ impl<'a> CrView<'a> {
         chains
     }
 
-    /// How the pixel at (x, y) lies to a piece.
     #[inline(always)]
     pub(super) fn seen(&self, piece: u32, x: f32, y: f32) -> Seen {
         let here = &self.projected[(piece / 2) as usize];
@@ -123,10 +122,10 @@ impl<'a> CrView<'a> {
     }
 }
 
-/// No piece: as an envelope has it before any piece was offered.
+/// The value in an envelope before any piece was offered.
 pub(super) const NO_PIECE: u32 = u32::MAX;
 
-/// How a pixel lies to a piece.
+/// A piece as seen from a pixel.
 #[derive(Clone, Copy)]
 pub(super) struct Seen {
     /// Twice its slot, plus 1 for the stripe.
@@ -135,7 +134,6 @@ pub(super) struct Seen {
     pub is_covered: bool,
     /// In the image (mm).
     pub distance: f32,
-    /// Depth (mm).
     pub z: f32,
     radius: f32,
     arc_length: f32,
@@ -143,7 +141,7 @@ pub(super) struct Seen {
 }
 
 impl Seen {
-    /// Where on the tree it is.
+    /// Vessel and arc length (mm).
     #[inline(always)]
     pub(super) fn place(&self) -> (i32, f32) {
         (self.vessel, self.arc_length)

@@ -1,4 +1,5 @@
-//! How pieces of vessels grow from a root: which piece follows which, which close a cycle, and which parts hang together.
+//! How pieces of vessels grow from a root: which piece follows which, which close a cycle, and which are
+//! connected.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -8,16 +9,16 @@ use glam::DVec3;
 use super::pieces::Piece;
 use crate::error::{Error, ErrorKind, Result};
 
-/// Over which length the radius of a free end is averaged (mm).
+/// Length over which the radius of a free end is averaged (mm).
 const MEAN_OVER: f64 = 10.0;
 
 /// Radii that differ by less are the same (mm).
 const SAME_RADIUS: f64 = 1e-6;
 
-/// Pieces that hang together.
+/// Connected pieces.
 #[derive(Clone, Debug)]
 pub(super) struct Part {
-    /// Where it grows from (mm, LPS).
+    /// The point it grows from (mm, LPS).
     pub root: DVec3,
     /// Its pieces, each after the one that it follows.
     pub order: Vec<usize>,
@@ -25,25 +26,24 @@ pub(super) struct Part {
     pub first: Vec<usize>,
 }
 
-/// What follows which, for every piece.
+/// The order of growth of all pieces.
 #[derive(Clone, Debug)]
 pub(super) struct Growth {
     /// The parts, in the order of their smallest piece.
     pub parts: Vec<Part>,
     /// Whether each piece grows from its last station to its first.
     pub is_reversed: Vec<bool>,
-    /// The pieces that follow each piece.
     pub children: Vec<Vec<usize>>,
-    /// The pieces that close a cycle, and for each the piece and the end of it (0 or 1) at which the cycle closes.
+    /// The pieces that close a cycle, each with the piece and its end (0 or 1) where the cycle closes.
     pub closures: Vec<(usize, usize, usize)>,
 }
 
 impl Growth {
-    /// Grows from the end of a vessel that is nearest to `root`; parts without it, and all where there is none, from the free
-    /// end of the largest mean radius.
+    /// Grows from the vessel end nearest to `root`; parts without it grow from the free end of the largest
+    /// mean radius.
     ///
     /// # Errors
-    /// [`ErrorKind::VesselTree`] for a part without a free end, where `root` does not name one.
+    /// [`ErrorKind::VesselTree`] for a part without a free end, unless `root` names an end.
     pub(super) fn new(pieces: &[Piece], nodes: usize, root: Option<DVec3>) -> Result<Self> {
         let graph = Graph::new(pieces, nodes);
         let mut growth = Self {
@@ -70,17 +70,17 @@ impl Growth {
         Ok(growth)
     }
 
-    /// Adds the part that grows from an end of a piece, along shortest ways.
+    /// Adds the part that grows from an end of a piece, along shortest paths.
     fn grow(&mut self, graph: &Graph, (piece, end): (usize, usize)) {
         let pieces = graph.pieces;
         let root = pieces[piece].nodes[end];
         let point = if end == 0 { pieces[piece].points[0] } else { *last_of(&pieces[piece].points) };
         let mut part = Part { root: point, order: Vec::new(), first: Vec::new() };
-        // Which piece led to each junction; the root is its own beginning.
+        // The piece that led to each junction; none for the root.
         let mut led: Vec<Option<Option<usize>>> = vec![None; graph.ends.len()];
         let mut is_used = vec![false; pieces.len()];
         let mut late = Vec::new();
-        // Lengths are not negative, so their bits have their order.
+        // The bits of non-negative floats have their order.
         let mut waiting = BinaryHeap::from([Reverse((0.0f64.to_bits(), None, root))]);
         while let Some(Reverse((bits, by, node))) = waiting.pop() {
             if led[node].is_some() {
@@ -94,7 +94,8 @@ impl Growth {
             for &(piece, end) in &graph.ends[node] {
                 let other = pieces[piece].nodes[1 - end];
                 if led[other].is_none() {
-                    // A piece waits once at most: from its other end it leads back. One that loses is set anew below.
+                    // A piece waits at most once: from its other end it leads back. One that loses is
+                    // corrected below.
                     let length = f64::from_bits(bits) + pieces[piece].length();
                     self.is_reversed[piece] = end == 1;
                     waiting.push(Reverse((length.to_bits(), Some(piece), other)));
@@ -125,8 +126,8 @@ impl Growth {
         }
     }
 
-    /// Adds a piece whose both ends are reached without it: it begins at its end `near`, which was reached first, and ends free
-    /// beside its other junction.
+    /// Adds a piece whose two ends are already reached: it begins at its end `near`, reached first, and ends
+    /// free next to its other junction.
     fn close(
         &mut self,
         part: &mut Part,
@@ -138,7 +139,7 @@ impl Growth {
         self.is_reversed[piece] = near == 1;
         self.attach(part, piece, led[pieces[piece].nodes[near]].flatten());
         let far = pieces[piece].nodes[1 - near];
-        // The other place is the end of the piece that led there, or the beginning of one at the root.
+        // The other position is the end of the piece that led there, or the beginning of one at the root.
         let there = match led[far].flatten() {
             Some(by) => (by, 1 - self.start(by)),
             None => (part.first[0], self.start(part.first[0])),
@@ -147,7 +148,6 @@ impl Growth {
     }
 }
 
-/// Pieces as edges between junctions.
 struct Graph<'a> {
     pieces: &'a [Piece],
     /// The pieces that end at each junction, and by which end (0 or 1).
@@ -163,7 +163,7 @@ impl<'a> Graph<'a> {
         Self { pieces, ends }
     }
 
-    /// All pieces that hang together with one, in their order.
+    /// All pieces connected to one, in their order.
     fn reached_from(&self, piece: usize) -> Vec<usize> {
         let mut is_found = vec![false; self.pieces.len()];
         let (mut found, mut waiting) = (Vec::new(), vec![piece]);

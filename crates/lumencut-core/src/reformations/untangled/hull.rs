@@ -1,23 +1,22 @@
-//! The hulls of vessels in the image: discs as wide as the lumen and a margin, and whether those of two vessels overlap.
+//! The hulls of vessels in the image: discs as wide as the lumen and a margin, and tests for overlap.
 
 use glam::DVec2;
 
 use super::pieces::Piece;
 
-/// How many discs that follow one another share a circle around them, and how many of these circles another one.
+/// Number of consecutive discs within one circle, and of these circles within another one.
 const RUN: usize = 16;
 
-/// Discs may touch (mm).
+/// Tolerance for discs that touch (mm).
 const TOUCHING: f64 = 1e-9;
 
-/// A disc around a place of a piece.
+/// A disc around a station of a piece.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Disc {
     pub center: DVec2,
     pub radius: f64,
-    /// The piece.
     pub piece: usize,
-    /// Where along the vessel it is (mm).
+    /// Arc length along the vessel (mm).
     pub at: f64,
 }
 
@@ -27,7 +26,7 @@ impl Disc {
         reach > 0.0 && self.center.distance_squared(other.center) < reach * reach
     }
 
-    /// The disc on the way to the next one of its piece.
+    /// The disc at a share of the way to the next one of its piece.
     fn towards(&self, next: &Self, share: f64) -> Self {
         let between = |from: f64, to: f64| from + (to - from) * share;
         Self {
@@ -39,7 +38,6 @@ impl Disc {
     }
 }
 
-/// The discs at the stations of a piece.
 pub(super) fn discs(number: usize, piece: &Piece, places: &[DVec2], margin: f64) -> Vec<Disc> {
     let stations = places.iter().zip(&piece.radius).zip(&piece.at);
     stations
@@ -52,7 +50,8 @@ pub(super) fn discs(number: usize, piece: &Piece, places: &[DVec2], margin: f64)
         .collect()
 }
 
-/// The discs whose centres lie at least `distance` from the origin; where a piece crosses that distance it has one more there.
+/// The discs whose centres lie at least `distance` from the origin, and one more where a piece crosses that
+/// distance.
 pub(super) fn beyond(discs: &[Disc], distance: f64) -> Vec<Disc> {
     let is_beyond = |disc: &Disc| disc.center.length() >= distance;
     let mut kept = Vec::new();
@@ -70,7 +69,7 @@ pub(super) fn beyond(discs: &[Disc], distance: f64) -> Vec<Disc> {
     kept
 }
 
-/// The share of the way between two places at which a distance from the origin is crossed.
+/// The share between two positions at which a distance from the origin is crossed.
 fn crossing(from: DVec2, to: DVec2, distance: f64) -> f64 {
     let step = to - from;
     let [a, b, c] = [step.length_squared(), from.dot(step), from.length_squared() - distance * distance];
@@ -80,10 +79,9 @@ fn crossing(from: DVec2, to: DVec2, distance: f64) -> f64 {
     share.clamp(0.0, 1.0)
 }
 
-/// A circle around others.
 type Circle = (DVec2, f64);
 
-/// Discs that move as one.
+/// Discs that move together.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Hull {
     discs: Vec<Disc>,
@@ -123,15 +121,16 @@ impl Hull {
         });
     }
 
-    /// Whether discs of this hull, one piece, overlap each other farther apart along it than twice the sum of their radii.
+    /// Whether discs of this hull, one piece, overlap farther apart along it than twice the sum of their
+    /// radii.
     pub(super) fn overlaps_itself(&self) -> bool {
         let is_far =
             |disc: &Disc, other: &Disc| (disc.at - other.at).abs() > 2.0 * (disc.radius + other.radius);
         self.pairs(self, 0.0, &mut |disc, other| is_far(disc, other))
     }
 
-    /// Meets pairs of discs that overlap, those of the other hull turned, until one of them is the last that counts; tells whether
-    /// there was one.
+    /// Visits pairs of overlapping discs, those of the other hull turned, until `is_last` holds; returns
+    /// whether it did.
     fn pairs(&self, other: &Self, angle: f64, is_last: &mut impl FnMut(&Disc, &Disc) -> bool) -> bool {
         let turn = DVec2::from_angle(angle);
         for (m, group) in other.groups.iter().enumerate() {
@@ -151,7 +150,6 @@ impl Hull {
         false
     }
 
-    /// The same of one run of each.
     fn pairs_of_runs(
         &self,
         n: usize,
@@ -172,19 +170,17 @@ impl Hull {
     }
 }
 
-/// A circle around circles.
 fn circle_around(circles: &[Circle]) -> Circle {
     let center = circles.iter().map(|(center, _)| center).sum::<DVec2>() / circles.len() as f64;
     let reach = |(other, radius): &Circle| other.distance(center) + radius;
     (center, circles.iter().map(reach).fold(0.0, f64::max))
 }
 
-/// The numbers of what a circle is around, of `count` in all.
+/// The indices within circle `n`, of `count` in all.
 fn members(n: usize, count: usize) -> std::ops::Range<usize> {
     n * RUN..count.min((n + 1) * RUN)
 }
 
-/// Whether discs in two circles may overlap.
 fn meet(circle: &Circle, other: &Circle) -> bool {
     let reach = circle.1 + other.1;
     circle.0.distance_squared(other.0) <= reach * reach

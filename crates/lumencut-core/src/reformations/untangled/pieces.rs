@@ -1,4 +1,4 @@
-//! Vessels cut where they meet, each piece with stations close enough to each other for an image.
+//! Vessels cut where they meet, each piece with stations dense enough for an image.
 
 use glam::DVec3;
 
@@ -8,27 +8,26 @@ use crate::math::same_place::VESSEL_END;
 use crate::reformations::connections::Ends;
 use crate::vessel_tree::{Vessel, VesselTree};
 
-/// How far stations lie apart at most (mm).
+/// The largest distance of stations (mm).
 const STEP: f64 = 0.5;
 
-/// Into how many parts a short piece is cut at least.
+/// The fewest steps of a piece.
 const FEWEST: f64 = 4.0;
 
 /// A point of the vessel nearer to the last station than this share of a step is no station.
 const TOO_NEAR: f64 = 0.1;
 
-/// A part of a vessel between two places where vessels meet or end. Stations follow the vessel's own order.
+/// A part of a vessel between two points where vessels meet or end. Stations follow the vessel's own order.
 #[derive(Clone, Debug)]
 pub(super) struct Piece {
-    /// The id of the vessel.
     pub vessel: usize,
     /// The junctions at the first and the last station.
     pub nodes: [usize; 2],
     /// The stations (mm, LPS).
     pub points: Vec<DVec3>,
-    /// Where along the vessel each station is (mm).
+    /// Arc length of each station (mm).
     pub at: Vec<f64>,
-    /// The radius at each station (mm).
+    /// Radius at each station (mm).
     pub radius: Vec<f64>,
 }
 
@@ -55,8 +54,8 @@ impl Piece {
     }
 }
 
-/// The pieces of all vessels, in the order of vessels and along them, and how many junctions they have. A radius that is not
-/// known is `unknown_radius`.
+/// The pieces of all vessels, in the order of vessels and along them, and the number of junctions.
+/// `unknown_radius` replaces unknown radii.
 ///
 /// # Errors
 /// [`ErrorKind::VesselTree`] for a vessel without length.
@@ -80,14 +79,15 @@ pub(super) fn pieces_of(tree: &VesselTree, unknown_radius: f64) -> Result<(Vec<P
     Ok((pieces, ends.count as usize))
 }
 
-/// The points of a vessel at which it is cut, its ends among them, and the junction at each; between two of them it has a length.
+/// The points where a vessel is cut, including its ends, with the junction at each. Lengths between them are
+/// positive.
 fn cuts(vessel: &Vessel, ends: &Ends) -> Vec<(usize, usize)> {
     let (points, at) = (vessel.points(), vessel.arc_length());
     let last = points.len() - 1;
     let mut cuts: Vec<(usize, usize)> = Vec::new();
     for (i, point) in points.iter().enumerate() {
         let Some(node) = ends.at(*point) else { continue };
-        // Points within the same junction make one cut; at its end the vessel is cut at its last point.
+        // Points within the same junction make one cut; the last cut is the vessel's last point.
         let is_same = |&(n, _): &(usize, usize)| at[i] - at[n] <= 2.0 * VESSEL_END;
         match cuts.last() {
             Some(cut) if is_same(cut) && i == last && cuts.len() > 1 => {
@@ -101,7 +101,6 @@ fn cuts(vessel: &Vessel, ends: &Ends) -> Vec<(usize, usize)> {
     cuts
 }
 
-/// Makes the stations of a vessel.
 struct Stations<'a> {
     vessel: &'a Vessel,
     unknown_radius: f64,

@@ -1,4 +1,4 @@
-//! Where the parts of an untangled tree lie in the image, and how much room all of it takes.
+//! The position of the parts of an untangled tree in the image, and the size of the image.
 
 use glam::DVec2;
 
@@ -8,11 +8,11 @@ use crate::camera::Camera;
 use crate::error::Result;
 use crate::reformations::layout::checked_size;
 
-/// How far the hulls of parts that do not hang together are set apart (mm), where the image is wide enough.
+/// Distance between the hulls of parts that are not connected (mm), if the image is wide enough.
 const BETWEEN_PARTS: f64 = 10.0;
 
-/// Where the roots of parts lie in the image (mm): as they are seen, but from left to right none nearer to the one before it
-/// than to be clear of its hull.
+/// Roots of the parts in the image (mm): as seen, but moved right until clear of the hull of the part to the
+/// left.
 pub(super) fn roots(parts: &[Part], hulls: &[Vec<Disc>], camera: &Camera, width: f64) -> Vec<DVec2> {
     let mut roots: Vec<DVec2> =
         parts.iter().map(|part| camera.view_from_world(part.root).truncate()).collect();
@@ -29,7 +29,7 @@ pub(super) fn roots(parts: &[Part], hulls: &[Vec<Disc>], camera: &Camera, width:
     roots
 }
 
-/// The centre of the first pixel (mm), and how wide and high all vessels are with what lies beside them (mm).
+/// The centre of the first pixel (mm), and width and height of all vessels with their surroundings (mm).
 pub(super) fn extent(places: &[Vec<DVec2>], width: f64) -> (DVec2, DVec2) {
     let all = places.iter().flatten();
     let (low, high) = all.fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(low, high), place| {

@@ -1,4 +1,4 @@
-//! The strips of all pieces where they lie in the image, and the way between a place there and the world.
+//! The strips of all pieces in the image, and the maps between image positions and the world.
 
 use glam::{DVec2, DVec3};
 
@@ -9,28 +9,28 @@ use crate::math::same_place::ON_PICTURE;
 use crate::reformations::cut_locus::NEARER;
 use crate::reformations::segments::Segments;
 
-/// How often an interval is halved at most to find a section: below what a number can tell.
+/// The most bisections in the search for a section, to below the resolution of a number.
 const HALVINGS: usize = 60;
 
-/// How often a place is handed on to the next segment of its piece at most.
+/// The most moves of a position to the next segment of its piece.
 const STEPS: usize = 4;
 
 /// A station of a strip in the image and in the world.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Station {
-    /// Its place in the image (mm).
+    /// Position in the image (mm).
     pub place: DVec2,
     /// To the right in the image.
     pub normal: DVec2,
-    /// Its place in the world (mm, LPS), and what lies to the right there.
+    /// Position in the world (mm, LPS), and the direction to the right there.
     pub point: DVec3,
     pub across: DVec3,
-    /// Where along the vessel it is (mm).
+    /// Arc length along the vessel (mm).
     pub at: f64,
 }
 
-/// A place on a sheet: a segment, the share of it that lies before the place, and how far to its right the place is (mm). At free
-/// ends the share goes on beyond 0 and 1.
+/// A position on a sheet: a segment, the share of it before the position, and the offset to its right (mm).
+/// Beyond free ends the share leaves 0 to 1.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Place {
     pub segment: usize,
@@ -38,25 +38,24 @@ pub(super) struct Place {
     pub aside: f64,
 }
 
-/// All strips side by side.
+/// All strips of the image.
 #[derive(Clone, Debug)]
 pub(super) struct Sheet {
     /// The stations, piece by piece, in the order of vessels and along them.
     stations: Vec<Station>,
-    /// The first station of each segment.
     start: Vec<usize>,
-    /// The piece of each segment.
     piece: Vec<usize>,
     /// The segments in the image and in the world.
     seen: Segments,
     world: Segments,
-    /// How far from the vessels the sheet reaches (mm), and how far places of it lie from vessels in the world.
+    /// The width of the sheet on each side (mm), and the largest distance of its points from vessels in the
+    /// world.
     width: f64,
     reach: f64,
 }
 
 impl Sheet {
-    /// The sheet of strips whose stations have these places in the image.
+    /// The sheet of strips whose stations have these positions in the image.
     pub(super) fn new(pieces: &[Piece], strips: &[Strip], places: &[Vec<DVec2>], width: f64) -> Self {
         let (mut stations, mut start, mut piece_of) = (Vec::new(), Vec::new(), Vec::new());
         for (n, piece) in pieces.iter().enumerate() {
@@ -87,20 +86,19 @@ impl Sheet {
         &self.stations[self.start[first]..self.start[end - 1] + 2]
     }
 
-    /// The piece that a place belongs to.
     pub(super) fn piece(&self, place: &Place) -> usize {
         self.piece[place.segment]
     }
 
-    /// The segments that may be nearest to some place no farther than `radius` (mm) from a point of the image.
+    /// The segments that may be nearest to some position within `radius` (mm) of a point of the image.
     pub(super) fn near(&self, middle: DVec2, radius: f64) -> Vec<usize> {
         let middle = middle.extend(0.0);
         let Some((_, squared)) = self.seen.nearest(middle, self.width + radius) else { return Vec::new() };
-        // A little more, for rounding.
+        // With a margin for rounding.
         self.seen.within(middle, (squared.sqrt() + 2.0 * radius) * (1.0 + 1e-9) + ON_PICTURE)
     }
 
-    /// What a point of the image (mm) shows: the nearest segment, the first one of several.
+    /// The position on the nearest segment to a point of the image (mm), the first one of several.
     pub(super) fn place(&self, seen: DVec2) -> Option<Place> {
         self.place_within(seen, self.width)
     }
@@ -111,7 +109,7 @@ impl Sheet {
         Some(self.on_segment(segment, seen))
     }
 
-    /// The nearest segment, the first one of several, where it is known to be one of those named, which are in their order.
+    /// The nearest segment, the first one of several, if it is one of `segments`, which are in their order.
     pub(super) fn nearest_among(&self, segments: &[usize], seen: DVec2) -> Option<usize> {
         let mut best = (None, self.width * self.width);
         for segment in segments {
@@ -123,7 +121,8 @@ impl Sheet {
         best.0
     }
 
-    /// The place at a point of the image to which a segment is nearest; at corners it may belong to the next segment.
+    /// The position on the sheet at a point of the image nearest to a segment; at corners it may be on the
+    /// next segment.
     pub(super) fn on_segment(&self, mut segment: usize, seen: DVec2) -> Place {
         let mut place = self.across_segment(segment, seen);
         for _ in 0..STEPS {
@@ -143,7 +142,7 @@ impl Sheet {
         self.ended(place)
     }
 
-    /// The place with a share within its segment, unless the piece ends there.
+    /// The position with a share within its segment, unless the piece ends there.
     fn ended(&self, place: Place) -> Place {
         let is_same = |other: usize| self.piece.get(other) == self.piece.get(place.segment);
         let low = if is_same(place.segment.wrapping_sub(1)) { 0.0 } else { f64::NEG_INFINITY };
@@ -151,7 +150,7 @@ impl Sheet {
         Place { share: place.share.clamp(low, high), ..place }
     }
 
-    /// Where a segment has a point of the image: the line across it that runs through the point.
+    /// The position of an image point on a segment: on the line across it that runs through the point.
     fn across_segment(&self, segment: usize, seen: DVec2) -> Place {
         let [a, b] = self.ends(segment);
         let step = b.place - a.place;
@@ -178,39 +177,40 @@ impl Sheet {
         [self.stations[start], self.stations[start + 1]]
     }
 
-    /// The world point of a place (mm, LPS).
+    /// The world point of a position (mm, LPS).
     pub(super) fn point(&self, place: &Place) -> DVec3 {
         let [a, b] = self.ends(place.segment);
         self.center(place) + a.across.lerp(b.across, place.share.clamp(0.0, 1.0)) * place.aside
     }
 
-    /// The point of the vessel beside a place; at ends straight on.
+    /// The point of the vessel at a position, extrapolated straight at ends.
     fn center(&self, place: &Place) -> DVec3 {
         let [a, b] = self.ends(place.segment);
         a.point.lerp(b.point, place.share)
     }
 
-    /// Across the sheet at a place, into the scene where the vessel is seen from its side.
+    /// Across the sheet, into the scene where the vessel is seen from its side.
     pub(super) fn slab_direction(&self, place: &Place) -> DVec3 {
         let [a, b] = self.ends(place.segment);
         let across = a.across.lerp(b.across, place.share.clamp(0.0, 1.0));
         (b.point - a.point).cross(across).normalize_or_zero()
     }
 
-    /// The arc length of a place (mm); that of the end beyond it.
+    /// The arc length of a position (mm), clamped to the ends.
     pub(super) fn arc_length(&self, place: &Place) -> f64 {
         let [a, b] = self.ends(place.segment);
         a.at + (b.at - a.at) * place.share.clamp(0.0, 1.0)
     }
 
-    /// Where the image has a place (mm).
+    /// The image point of a position (mm).
     pub(super) fn seen(&self, place: &Place) -> DVec2 {
         let [a, b] = self.ends(place.segment);
         let share = place.share.clamp(0.0, 1.0);
         a.place.lerp(b.place, place.share) + a.normal.lerp(b.normal, share) * place.aside
     }
 
-    /// Whether the sheet runs backwards at a place, or another part of the tree is nearer to what it shows.
+    /// Whether the sheet runs backwards at a position, or another part of the tree is nearer to what it
+    /// shows.
     pub(super) fn is_folded(&self, place: &Place) -> bool {
         let [a, b] = self.ends(place.segment);
         let along = b.point - a.point;
@@ -224,8 +224,8 @@ impl Sheet {
         nearer > 0.0 && self.world.any_within(self.point(place), nearer)
     }
 
-    /// Where the image shows a world point: of the places that are shown those on the sheet first, then the one nearest to its
-    /// vessel, then the first one.
+    /// The position of a world point: of those shown, the one nearest to the sheet, then to its vessel, then
+    /// the first.
     pub(super) fn place_of(&self, point: DVec3) -> Option<Place> {
         let mut best: Option<(Place, [f64; 2])> = None;
         for segment in self.world.within(point, self.reach) {
@@ -242,20 +242,20 @@ impl Sheet {
         best.map(|(place, _)| place)
     }
 
-    /// Whether the image shows a place where it would lie.
+    /// Whether the image shows a position at its image point.
     fn is_shown(&self, place: &Place) -> bool {
-        // At its very edge rounding does not take a place away.
+        // Tolerates rounding at the very edge.
         let there = self.place_within(self.seen(place), self.width + ON_PICTURE);
         let Some(there) = there else { return false };
         self.piece(&there) == self.piece(place)
             && (self.arc_length(&there) - self.arc_length(place)).abs() < ON_PICTURE.sqrt()
     }
 
-    /// The places of a segment in whose sections a world point lies; where the piece ends, beyond it too.
+    /// The positions of a segment whose sections hold a world point, also beyond it where the piece ends.
     fn sections(&self, segment: usize, point: DVec3) -> Vec<Place> {
         let [a, b] = self.ends(segment);
         let along = b.point - a.point;
-        // How far the point lies beyond the section at a share of the segment, and to the right there.
+        // Distance of the point beyond the section at a share of the segment, and to the right there.
         let ahead = |share: f64| {
             let across = a.across.lerp(b.across, share);
             let normal = along * across.length_squared() - across * along.dot(across);
@@ -277,7 +277,7 @@ impl Sheet {
             }
             found.push(place(f64::midpoint(low, high)));
         }
-        // Sections beside each other may leave a gap for points off the sheet, and rounding one for those on it.
+        // Adjacent sections may leave a gap for points off the sheet, and rounding one for those on it.
         let beyond = |share: f64, towards: DVec3| {
             share + (point - a.point.lerp(b.point, share)).dot(towards) / along.length_squared()
         };
@@ -298,7 +298,8 @@ fn perpendicular(along: DVec3, across: DVec3) -> DVec3 {
     along - across * (along.dot(across) / across.length_squared())
 }
 
-/// Where the stations of all pieces lie in the image (mm): each piece begins where that before it ends, turned with it.
+/// The stations of all pieces in the image (mm): each piece begins where its predecessor ends, turned with
+/// it.
 pub(super) fn placed(
     pieces: &[Piece],
     growth: &Growth,

@@ -1,4 +1,4 @@
-//! One piece of a vessel as a strip of the image: in which direction it runs there, and which line of the world lies across it.
+//! One piece of a vessel as a strip of the image: its direction there, and the world line across it.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -7,19 +7,20 @@ use glam::{DVec2, DVec3};
 use super::pieces::Piece;
 use crate::camera::Camera;
 
-/// Below this sine of the angle between a vessel and the view its own direction does not tell what lies across it.
+/// Below this sine of the angle between a vessel and the view, its direction does not define the line across
+/// it.
 const END_ON: f64 = 0.1;
 
-/// How far lines across a vessel are smoothed along it (mm).
+/// Smoothing of lines across a vessel along it (mm).
 const SMOOTHING_ACROSS: f64 = 2.0;
 
 /// Where a Gaussian is cut off (σ).
 const CUT_OFF: f64 = 4.0;
 
-/// How much longer a line across a sharp corner is at most, so that it ends where those beside it end.
+/// Longest extension of a line across a sharp corner, so that it ends where its neighbours end.
 pub(super) const LONGEST_MITRE: f64 = 3.0;
 
-/// A direction shorter than this is none.
+/// A shorter vector has no direction.
 const NO_DIRECTION: f64 = 1e-9;
 
 /// A piece as a strip, before it is bent or turned.
@@ -27,7 +28,7 @@ const NO_DIRECTION: f64 = 1e-9;
 pub(super) struct Strip {
     /// The direction of each segment in the image (radians, unwrapped).
     theta: Vec<f64>,
-    /// Of each station, what lies 1 mm to the right of it as one travels along the vessel; longer at corners.
+    /// For each station, the vector 1 mm to the right along the vessel; longer at corners.
     pub across: Vec<DVec3>,
 }
 
@@ -55,7 +56,8 @@ impl Strip {
         Self { theta, across }
     }
 
-    /// The places of the stations in the image (mm) from where the piece begins to grow, with `stiffness` of its bends left.
+    /// The stations in the image (mm) from where the piece begins to grow, with a share `stiffness` of its
+    /// bends.
     pub(super) fn bent(&self, piece: &Piece, is_reversed: bool, stiffness: f64) -> Vec<DVec2> {
         let last = self.theta.len() - 1;
         let first = if is_reversed { self.theta[last] } else { self.theta[0] };
@@ -73,7 +75,7 @@ impl Strip {
     }
 }
 
-/// What lies 1 mm to the right of each station in the image; longer at corners.
+/// The vector 1 mm to the right of each station in the image; longer at corners.
 pub(super) fn normals(places: &[DVec2]) -> Vec<DVec2> {
     let along: Vec<DVec2> = places.windows(2).map(|ends| (ends[1] - ends[0]).normalize_or_zero()).collect();
     let normal = |n: usize| {
@@ -95,8 +97,8 @@ fn across(directions: &[DVec3], lines: &[DVec3], n: usize) -> DVec3 {
     line / (1.0 - slope * slope).max(0.0).sqrt().max(1.0 / LONGEST_MITRE)
 }
 
-/// The angles of directions, each within half a turn of the one before. Where a vessel runs along the view that of its
-/// neighbour counts; one that is never seen from the side runs downwards.
+/// The angles of directions, each within half a turn of the previous one. A segment along the view takes the
+/// angle of its neighbour; a vessel never seen from the side runs downwards.
 fn unwrapped(directions: &[DVec2]) -> Vec<f64> {
     let known = |d: &DVec2| d.length() > NO_DIRECTION;
     let mut last = directions.iter().find(|d| known(d)).map_or(-FRAC_PI_2, |d| d.to_angle());
@@ -111,7 +113,8 @@ fn unwrapped(directions: &[DVec2]) -> Vec<f64> {
     angles
 }
 
-/// Values of the segments between stations, smoothed along the vessel by a Gaussian of `sigma` mm; each counts by its length.
+/// Values of the segments between stations, weighted by length and smoothed along the vessel by a Gaussian of
+/// `sigma` mm.
 fn smooth(at: &[f64], values: &[DVec3], sigma: f64) -> Vec<DVec3> {
     if sigma <= 0.0 {
         return values.to_vec();

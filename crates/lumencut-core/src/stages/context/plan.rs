@@ -11,24 +11,24 @@ use crate::math::transfer::Colors;
 use crate::settings::{Context, Settings};
 use crate::volume::Volume;
 
-/// What rays run through.
+/// The volume around the cut surface, in a view.
 #[derive(Clone, Copy)]
 pub struct Surroundings<'a> {
     /// The view.
     pub camera: &'a Camera,
     /// The volume.
     pub volume: &'a Volume<'a>,
-    /// What can be skipped; `None` samples everything, with the same result.
+    /// Blocks to skip; `None` samples everything, with the same result.
     pub blocks: Option<&'a Blocks>,
 }
 
-/// A number of four digits that is no smaller.
+/// Rounds up to four digits.
 fn rounded_up(number: f64) -> f64 {
     let scale = 10f64.powf(3.0 - number.log10().floor());
     (number * scale).ceil() / scale
 }
 
-/// The step where the settings name none: half a voxel's side, because colours and opacities rise within a voxel.
+/// The default step: half a voxel's side, because colours and opacities rise within a voxel.
 fn default_step(volume: &Volume, settings: &Context) -> f64 {
     volume.smallest_side() * if settings.preview { 1.0 } else { 0.5 }
 }
@@ -48,7 +48,7 @@ pub fn step(volume: &Volume, settings: &Context) -> Result<f64> {
     Ok(step)
 }
 
-/// All that rays need whose samples are blended, prepared once.
+/// What rays with blended samples need, prepared once.
 pub(super) struct Plan<'a> {
     pub volume: &'a Volume<'a>,
     pub blocks: Option<&'a Blocks>,
@@ -58,14 +58,14 @@ pub(super) struct Plan<'a> {
 }
 
 impl<'a> Plan<'a> {
-    /// Prepares the rays of `context`, which is that of `settings`.
+    /// Prepares the rays of `context`, the one of `settings`.
     pub(super) fn new(
         &Surroundings { camera, volume, blocks }: &Surroundings<'a>,
         settings: &Settings,
         context: &Context,
     ) -> Result<Self> {
         let (step, colors) = (step(volume, context)?, Colors::new(&context.transfer));
-        // The CPU asks the blocks themselves where they lie.
+        // The CPU finds blocks through `Blocks`.
         let parameters = ContextParameters::new(settings, context, &colors, step, &BlockPlaces::default());
         Ok(Self {
             volume,
