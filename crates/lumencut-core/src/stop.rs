@@ -2,16 +2,16 @@
 
 use crate::error::{Error, Result};
 
-/// Asked again and again during long work, from any thread, whether to stop.
+/// Polled during long work, from any thread: whether to stop.
 pub type Stop<'a> = &'a (dyn Fn() -> bool + Sync);
 
-/// For work that is short, or whose caller never asks to stop.
+/// For short work, or callers that never ask to stop.
 pub const NEVER: Stop<'static> = &|| false;
 
-/// As many entries are written between two looks at whether to stop.
+/// Entries written between two checks for stop.
 const PART: usize = 1 << 20;
 
-/// An error where the caller asks to stop.
+/// Fails once the caller asks to stop.
 ///
 /// # Errors
 /// [`crate::error::ErrorKind::Interrupted`].
@@ -19,7 +19,7 @@ pub fn go_on(stop: Stop) -> Result<()> {
     if stop() { Err(Error::interrupted()) } else { Ok(()) }
 }
 
-/// Gives a list this number of entries, new ones of one value. The first touch of the memory of a large image takes seconds.
+/// Resizes a list; the first touch of the memory of a large image takes seconds.
 ///
 /// # Errors
 /// [`crate::error::ErrorKind::Interrupted`].
@@ -33,7 +33,7 @@ pub fn resize<T: Clone>(list: &mut Vec<T>, count: usize, value: T, stop: Stop) -
     Ok(())
 }
 
-/// A list of this number of entries of one value, as by [`resize`].
+/// A list of `count` entries of one value, as by [`resize`].
 ///
 /// # Errors
 /// [`crate::error::ErrorKind::Interrupted`].

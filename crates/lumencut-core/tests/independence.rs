@@ -1,5 +1,5 @@
-//! The same bits whatever the instruction set and the number of threads; stops when asked; allocates nothing of the
-//! size of the tree or the volume for a further view.
+//! The same bits on every instruction set and number of threads; stops when asked; a further view allocates
+//! nothing of the size of the tree or the volume.
 #![allow(clippy::unwrap_used)]
 
 use std::sync::atomic::{AtomicUsize, Ordering};

@@ -1,4 +1,4 @@
-//! The depth filter: a 7×7 Gaussian with σ = 2√(2 ln 2)/π pixels that takes the steps of the pixel grid out of
+//! The depth filter: a 7×7 Gaussian with σ = 2√(2 ln 2)/π pixels that smooths the steps of the pixel grid in
 //! the cut surface (paper section 3.3.3), over the whole image or within influence zones.
 
 use bytemuck::{Pod, Zeroable};
@@ -9,11 +9,10 @@ use crate::error::Result;
 use crate::math::lanes::{Kernel, ROWS, dispatch};
 use crate::settings::Settings;
 
-/// Pixels to each side of the middle.
+/// The half-width of the Gaussian in pixels.
 const REACH: usize = 3;
-/// Pixels along an axis that a pixel is made of.
 const SPAN: usize = 2 * REACH + 1;
-/// The zone of what is not in the image: that of no vessel.
+/// The zone of pixels beyond the image, different from that of any vessel.
 const OUTSIDE: i32 = i32::MIN;
 
 /// The parameters of the stage.
@@ -22,11 +21,11 @@ const OUTSIDE: i32 = i32::MIN;
 pub struct DepthFilterParameters {
     /// The weights of the Gaussian from the middle outwards; with both sides they sum to 1.
     pub weights: [f32; REACH + 1],
-    /// Within zones: how far a pair of neighbours may lie off a straight line (mm).
+    /// Within zones: the largest deviation of a pair of neighbours from a straight line (mm).
     pub leap: f32,
-    /// Nothing; the structure ends at a multiple of 16 bytes.
+    /// Pads the structure to a multiple of 16 bytes.
     pub padding: f32,
-    /// Nothing.
+    /// Padding.
     pub more_padding: [f32; 2],
 }
 
@@ -40,7 +39,7 @@ impl DepthFilterParameters {
         Self { weights: bell.map(|w| (w / sum) as f32), leap: 0.0, ..Self::zeroed() }
     }
 
-    /// The same, and the leap that these settings name.
+    /// The Gaussian, with the leap of these settings.
     pub fn of(settings: &Settings) -> Self {
         Self { leap: settings.depth_leap as f32, ..Self::new() }
     }
@@ -52,8 +51,8 @@ impl Default for DepthFilterParameters {
     }
 }
 
-/// Writes the smoothed `image`: over the whole of it, continued beyond its border by the border's own pixels, or within
-/// the zones of `vessel`, where it is given.
+/// Writes the smoothed `image`: the whole of it, extended by its border pixels, or within the zones of
+/// `vessel` if given.
 ///
 /// # Errors
 /// [`crate::error::ErrorKind::Interrupted`].
@@ -149,7 +148,7 @@ impl Kernel for ZoneRows<'_> {
         let width = self.width;
         let height = self.image.len() / width;
         let outside = vec![OUTSIDE; width];
-        // A row with what is beside it, which belongs to no zone.
+        // A row padded with pixels that belong to no zone.
         let (mut depths, mut zones) = (vec![0.0; width + 2 * REACH], vec![OUTSIDE; width + 2 * REACH]);
         for (j, smoothed) in (self.first..).zip(self.smoothed.chunks_mut(width)) {
             let row = |o: usize| (j + o).checked_sub(REACH).filter(|row| *row < height);
@@ -164,17 +163,17 @@ impl Kernel for ZoneRows<'_> {
     }
 }
 
-/// The places of the pixels along an axis that a pixel is made of, itself in the middle.
 const OFFSETS: [usize; SPAN] = [0, 1, 2, 3, 4, 5, 6];
 
-/// Filters a row of pixels along one axis, within zones. Number n of `z` and `zone` holds, for each pixel of the row, the
-/// one that lies n − `REACH` beside it along that axis.
+/// Filters a row of pixels along one axis, within zones. Entry n of `z` and `zone` is the row shifted by n −
+/// `HALF_WIDTH` along that axis.
 ///
-/// A pair of neighbours counts where both, and all pairs nearer in, are in the zone of the middle pixel, and where it
-/// does not leap. What is added to the middle is how far pairs lie off a straight line through it, not the pairs
-/// themselves: on a plane that is 0 but for the rounding of the depths, and where no pair counts the middle is kept to the
-/// bit. Neighbours are subtracted from the middle one by one, since close numbers have an exact difference, whereas the sum
-/// of two has lost a digit. The middle always counts, so that the sum of the weights is never 0.
+/// A pair of neighbours counts if both, and all pairs nearer in, are in the zone of the middle pixel, and if
+/// it does not leap. The deviations of the pairs from a straight line through the middle are added to the
+/// middle: on a plane they are 0 but for the rounding of the depths, and if no pair counts the middle is kept
+/// to the bit. Neighbours are subtracted from the middle one by one, since close numbers have an exact
+/// difference, whereas a sum of two loses a digit. The middle always counts, so the sum of the weights is
+/// never 0.
 #[inline(always)]
 fn filter_within_zones(
     parameters: &DepthFilterParameters,
@@ -184,7 +183,7 @@ fn filter_within_zones(
 ) {
     let &DepthFilterParameters { weights: [w0, w1, w2, w3], leap, .. } = parameters;
     let width = filtered.len();
-    // Slices of one length, pairs without an index and choices of numbers, so that the compiler can use vectors.
+    // Slices of one length, no indices, and selects of numbers let the loop vectorise.
     let [a3, a2, a1, z, b1, b2, b3] = z.map(|z| &z[..width]);
     let [u3, u2, u1, zone, v1, v2, v3] = zone.map(|zone| &zone[..width]);
     for i in 0..width {

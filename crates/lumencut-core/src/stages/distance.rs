@@ -30,7 +30,7 @@ pub(crate) trait Measure {
     fn lower(&mut self, tile: &Tile, squared: &mut [f32; PIXELS]);
 }
 
-/// By the walk through the hierarchy, which begins at the point nearest to the tile before.
+/// By a walk through the hierarchy, starting at the point nearest to the previous tile.
 struct NearestSearch<'a> {
     finest: &'a Hierarchy,
     nearest: NearestPoint,
@@ -43,7 +43,7 @@ impl Measure for NearestSearch<'_> {
     }
 }
 
-/// [`distance`] with a measure of its own for each row of tiles.
+/// [`distance`] with a separate measure for each row of tiles.
 pub(crate) fn distance_by<M: Measure>(
     work: &Work,
     surface: &CutSurface,
@@ -59,7 +59,6 @@ pub(crate) fn distance_by<M: Measure>(
     })
 }
 
-/// One row of tiles.
 struct DistanceRow<'a, M: Measure> {
     camera: &'a Camera,
     measure: M,

@@ -1,5 +1,5 @@
-//! Leaps: neighbours whose depths do not belong to one surface, and on which side of a leap its line lies. Both are decided
-//! once, here; silhouettes follow them.
+//! Leaps: neighbours whose depths do not belong to one surface, and the side of a leap on which its line
+//! lies. Silhouettes follow both decisions.
 
 use bytemuck::{Pod, Zeroable};
 use rayon::prelude::*;
@@ -29,11 +29,11 @@ impl LeapParameters {
     }
 }
 
-/// Writes between which neighbours the depth (mm, before its filter) leaps: where it differs by more than the diameter of
-/// the vessel, and by more than [`SMALLEST_LEAP`], from what the slope of either side alone would make it; by more than
-/// [`SMALLEST_LEAP`] alone where a chosen vessel that is shown before all others ends. Also which
-/// pixels show lumen, and on which side the line of a leap lies: beside the lumen where one side alone is lumen, else on
-/// the farther side, which the nearer one hides in part.
+/// Writes between which neighbours the depth (mm, before its filter) leaps: where it differs by more than the
+/// vessel's diameter and [`SMALLEST_LEAP`] from what the slope of either side predicts; where a chosen vessel
+/// with precedence ends, by more than [`SMALLEST_LEAP`]. Also writes which pixels show lumen, and the side of
+/// each line: outside the lumen if only one side is lumen, else on the farther side, which the nearer one
+/// partly hides.
 ///
 /// # Errors
 /// [`crate::error::ErrorKind::Interrupted`].
@@ -56,7 +56,7 @@ pub fn leap(
     })
 }
 
-/// The surface whose leaps are looked for.
+/// The surface to search for leaps.
 #[derive(Clone, Copy)]
 struct Surface<'a> {
     depth: &'a [f32],
@@ -125,7 +125,7 @@ impl Surface<'_> {
     }
 }
 
-/// Sixteen entries of a row from column `i` on; fewer where the row ends before.
+/// Sixteen entries of a row from column `i` on, unless the row ends before.
 #[inline(always)]
 fn whole<T>(row: &[T], i: usize) -> Option<&[T; FAN]> {
     row.get(i..).and_then(|rest| rest.first_chunk())
@@ -135,10 +135,10 @@ fn whole<T>(row: &[T], i: usize) -> Option<&[T; FAN]> {
 struct Strip {
     z: [f32; FAN],
     slope: [[f32; FAN]; 2],
-    /// From how much on a change counts as a leap (mm).
+    /// The smallest change that counts as a leap (mm).
     threshold: [f32; FAN],
     is_lumen: [bool; FAN],
-    /// Whether a chosen vessel is shown before all others.
+    /// Whether a chosen vessel takes precedence.
     is_first: [bool; FAN],
 }
 
@@ -155,8 +155,8 @@ impl Strip {
         }
     }
 
-    /// The bits, of either way, of a leap from each of these pixels to one of the others, which lies `step` (view x and y,
-    /// mm) from it.
+    /// The bits, of either axis, of a leap from each of these pixels to one of the others at `step` (view x
+    /// and y, mm).
     #[inline(always)]
     fn leaps_to(&self, others: &Self, step: [f32; 2]) -> [u32; FAN] {
         let mut leaps = [0; FAN];
@@ -173,8 +173,8 @@ impl Strip {
         leaps
     }
 
-    /// Whether a change of depth over a step is another than the slope of pixel `l` makes it; `ends_first` tells whether a chosen
-    /// vessel ends there.
+    /// Whether a change of depth over a step differs from what the slope of pixel `l` predicts; `ends_first`:
+    /// a chosen vessel ends there.
     #[inline(always)]
     fn is_off(&self, l: usize, change: f32, step: [f32; 2], ends_first: bool) -> bool {
         let expected = self.slope[0][l] * step[0] + self.slope[1][l] * step[1];

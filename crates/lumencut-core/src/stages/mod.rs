@@ -1,4 +1,4 @@
-//! The stages of the pipeline, one room each, in the order of the paper's Fig. 4, and the one table of them.
+//! The stages of the pipeline, one module each, in the order of the paper's Fig. 4, and the table of them.
 
 pub mod along_rays;
 pub mod composite;
@@ -29,7 +29,7 @@ pub struct Work<'a> {
     pub isa: Isa,
     /// Whether to stop.
     pub stop: Stop<'a>,
-    /// Where to tell how far the view is.
+    /// Receives the progress of the view.
     pub progress: Option<&'a Progress>,
 }
 
@@ -39,7 +39,6 @@ impl Work<'_> {
         self.size[0] * self.size[1]
     }
 
-    /// The pixels of one row of tiles.
     pub(crate) fn tile_row(&self) -> usize {
         ROWS * self.size[0]
     }
@@ -58,7 +57,7 @@ impl Work<'_> {
     /// Every image of a view has one entry for each of its pixels.
     ///
     /// # Panics
-    /// Where the caller's buffers are not of this view: a mistake in the program, never in its input.
+    /// If the caller's buffers are not of this view: a bug, never an input error.
     pub(crate) fn expect_whole<T>(&self, image: Image, pixels: &[T]) {
         let [width, height] = self.size;
         assert_eq!(

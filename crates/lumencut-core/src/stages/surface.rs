@@ -1,4 +1,4 @@
-//! The surface: the volume at the world point where each pixel looks (paper section 3.3.4).
+//! The surface: the volume at the world position of each pixel (paper section 3.3.4).
 
 use bytemuck::{Pod, Zeroable};
 use glam::DAffine3;
@@ -22,19 +22,20 @@ use crate::with_voxels;
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
 pub struct SurfaceParameters {
-    /// How far a slab reaches before and behind the cut surface (mm); 0 without one.
+    /// Half the thickness of the slab (mm); 0 without one.
     pub half: f32,
     /// What is shown of it: the code of a [`Reduction`].
     pub mode: u32,
-    /// Parts of a ray of the view per mm, at least: one for each voxel along the axis where it meets most of them.
+    /// Minimum number of parts of a view ray per mm: one for each voxel along the axis where it meets most of
+    /// them.
     pub per_step: f32,
-    /// Fills the structure as the shaders' rules of layout want it.
+    /// Padding for the layout rules of WGSL.
     pub padding: u32,
 }
 
 impl SurfaceParameters {
-    /// The parameters for a slab, or for the cut surface alone, in a view whose rays go from a voxel to the next in
-    /// `voxel` mm.
+    /// The parameters for a slab, or for the cut surface alone, in a view whose rays go from voxel to voxel
+    /// in `voxel` mm.
     pub fn new(slab: Option<Slab>, voxel: f64) -> Self {
         let mode = slab.map_or(Reduction::Mean, |slab| Reduction::of(slab.mode)).code();
         let half = slab.map_or(0.0, |slab| slab.thickness / 2.0) as f32;
@@ -42,21 +43,21 @@ impl SurfaceParameters {
     }
 }
 
-/// What a surface is a picture of.
+/// The input of the stage.
 #[derive(Clone, Copy)]
 pub struct SurfaceScene<'a> {
-    /// Where the pixels look.
+    /// The positions of the pixels.
     pub geometry: &'a Geometry,
     /// The volume.
     pub volume: &'a Volume<'a>,
-    /// What a slab can skip; `None` looks at everything, with the same result.
+    /// Blocks that a slab can skip; `None` reads everything, with the same result.
     pub blocks: Option<&'a Blocks>,
     /// How thick the surface is.
     pub slab: Option<Slab>,
 }
 
-/// Writes the volume's value where each pixel looks, NaN outside the volume; with a slab the largest, mean or smallest
-/// value within it, as far as it lies in the volume.
+/// Writes the volume's value at each pixel's position, NaN outside the volume; with a slab the largest, mean
+/// or smallest value of its part within the volume.
 ///
 /// # Errors
 /// [`crate::error::ErrorKind::Interrupted`].
@@ -67,7 +68,7 @@ pub fn surface(work: &Work, scene: &SurfaceScene, value: &mut [f32]) -> Result<(
     let mut thick = vec![f32::NAN; value.len()];
     thicken(work, scene, slab, value, &mut thick)?;
     value.par_iter_mut().zip(&thick).for_each(|(value, thick)| {
-        // A slab is shown where there is a cut surface.
+        // A slab is shown only where there is a cut surface.
         *value = if value.is_nan() || thick.is_nan() { *value } else { *thick };
     });
     Ok(())
@@ -91,7 +92,7 @@ fn thin(work: &Work, &SurfaceScene { geometry, volume, .. }: &SurfaceScene, valu
     })
 }
 
-/// What the slab shows where the cut surface has a `value`.
+/// The values of the slab where the cut surface has a `value`.
 fn thicken(work: &Work, scene: &SurfaceScene, slab: Slab, value: &[f32], thick: &mut [f32]) -> Result<()> {
     let (half, volume) = (slab.thickness / 2.0, scene.volume);
     let reduction = Reduction::of(slab.mode);
@@ -115,7 +116,7 @@ fn thicken(work: &Work, scene: &SurfaceScene, slab: Slab, value: &[f32], thick: 
     }
 }
 
-/// The slabs of pixels with places of their own.
+/// The slabs of a curved geometry.
 struct CurvedRays<'a> {
     curved: &'a Curved,
     index_from_world: DAffine3,
@@ -144,7 +145,6 @@ impl RaySource for CurvedRays<'_> {
     }
 }
 
-/// Fills the values row by row.
 fn fill(work: &Work, places: &impl Places, value: &mut [f32]) -> Result<()> {
     value.par_chunks_mut(work.size[0]).enumerate().try_for_each(|(row, value)| {
         work.begin(value.len())?;
@@ -153,19 +153,18 @@ fn fill(work: &Work, places: &impl Places, value: &mut [f32]) -> Result<()> {
     })
 }
 
-/// Pixels in a row that are sampled together.
+/// Pixels of a row that are sampled together.
 const RUN: usize = 8 * FAN;
 type Run = [[f32; FAN]; RUN / FAN];
 /// Continuous indices of a run of pixels, axis by axis.
 type Indices = [[[f64; FAN]; 3]; RUN / FAN];
 
-/// Where the pixels of a geometry lie in the volume.
+/// The positions of a geometry's pixels in the volume.
 trait Places: Sync {
-    /// The volume at the places of the run of pixels that begins at (`i`, `j`); those beyond the image mean nothing.
+    /// The volume at the run of pixels that begins at (`i`, `j`); entries beyond the image are arbitrary.
     fn sample(&self, i: usize, j: usize) -> Run;
 }
 
-/// The voxels of a volume and the grid they lie on.
 #[derive(Clone, Copy)]
 struct GridVoxels<'a, T> {
     grid: Grid,
@@ -202,7 +201,6 @@ impl<T: Voxel> Places for OrthographicPlaces<'_, T> {
     }
 }
 
-/// A world point of its own for every pixel.
 struct CurvedPlaces<'a, T> {
     curved: &'a Curved,
     index_from_world: DAffine3,

@@ -1,4 +1,4 @@
-//! Tiles of rays: the sixteen packets that are traced abreast.
+//! Tiles of rays: sixteen packets traced together.
 
 use rayon::prelude::*;
 
@@ -15,10 +15,8 @@ use crate::with_voxels;
 
 /// The size of a tile of rays (pixels).
 const TILE: [usize; 2] = [32, ROWS];
-/// The packets side by side in a tile.
 const ACROSS: usize = TILE[0] / PACKET[0];
 
-/// Traces the rays of a raster.
 pub(super) fn trace_raster(
     work: &Work,
     plan: &Plan,
@@ -32,7 +30,6 @@ pub(super) fn trace_raster(
     })
 }
 
-/// Traces the rays of a raster, tile by tile.
 fn trace_tiles(
     work: &Work,
     plan: &Plan,
@@ -54,7 +51,7 @@ fn trace_tiles(
     })
 }
 
-/// A tile of rays in the rows that it lies in.
+/// A tile of rays in its rows.
 struct Tile<'a> {
     plan: &'a Plan<'a>,
     sampler: &'a dyn Sampler,
@@ -98,7 +95,7 @@ impl Tile<'_> {
         [column, packet / ACROSS * PACKET[1] + lane / PACKET[0]]
     }
 
-    /// Where a ray's pixel is in these rows; `None` beyond the image.
+    /// The index of a ray's pixel in these rows; `None` beyond the image.
     #[inline(always)]
     fn pixel(&self, packet: usize, lane: usize) -> Option<usize> {
         let ([i, j], width) = (self.ray(packet, lane), self.raster.size[0]);

@@ -4,7 +4,7 @@ use crate::math::lanes::{PIXELS, smaller};
 
 /// The two levels that each pixel of a tile blends, and the weights of their depths.
 pub(super) struct LevelBlend {
-    /// k0, as a number that compares exactly.
+    /// k0, as a float that compares exactly.
     fine: [f32; PIXELS],
     fine_weight: [f32; PIXELS],
     /// The weight of k0 + 1; 0 where k0 = N.
@@ -28,7 +28,7 @@ impl LevelBlend {
         blend
     }
 
-    /// Bit k tells whether some pixel needs level k.
+    /// Bit k is set if a pixel needs level k.
     #[inline(always)]
     pub(super) fn needed(&self) -> u32 {
         let (mut bits, mut all) = ([0u32; PIXELS], 0);

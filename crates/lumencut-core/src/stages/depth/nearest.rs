@@ -1,4 +1,4 @@
-//! The paper's way: at each level the piece with the smallest key, whichever vessel it belongs to.
+//! The paper's way: at each level the piece with the smallest key, of any vessel.
 
 use super::blend::LevelBlend;
 use super::{CutSurface, FIRST, Search, Sheet, TileSurface};
@@ -19,7 +19,7 @@ impl CutSurface<'_> {
     ) -> TileSurface {
         let blend = LevelBlend::select(self.selection, self.projected.len() - 1, distance);
         let (mut depth, mut vessel) = ([0.0; PIXELS], [0; PIXELS]);
-        // The slot that rules each pixel, in the level it belongs to: the one with the larger weight.
+        // For each pixel the slot with the larger weight, and its level.
         let (mut slot, mut ruling_level, mut ruling_weight) = ([0; PIXELS], [0; PIXELS], [0.0; PIXELS]);
         let mut sheets = BlendedSheets::new();
         // Finest first: the coarse term is added to the fine one, and a tie stays with the finer level.
@@ -65,7 +65,6 @@ impl BlendedSheets {
         Self { sheet: [[0.0; 4]; PIXELS], finer: [(-1, 0.0); PIXELS] }
     }
 
-    /// Adds what was found at a level, finest first.
     #[inline(always)]
     fn add(&mut self, weight: &[f32; PIXELS], found: &Decision) {
         for l in 0..PIXELS {
@@ -73,7 +72,7 @@ impl BlendedSheets {
                 let [x, y, radius, gap] = &mut self.sheet[l];
                 *x += weight[l] * found.slope[0][l];
                 *y += weight[l] * found.slope[1][l];
-                // Lumen is what every level that is blended shows as lumen.
+                // Lumen is what every blended level shows as lumen.
                 let (is_beside, part) = ((*radius < 0.0) | !found.is_lumen[l], weight[l] * found.radius[l]);
                 *radius = if is_beside { -(radius.abs() + part) } else { *radius + part };
                 let (vessel, s) = self.finer[l];

@@ -1,4 +1,4 @@
-//! One decision: the winner on the finest level decides the vessel; the levels are those of that vessel alone.
+//! One decision: the winner on the finest level decides the vessel; only its levels are blended.
 
 use super::blend::LevelBlend;
 use super::{CutSurface, FIRST, Search, TileSurface};
@@ -9,7 +9,6 @@ use crate::math::pieces::Envelope;
 use crate::math::tile::Tile;
 
 impl CutSurface<'_> {
-    /// The surface over one tile.
     #[inline(always)]
     pub(super) fn own<const LUMEN_FIRST: bool, const SHEET: bool>(
         &self,
@@ -51,14 +50,14 @@ impl CutSurface<'_> {
 struct Sum {
     depth: [f32; PIXELS],
     slope: [[f32; PIXELS]; 2],
-    /// Where along the vessel the finer and the coarser level lie, from the winner on (mm).
+    /// Arc length of the finer and the coarser level relative to the winner (mm).
     finer: [f32; PIXELS],
     coarser: [f32; PIXELS],
     has_any: [bool; PIXELS],
 }
 
 impl Sum {
-    /// The finest level by its weights, which is that of the winners themselves.
+    /// The finest level, which is that of the winners, by its weights.
     #[inline(always)]
     fn of_winners(blend: &LevelBlend, winners: &Envelope, decision: &Decision) -> Self {
         let zero = [0.0; PIXELS];
