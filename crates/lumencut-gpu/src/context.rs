@@ -22,7 +22,6 @@ use crate::volume::DeviceVolume;
 
 const ROOM: &str = "stages/context";
 
-/// What the shader is compiled for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Permutation {
     is_float: bool,
@@ -50,38 +49,30 @@ impl Permutation {
     }
 }
 
-/// The stage, for all that it was asked for so far, and its parameters.
 #[derive(Debug)]
 pub(crate) struct ContextStage {
-    /// Where rays start: where all of the surface is shown, and around a focus in front of the volume or at the surface.
+    /// Where rays start: without a focus, and with one in front of the volume or at the surface.
     starts: [OnceLock<Stage>; 3],
     stages: Vec<(Permutation, Stage)>,
     parameters: Buffer,
-    /// The parameters as the shader was last told.
+    /// The parameters last written.
     told: Vec<u8>,
 }
 
-/// The images of the context.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ContextImages<'a> {
-    /// Width and height.
     pub size: [usize; 2],
-    /// Whether there is a cut surface; without one every ray crosses the whole volume.
+    /// Without one every ray crosses the whole volume.
     pub has_surface: bool,
-    /// How much of it is shown, where not all of it is.
     pub focus: Option<&'a Buffer>,
-    /// The depth of the cut surface (mm).
     pub depth: &'a Buffer,
-    /// The volume there.
     pub value: &'a Buffer,
-    /// Written on the way: where the rays start.
     pub start: &'a Buffer,
-    /// The result: colours times opacity, and opacity.
+    /// The result, premultiplied.
     pub gathered: &'a Buffer,
 }
 
 impl ContextStage {
-    /// No rays compiled yet.
     pub(crate) fn new(device: &Device) -> Self {
         Self {
             starts: Default::default(),
@@ -91,10 +82,7 @@ impl ContextStage {
         }
     }
 
-    /// Tells the shaders of the context of a volume in a view, where they were last told otherwise.
-    ///
-    /// # Errors
-    /// As the stage of the CPU.
+    /// Writes the parameters of the context, if they changed.
     pub(crate) fn write(
         &mut self,
         device: &Device,
@@ -116,7 +104,6 @@ impl ContextStage {
         Ok(())
     }
 
-    /// The stage that finds where rays start.
     fn starts_stage(&self, device: &Device, has_focus: bool, from: ContextFrom) -> &Stage {
         let from_cut = from == ContextFrom::Cut;
         let place = if has_focus { 1 + usize::from(from_cut) } else { 0 };
@@ -127,7 +114,7 @@ impl ContextStage {
         })
     }
 
-    /// Writes where the rays start, and what they gather. `on_device` is placed in the view by `grid`.
+    /// Writes where the rays start, and what they gather. `grid` places `on_device` in the view.
     pub(crate) fn record(
         &mut self,
         recording: &mut Recording,
@@ -139,7 +126,7 @@ impl ContextStage {
         let ContextImages { size, has_surface, depth, value, start, gathered, .. } = images;
         let device = recording.device;
         if has_surface {
-            // Where all of it is shown, the binding of the focus is not read.
+            // Without a focus its binding is not read.
             let focus = images.focus.unwrap_or(value);
             let buffers = [view, &self.parameters, value, depth, start, focus].map(Buffer::as_entire_binding);
             let stage = self.starts_stage(device, images.focus.is_some(), context.from);

@@ -6,7 +6,7 @@ use wgpu::Buffer;
 
 use crate::device::Device;
 
-/// The images of a view by the names that the table of stages gives them.
+/// The images by their names in the table of stages.
 #[derive(Debug)]
 pub(crate) struct Images {
     pub size: [usize; 2],
@@ -18,7 +18,7 @@ pub(crate) struct Images {
     pub leap: Buffer,
     pub focus: Buffer,
     pub value: Buffer,
-    /// The slope that silhouettes are made of; before it, the depth filtered within zones along columns alone.
+    /// The slope behind silhouettes; before that, the depth filtered within zones along columns only.
     pub raised: Buffer,
     pub strength: Buffer,
     pub start: Buffer,
@@ -27,14 +27,10 @@ pub(crate) struct Images {
     pub picture: Buffer,
 }
 
-/// The bytes of a pixel in the largest image.
 const MOST_BYTES: usize = size_of::<[f32; 4]>();
 
 impl Images {
     /// Images for views of this size.
-    ///
-    /// # Errors
-    /// [`lumencut_core::error::ErrorKind::Device`] for more pixels than the GPU's buffers hold.
     pub(crate) fn new(device: &Device, size: [usize; 2]) -> Result<Self> {
         let pixels = size[0] * size[1];
         let most = device.limits.max_storage_buffer_binding_size as usize / MOST_BYTES;
@@ -62,7 +58,7 @@ impl Images {
         })
     }
 
-    /// The buffer of an image. Where nothing filters the depth, it is the depth as it is found.
+    /// The buffer of an image. Without a filter the depth is the unfiltered depth.
     pub(crate) fn buffer(&self, image: Image, has_filter: bool) -> &Buffer {
         match image {
             Image::Distance => &self.distance,
@@ -81,7 +77,6 @@ impl Images {
         }
     }
 
-    /// The number of pixels.
     pub(crate) fn pixels(&self) -> usize {
         self.size[0] * self.size[1]
     }

@@ -11,7 +11,6 @@ use crate::recording::Recording;
 use crate::stage::Stage;
 use crate::view::groups;
 
-/// Neighbours between which the cut surface leaps.
 #[derive(Debug)]
 pub(crate) struct Leap {
     stage: Stage,
@@ -24,12 +23,11 @@ impl Leap {
         Self { stage: Stage::new(device, "stages/leap", &[]), parameters }
     }
 
-    /// Tells the shader of a view.
     pub(crate) fn write(&self, device: &Device, camera: &Camera) {
         device.write(&self.parameters, &[LeapParameters::new(camera)]);
     }
 
-    /// Writes the leaps of a depth before its filter.
+    /// Writes the leaps of an unfiltered depth.
     pub(crate) fn record(&self, recording: &mut Recording, view: &Buffer, images: &Images, depth: &Buffer) {
         let buffers = [view, &self.parameters, depth, &images.sheet, &images.leap];
         let buffers = buffers.map(Buffer::as_entire_binding);

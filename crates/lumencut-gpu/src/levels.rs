@@ -21,11 +21,10 @@ use crate::view::{AXIS_UNIT, power_above, split_at};
 pub(crate) struct Point {
     /// From the tree's origin (mm): multiples of the tree's unit.
     pub coarse: [f32; 3],
-    /// Radius (mm).
     pub radius: f32,
     /// The rest.
     pub fine: [f32; 3],
-    /// Its place among the slots of all bundles.
+    /// Its index among the slots of all bundles.
     pub place: u32,
 }
 
@@ -33,9 +32,7 @@ pub(crate) struct Point {
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
 pub(crate) struct Along {
-    /// The next point of the vessel; the last point is its own.
     pub next: u32,
-    /// The arc length of the point (mm).
     pub arc_length: f32,
 }
 
@@ -43,18 +40,15 @@ pub(crate) struct Along {
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
 pub(crate) struct Span {
-    /// The first slot.
     pub first: u32,
-    /// The slot after the last.
     pub end: u32,
-    /// The first slot of its level.
     pub level: u32,
-    /// The first slot whose lumen and wall come before those of all other vessels, and the slot after the last.
+    /// The slots whose lumen and wall take precedence: the first, and the one after the last.
     pub first_chosen: u32,
     pub end_chosen: u32,
 }
 
-/// `Projected` of `math/levels.wgsl`: a point in projection, written and read on the GPU alone.
+/// `Projected` of `math/levels.wgsl`, written and read on the GPU only.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
 #[allow(missing_docs)]
@@ -89,7 +83,6 @@ pub(crate) struct Slot {
 }
 
 impl Slot {
-    /// A place without a slot.
     const EMPTY: Self = Self {
         start: [FAR; 2],
         next: [FAR; 2],
@@ -120,23 +113,21 @@ pub(crate) struct NodeBox {
 }
 
 impl NodeBox {
-    /// A node with nothing inside.
     const EMPTY: Self =
         Self { low: [FAR; 2], high: [FAR; 2], z: ABSENT, radius: 0.0, tiers: 0.0, padding: 0.0 };
 }
 
-/// A tree's levels on the GPU.
 #[derive(Debug)]
 pub(crate) struct DeviceLevels {
-    /// The spans and the points of each level and those before it.
+    /// Number of spans and of points, cumulated over levels.
     spans_up_to: Vec<u32>,
     points_up_to: Vec<u32>,
     places: [LevelPlace; MAX_LEVELS + 1],
-    /// What points are counted from (mm, LPS), and the largest distance of a point from it.
+    /// The origin of points (mm, LPS), and the largest distance of a point from it.
     origin: DVec3,
     reach: f64,
     unit: f64,
-    /// The vessels that come before all others, as the GPU was last told, and all spans.
+    /// The vessels with precedence last written, and all spans.
     first: Vec<usize>,
     all_spans: Vec<Span>,
     pub spans: Buffer,
@@ -150,9 +141,6 @@ pub(crate) struct DeviceLevels {
 
 impl DeviceLevels {
     /// Uploads `levels`, finest first.
-    ///
-    /// # Errors
-    /// [`lumencut_core::error::ErrorKind::Device`] for more points than the GPU's buffers hold.
     pub(crate) fn new(device: &Device, levels: &[Level]) -> Result<Self> {
         let origin = middle(&levels[0].points);
         let points = levels.iter().flat_map(|level| &level.points);
@@ -189,8 +177,8 @@ impl DeviceLevels {
         })
     }
 
-    /// Puts lumen and wall of these vessels before those of all others, in all views from now on, from where they leave the others'
-    /// lumens; `levels` are those of the tree.
+    /// Puts lumen and wall of these vessels before those of all others in all later views, from where they
+    /// leave the others' lumens; `levels` are those of the tree.
     pub(crate) fn put_first(&mut self, device: &Device, levels: &[Level], vessels: &[usize]) {
         if self.first == vessels {
             return;
@@ -208,12 +196,10 @@ impl DeviceLevels {
         self.spans_up_to[coarsest]
     }
 
-    /// The points of the first levels.
     pub(crate) fn point_count(&self, coarsest: usize) -> u32 {
         self.points_up_to[coarsest]
     }
 
-    /// The parameters of the stages in a view of the tree.
     pub(crate) fn parameters(&self, camera: &Camera, settings: &Settings) -> CutSurfaceParameters {
         let origin = camera.view_from_world(self.origin).to_array();
         let away = origin.iter().fold(0.0, |most: f64, c| most.max(c.abs()));
@@ -229,13 +215,11 @@ impl DeviceLevels {
     }
 }
 
-/// The middle of the box around some points.
 fn middle(points: &[DVec3]) -> DVec3 {
     let ends = points.iter().fold((DVec3::MAX, DVec3::MIN), |(low, high), p| (low.min(*p), high.max(*p)));
     (ends.0 + ends.1) * 0.5
 }
 
-/// What is uploaded, level after level.
 #[derive(Default)]
 struct Arrays {
     spans_up_to: Vec<u32>,

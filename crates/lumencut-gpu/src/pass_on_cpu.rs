@@ -13,7 +13,7 @@ use crate::pass::{Pass, with_holes};
 use crate::recording::Results;
 
 impl Pass<'_> {
-    /// Does a stage on the CPU: reads its images from the GPU and writes what it makes back.
+    /// Reads the images of a stage from the GPU, runs it on the CPU and sends its results back.
     pub(crate) async fn run_on_cpu(&mut self, stage: Stage) -> Result<()> {
         let read: Vec<_> = stage.reads().iter().copied().filter(|image| self.made.has(*image)).collect();
         let results = self.finish(&read).await?;
@@ -68,7 +68,6 @@ impl Pass<'_> {
         Ok(())
     }
 
-    /// Sends an image, where the CPU has made it.
     fn send(&mut self, image: Image, images: &Images) {
         let bytes: &[u8] = match image {
             Image::Distance => bytemuck::cast_slice(&images.distance),
@@ -92,7 +91,7 @@ impl Pass<'_> {
     }
 }
 
-/// Takes an image that was read as the `n`th.
+/// Takes the `n`th image that was read.
 fn put(images: &mut Images, image: Image, results: &Results, n: usize) {
     match image {
         Image::Distance => images.distance = results.numbers(n),
@@ -111,7 +110,7 @@ fn put(images: &mut Images, image: Image, results: &Results, n: usize) {
     }
 }
 
-/// Values with HUGE for NaN, as shaders have them.
+/// Replaces NaN by HUGE, as shaders have it.
 fn without_holes(values: &[f32]) -> Vec<u8> {
     let huge = values.iter().map(|value| if value.is_nan() { HUGE } else { *value });
     huge.flat_map(f32::to_ne_bytes).collect()

@@ -1,11 +1,11 @@
-//! A stage of the pipeline on the GPU: its shader, compiled.
+//! A stage of the pipeline on the GPU: its compiled shader.
 
 use wgpu::{BindGroup, BindGroupEntry, BindingResource, ComputePipeline};
 
 use crate::device::Device;
 use crate::shader::assemble;
 
-/// A room's entry point, ready to run. It carries the room's name, as do its label and its timings.
+/// A module's entry point, ready to run, under the module's name in labels and timings.
 #[derive(Debug)]
 pub(crate) struct Stage {
     pub name: &'static str,
@@ -20,7 +20,7 @@ impl Stage {
         Self::entry(device, room, name_of(room), constants)
     }
 
-    /// Another entry point of `room`; it counts as a part of the room's stage.
+    /// Another entry point of `room`; it counts as a part of the module's stage.
     pub(crate) fn entry(device: &Device, room: &'static str, entry: &str, constants: &[(&str, f64)]) -> Self {
         let name = name_of(room);
         let source = wgpu::ShaderSource::Wgsl(assemble(room).into());
@@ -44,7 +44,6 @@ impl Stage {
         self
     }
 
-    /// Binds `resources` to the bindings of the shader, in their order.
     pub(crate) fn bind(&self, device: &Device, resources: &[BindingResource]) -> BindGroup {
         let entries: Vec<_> = (self.first_binding..)
             .zip(resources)
@@ -58,7 +57,6 @@ impl Stage {
     }
 }
 
-/// The last part of a room's path.
 fn name_of(room: &str) -> &str {
     room.rsplit('/').next().unwrap_or(room)
 }

@@ -1,5 +1,5 @@
-//! Structures lie in memory as shaders read them: every field of every host structure has the name, the offset and the
-//! size of the field in WGSL.
+//! Structures lie in memory as shaders read them: every field of every host structure has the name, the
+//! offset and the size of the field in WGSL.
 
 use std::collections::BTreeSet;
 
@@ -21,17 +21,15 @@ use crate::surface::CurvedPlace;
 use crate::view::{Axis, ViewParameters};
 use crate::volume::GridParameters;
 
-/// A field: its name, offset and size.
 type Field = (String, u32, u32);
 
-/// A structure: its fields and its size in all.
 #[derive(Clone, Debug, PartialEq)]
 struct Layout {
     fields: Vec<Field>,
     span: u32,
 }
 
-/// The room, the name and the layout of a structure; every field has to be listed.
+/// Module, name and layout of a structure; every field has to be listed.
 macro_rules! host {
     ($room:literal, $name:ident { $($field:ident),+ $(,)? }) => {{
         let $name { $($field),+ } = $name::zeroed();
@@ -44,7 +42,6 @@ macro_rules! host {
     }};
 }
 
-/// Every structure that Rust writes for shaders.
 fn hosts() -> Vec<(&'static str, &'static str, Layout)> {
     vec![
         host!("math/hierarchy", NodeBox { low, high, z, radius, tiers, padding }),
@@ -152,7 +149,6 @@ fn hosts() -> Vec<(&'static str, &'static str, Layout)> {
     ]
 }
 
-/// The layout of the structure `name` in WGSL, where there is one.
 fn shader_layout(text: &str, name: &str) -> Option<Layout> {
     let module = naga::front::wgsl::parse_str(text).unwrap_or_else(|e| panic!("{}", e.emit_to_string(text)));
     module.types.iter().find_map(|(_, ty)| match &ty.inner {
@@ -165,7 +161,7 @@ fn shader_layout(text: &str, name: &str) -> Option<Layout> {
     })
 }
 
-/// The names of the structures that lie in buffers, elements of arrays and fields included.
+/// The names of the structures that lie in buffers, including elements of arrays and fields.
 fn in_buffers(module: &Module) -> BTreeSet<String> {
     fn collect(module: &Module, ty: Handle<Type>, names: &mut BTreeSet<String>) {
         match &module.types[ty].inner {

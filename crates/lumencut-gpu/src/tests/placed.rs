@@ -1,4 +1,4 @@
-//! Volumes on the GPU in a view, which several tests share.
+//! Volumes on the GPU in a view, for several tests.
 #![allow(clippy::unwrap_used)]
 
 use lumencut_core::camera::Camera;
@@ -12,7 +12,6 @@ use crate::device::Device;
 use crate::recording::Recording;
 use crate::volume::{DeviceVolume, GridParameters};
 
-/// A volume in a view on the GPU.
 pub(super) struct Placed<'a> {
     pub device: &'a Device,
     pub camera: &'a Camera,
@@ -34,20 +33,17 @@ impl<'a> Placed<'a> {
         self.camera.size()[0] * self.camera.size()[1]
     }
 
-    /// An image of these numbers.
     pub(super) fn image(&self, numbers: &[f32]) -> Buffer {
         let image = self.device.image("image", numbers.len(), 4);
         self.device.write(&image, numbers);
         image
     }
 
-    /// The blocks of the volume.
     pub(super) fn blocks(&self) -> DeviceBlocks {
         DeviceBlocks::new(self.device, &Blocks::new(self.volume, &|| false).unwrap()).unwrap()
     }
 }
 
-/// Runs a recording and gives an image of it.
 pub(super) fn finish<T: bytemuck::Pod + Send + Sync>(mut recording: Recording, image: &Buffer) -> Vec<T> {
     recording.read(image, image.size());
     super::finish(recording).numbers(0)
