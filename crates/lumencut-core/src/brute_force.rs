@@ -15,9 +15,6 @@ use crate::stages::depth::{CutSurface, DepthImages, Search, depth_by};
 use crate::stages::distance::{Measure, distance_by};
 
 /// [`crate::stages::distance::distance`] against every segment.
-///
-/// # Errors
-/// [`crate::error::ErrorKind::Interrupted`].
 pub fn distance(work: &Work, surface: &CutSurface, distance: &mut [f32]) -> Result<()> {
     distance_by(work, surface, distance, || EverySegment(surface.finest()))
 }
@@ -66,9 +63,6 @@ impl Search for EveryPiece<'_> {
 }
 
 /// [`crate::stages::depth::depth`] against every piece.
-///
-/// # Errors
-/// [`crate::error::ErrorKind::Interrupted`].
 pub fn depth(work: &Work, surface: &CutSurface, distance: &[f32], images: DepthImages) -> Result<()> {
     depth_by(work, surface, distance, images, || EveryPiece(surface))
 }

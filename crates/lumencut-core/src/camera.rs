@@ -27,11 +27,9 @@ pub struct Camera {
 
 impl Camera {
     /// A camera that looks along `direction` with `up` upwards, `size` = (width, height) pixels of
-    /// `pixel_spacing` mm. `up` need not be perpendicular to `direction`.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Camera`] for vectors that are not finite, zero or parallel, an empty or oversized image,
-    /// or a pixel spacing that is not positive and finite.
+    /// `pixel_spacing` mm. `up` need not be perpendicular to `direction`. Fails with [`ErrorKind::Camera`]
+    /// for vectors that are not finite, zero or parallel, an empty or oversized image, or a pixel spacing
+    /// that is not positive and finite.
     pub fn new(
         center: DVec3,
         direction: DVec3,
@@ -83,9 +81,7 @@ impl Camera {
     }
 
     /// The same view with stored unit vectors, kept to the bit: normalising them again could change them.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Camera`] for vectors that differ from the camera's own by more than rounding.
+    /// Fails with [`ErrorKind::Camera`] for vectors that differ from the camera's own by more than rounding.
     pub fn with_axes(self, direction: DVec3, right: DVec3, up: DVec3) -> Result<Self> {
         let kept = Self { direction, right, up, ..self };
         let pairs = [(direction, self.direction), (right, self.right), (up, self.up)];

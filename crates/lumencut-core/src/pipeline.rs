@@ -55,11 +55,8 @@ impl<'a> Request<'a> {
         Self { camera, settings, images: ImageSet::ALL, stop: &|| false, progress: None }
     }
 
-    /// The settings adapted to the vessels of the scene, checked.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Settings`] for a setting outside its range, or a focus or chosen vessel that the scene
-    /// lacks.
+    /// The settings adapted to the vessels of the scene, checked. Fails with [`ErrorKind::Settings`] for a
+    /// setting outside its range, or a focus or chosen vessel that the scene lacks.
     pub fn settings_for(&self, scene: &Scene) -> Result<Cow<'a, Settings>> {
         self.settings.check()?;
         if let Some(tree) = &scene.tree {
@@ -130,11 +127,8 @@ impl CpuRenderer {
     }
 
     /// Renders one view of a scene: without a volume the cut surface alone, without a tree the context alone.
-    /// `Settings::samples` does not apply here: hosts average several pictures.
-    ///
-    /// # Errors
-    /// Those of [`Request::settings_for`], [`ErrorKind::Volume`] for a scene without volume and tree,
-    /// [`ErrorKind::Interrupted`] once the caller asks to stop.
+    /// `Settings::samples` does not apply here: hosts average several pictures. Fails with those of
+    /// [`Request::settings_for`], [`ErrorKind::Volume`] for a scene without volume and tree.
     pub fn render(&mut self, scene: &Scene, request: &Request) -> Result<Frame> {
         let settings = request.settings_for(scene)?;
         let request = &Request { settings: &settings, ..*request };
@@ -150,10 +144,8 @@ impl CpuRenderer {
         }
     }
 
-    /// The details of the cut surface of one view; ignores the images of the request.
-    ///
-    /// # Errors
-    /// As [`CpuRenderer::render`].
+    /// The details of the cut surface of one view; ignores the images of the request. Fails as
+    /// [`CpuRenderer::render`].
     pub fn details(&mut self, tree: &LeveledTree, request: &Request) -> Result<SurfaceDetails> {
         request.settings.check()?;
         let settings = &*request.settings.for_vessels(tree.tree().vessels().len())?;
@@ -164,9 +156,6 @@ impl CpuRenderer {
 
     /// The strength of the silhouettes of a reformation's frame, 0 to 1, as if all of it were shown. The
     /// frame needs [`crate::stages::Image::Leap`].
-    ///
-    /// # Errors
-    /// [`ErrorKind::Interrupted`] once the caller asks to stop.
     pub fn strength(&self, frame: &Frame, request: &Request) -> Result<Vec<f32>> {
         let &Request { camera, settings, stop, .. } = request;
         let work = Work { size: frame.size(), isa: self.isa, stop, progress: None };
@@ -191,10 +180,7 @@ impl CpuRenderer {
     }
 
     /// Shows the volume at the positions of a frame of any method: values, silhouettes, context, picture. Of
-    /// the request only settings, images and stop apply.
-    ///
-    /// # Errors
-    /// As [`CpuRenderer::render`].
+    /// the request only settings, images and stop apply. Fails as [`CpuRenderer::render`].
     pub fn look(&self, volume: &SharedVolume, frame: Frame, request: &Request) -> Result<Frame> {
         request.settings.check()?;
         self.show(volume, frame, request)
@@ -255,11 +241,7 @@ impl CpuRenderer {
 }
 
 /// The picture of values in the window and opacity of `settings`, over their background; transparent where
-/// the value is NaN.
-///
-/// # Errors
-/// [`ErrorKind::Settings`] for a setting outside its range, [`ErrorKind::Interrupted`] once the caller asks
-/// to stop.
+/// the value is NaN. Fails with [`ErrorKind::Settings`] for a setting outside its range.
 pub fn picture(value: &[f32], size: [usize; 2], (settings, stop): (&Settings, Stop)) -> Result<Vec<[u8; 4]>> {
     settings.check()?;
     let work = Work { size, isa: Isa::widest(), stop, progress: None };

@@ -83,9 +83,6 @@ impl<'a> SharedVolume<'a> {
     }
 
     /// The smallest and largest values of the volume's blocks, computed at the first call.
-    ///
-    /// # Errors
-    /// [`crate::error::ErrorKind::Interrupted`] once `stop` says so.
     pub fn blocks(&self, stop: Stop) -> Result<&Blocks> {
         if let Some(blocks) = self.key.blocks.get() {
             return Ok(blocks);

@@ -12,17 +12,11 @@ pub const NEVER: Stop<'static> = &|| false;
 const PART: usize = 1 << 20;
 
 /// Fails once the caller asks to stop.
-///
-/// # Errors
-/// [`crate::error::ErrorKind::Interrupted`].
 pub fn go_on(stop: Stop) -> Result<()> {
     if stop() { Err(Error::interrupted()) } else { Ok(()) }
 }
 
 /// Resizes a list; the first touch of the memory of a large image takes seconds.
-///
-/// # Errors
-/// [`crate::error::ErrorKind::Interrupted`].
 pub fn resize<T: Clone>(list: &mut Vec<T>, count: usize, value: T, stop: Stop) -> Result<()> {
     list.truncate(count);
     list.reserve_exact(count - list.len());
@@ -34,9 +28,6 @@ pub fn resize<T: Clone>(list: &mut Vec<T>, count: usize, value: T, stop: Stop) -
 }
 
 /// A list of `count` entries of one value, as by [`resize`].
-///
-/// # Errors
-/// [`crate::error::ErrorKind::Interrupted`].
 pub fn filled<T: Clone>(count: usize, value: T, stop: Stop) -> Result<Vec<T>> {
     let mut list = Vec::new();
     resize(&mut list, count, value, stop)?;

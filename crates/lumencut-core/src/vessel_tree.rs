@@ -17,9 +17,7 @@ pub struct Vessel {
 }
 
 impl Vessel {
-    /// A vessel from at least two finite points and, if given, one finite radius ≥ 0 per point.
-    ///
-    /// # Errors
+    /// A vessel from at least two finite points and, if given, one finite radius ≥ 0 per point. Fails with
     /// [`ErrorKind::VesselTree`] for another count or value.
     pub fn new(points: Vec<DVec3>, radius: Option<Vec<f64>>) -> Result<Self> {
         let wrong = |subject: &str, found: String, expected: &str| {
@@ -87,10 +85,8 @@ pub struct VesselTree {
 }
 
 impl VesselTree {
-    /// A tree of at least one vessel.
-    ///
-    /// # Errors
-    /// [`ErrorKind::VesselTree`] for a tree without vessels, or one with more points than 2³⁰.
+    /// A tree of at least one vessel. Fails with [`ErrorKind::VesselTree`] for a tree without vessels, or one
+    /// with more points than 2³⁰.
     pub fn new(vessels: Vec<Vessel>) -> Result<Self> {
         let points: usize = vessels.iter().map(|v| v.points.len()).sum();
         if vessels.is_empty() || points > 1 << 30 {

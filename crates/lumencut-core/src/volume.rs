@@ -206,11 +206,8 @@ pub struct Volume<'a> {
 impl<'a> Volume<'a> {
     /// A volume over `voxels` with `size` voxels along (i, j, k); the voxel at (i, j, k) is element
     /// `i·strides[0] + j·strides[1] + k·strides[2]`. `world_from_index` may be oblique, left-handed or
-    /// sheared.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Volume`] for an empty grid, strides that leave the slice, or an affine that is not finite
-    /// and invertible.
+    /// sheared. Fails with [`ErrorKind::Volume`] for an empty grid, strides that leave the slice, or an
+    /// affine that is not finite and invertible.
     pub fn new(
         voxels: Voxels<'a>,
         size: [usize; 3],

@@ -34,10 +34,7 @@ struct Trouble {
 }
 
 impl Device {
-    /// Opens a GPU.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Device`] if there is none, or its limits are too small.
+    /// Opens a GPU. Fails with [`ErrorKind::Device`] if there is none, or its limits are too small.
     pub async fn open(choice: Choice) -> Result<Self> {
         Self::on(&choose(choice).await?).await
     }
@@ -64,9 +61,7 @@ impl Device {
         &self.description
     }
 
-    /// Fails if an error occurred since the last call, or if the device is lost.
-    ///
-    /// # Errors
+    /// Fails if an error occurred since the last call, or if the device is lost:
     /// [`ErrorKind::Device`] with the driver's words.
     pub fn check(&self) -> Result<()> {
         let mut trouble = self.trouble.lock().unwrap_or_else(PoisonError::into_inner);

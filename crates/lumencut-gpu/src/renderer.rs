@@ -72,9 +72,7 @@ impl GpuRenderer {
         self.volume.as_ref().map(|volume| volume.on_device.voxels.clone())
     }
 
-    /// Computes some stages on the CPU from now on, each from the GPU's earlier results.
-    ///
-    /// # Errors
+    /// Computes some stages on the CPU from now on, each from the GPU's earlier results. Fails with
     /// [`lumencut_core::error::ErrorKind::Settings`] for a name that is not in [`crate::stages::on_either`].
     #[cfg(not(target_arch = "wasm32"))]
     pub fn force_to_cpu(&mut self, names: &[String]) -> Result<()> {
@@ -82,10 +80,8 @@ impl GpuRenderer {
         Ok(())
     }
 
-    /// Renders one view of a scene, as [`lumencut_core::pipeline::CpuRenderer::render`] does.
-    ///
-    /// # Errors
-    /// As there, and [`lumencut_core::error::ErrorKind::Device`] if the GPU has no room or fails.
+    /// Renders one view of a scene, as [`lumencut_core::pipeline::CpuRenderer::render`] does. Fails as there,
+    /// and [`lumencut_core::error::ErrorKind::Device`] if the GPU has no room or fails.
     pub async fn render(&mut self, scene: &Scene<'_>, request: &Request<'_>) -> Result<Frame> {
         let settings = request.settings_for(scene)?;
         let request = &Request { settings: &settings, ..*request };
@@ -96,10 +92,8 @@ impl GpuRenderer {
         self.recorded(scene, request).await?.frame().await
     }
 
-    /// Draws the picture on a canvas without reading it back; returns once the GPU has drawn it.
-    ///
-    /// # Errors
-    /// As [`GpuRenderer::render`].
+    /// Draws the picture on a canvas without reading it back; returns once the GPU has drawn it. Fails as
+    /// [`GpuRenderer::render`].
     #[cfg(target_arch = "wasm32")]
     pub async fn draw(
         &mut self,
@@ -116,10 +110,7 @@ impl GpuRenderer {
         self.recorded(scene, request).await?.draw(screen).await
     }
 
-    /// Draws a picture that was made elsewhere on a canvas.
-    ///
-    /// # Errors
-    /// As [`GpuRenderer::draw`].
+    /// Draws a picture that was made elsewhere on a canvas. Fails as [`GpuRenderer::draw`].
     #[cfg(target_arch = "wasm32")]
     pub async fn show(&self, picture: &[[u8; 4]], size: [usize; 2], screen: &mut Screen) -> Result<()> {
         screen.fit(&self.device, size)?;
@@ -139,9 +130,7 @@ impl GpuRenderer {
     }
 
     /// Shows the volume at the positions of a frame, as [`lumencut_core::pipeline::CpuRenderer::look`] does.
-    ///
-    /// # Errors
-    /// As [`GpuRenderer::render`].
+    /// Fails as [`GpuRenderer::render`].
     pub async fn look(
         &mut self,
         volume: &SharedVolume<'_>,

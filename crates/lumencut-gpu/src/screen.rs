@@ -31,10 +31,8 @@ struct Drawing {
 }
 
 impl Screen {
-    /// A canvas that nothing else draws on.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Device`] if the browser lets no GPU draw on it.
+    /// A canvas that nothing else draws on. Fails with [`ErrorKind::Device`] if the browser lets no GPU draw
+    /// on it.
     pub fn new(canvas: OffscreenCanvas) -> Result<Self> {
         let instance = Instance::new(InstanceDescriptor::new_without_display_handle());
         let surface = instance

@@ -77,9 +77,6 @@ struct Level {
 
 impl Blocks {
     /// Reads the volume once.
-    ///
-    /// # Errors
-    /// [`crate::error::ErrorKind::Interrupted`] once `stop` says so.
     pub fn new(volume: &Volume, stop: Stop) -> Result<Self> {
         let size = volume.size().map(|n| (n.max(2) - 1).div_ceil(SIDE));
         let mut ranges = vec![NOTHING; size.iter().product()];

@@ -21,11 +21,8 @@ pub struct CenterlinePath {
 
 impl CenterlinePath {
     /// The centerline of a vessel, smoothed along its arc length by a Gaussian with a standard deviation of
-    /// `smoothing` mm (0: unchanged). Both ends stay fixed.
-    ///
-    /// # Errors
-    /// [`ErrorKind::VesselTree`] for a vessel without length, [`ErrorKind::Settings`] for a smoothing outside
-    /// 0 to 1000 mm.
+    /// `smoothing` mm (0: unchanged). Both ends stay fixed. Fails with [`ErrorKind::VesselTree`] for a vessel
+    /// without length, [`ErrorKind::Settings`] for a smoothing outside 0 to 1000 mm.
     pub fn new(vessel: &Vessel, smoothing: f64) -> Result<Self> {
         SMOOTHING.check("smoothing of the centerline", smoothing)?;
         let smoothed = if smoothing > 0.0 { smoothed(vessel, smoothing)? } else { vessel.clone() };

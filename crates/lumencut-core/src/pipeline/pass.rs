@@ -34,9 +34,6 @@ pub(crate) struct CutSurfacePass<'a> {
 
 impl CutSurfacePass<'_> {
     /// Runs a stage that finds the cut surface; other stages do nothing here.
-    ///
-    /// # Errors
-    /// [`crate::error::ErrorKind::Interrupted`].
     pub(crate) fn run(&self, stage: Stage, images: &mut Images) -> Result<()> {
         let (work, pixels) = (&self.work, self.work.pixels());
         match stage {
@@ -113,11 +110,8 @@ pub struct LookPass<'a> {
 }
 
 impl LookPass<'_> {
-    /// Runs a stage that shows the volume; other stages do nothing here.
-    ///
-    /// # Errors
-    /// [`crate::error::ErrorKind::Settings`] for a slab or a step that does not fit the volume,
-    /// [`crate::error::ErrorKind::Interrupted`].
+    /// Runs a stage that shows the volume; other stages do nothing here. Fails with
+    /// [`crate::error::ErrorKind::Settings`] for a slab or a step that does not fit the volume.
     pub fn run(&self, stage: Stage, images: &mut Images) -> Result<()> {
         match stage {
             Stage::Surface => self.surface(images),

@@ -72,11 +72,8 @@ pub struct Cpr {
 impl Cpr {
     /// The layout of a vessel in pixels with a side of `pixel_spacing` mm and an odd number of columns. The
     /// outermost columns lie at most `width` mm apart; by default the image shows the vessel and 25 mm on
-    /// each side of it.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Camera`] for an invalid view, width or spacing, for too many pixels, and if the whole
-    /// vessel lies in one row.
+    /// each side of it. Fails with [`ErrorKind::Camera`] for an invalid view, width or spacing, for too many
+    /// pixels, and if the whole vessel lies in one row.
     pub fn new(
         path: CenterlinePath,
         mode: CprMode,
@@ -114,9 +111,7 @@ impl Cpr {
     }
 
     /// The same vessel seen from another angle (radians). The frames of a straightened vessel are reused.
-    ///
-    /// # Errors
-    /// As [`Cpr::new`].
+    /// Fails as [`Cpr::new`].
     pub fn rotated(&self, angle: f64) -> Result<Self> {
         let view = View { angle, ..self.view };
         view.checked_angle()?;
@@ -124,9 +119,7 @@ impl Cpr {
         Self::laid_out(self.mode, view, Arc::clone(&self.path), straightened, self.width, self.pixel_spacing)
     }
 
-    /// The same straightened vessel with one angle per row; angle 0 is that of [`View`].
-    ///
-    /// # Errors
+    /// The same straightened vessel with one angle per row; angle 0 is that of [`View`]. Fails with
     /// [`ErrorKind::Camera`] for a CPR of another mode.
     pub fn rolled(&self, roll: Roll) -> Result<Self> {
         let Some(straightened) = self.straightened.as_ref().map(|known| known.rolled(roll)) else {

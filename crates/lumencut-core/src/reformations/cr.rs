@@ -26,12 +26,9 @@ use crate::pipeline::Request;
 use crate::scene::LeveledTree;
 
 /// The position of every pixel of a view by CR. The settings `centerline_smoothing`, `unknown_radius` and the
-/// silhouettes apply; there are neither levels of detail nor a depth filter.
-///
-/// # Errors
+/// silhouettes apply; there are neither levels of detail nor a depth filter. Fails with
 /// [`crate::error::ErrorKind::Settings`] for a setting or threshold outside its range,
-/// [`crate::error::ErrorKind::VesselTree`] for a vessel without length,
-/// [`crate::error::ErrorKind::Interrupted`] once the caller asks to stop.
+/// [`crate::error::ErrorKind::VesselTree`] for a vessel without length.
 pub fn cr(tree: &LeveledTree, parameters: &CrParameters, request: &Request) -> Result<Frame> {
     request.settings.check()?;
     parameters.check()?;

@@ -22,23 +22,14 @@ pub trait Layout: Send + Sync {
 
     /// The position of each pixel, and the direction in which a slab is thick there. A position that is not
     /// finite shows nothing.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Interrupted`] once the caller asks to stop.
     fn curved(&self, stop: Stop) -> Result<Curved>;
 
     /// The arc length of the vessel (mm): one per row if rows run along one vessel, else one per pixel, NaN
     /// where nothing is shown.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Interrupted`] once the caller asks to stop.
     fn arc_length(&self, stop: Stop) -> Result<Vec<f64>>;
 
     /// Whether each pixel is folded, row by row: unreliable because the image runs backwards there or shows
     /// the same elsewhere.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Interrupted`] once the caller asks to stop.
     fn folded(&self, stop: Stop) -> Result<Vec<bool>>;
 
     /// The world point at an image position.
@@ -49,9 +40,6 @@ pub trait Layout: Send + Sync {
 }
 
 /// An image whose rows are written by a function of their number, with a check for stop before each row.
-///
-/// # Errors
-/// [`ErrorKind::Interrupted`].
 pub(super) fn by_rows<T: Clone + Send>(
     [width, height]: [usize; 2],
     nothing: T,
@@ -68,9 +56,6 @@ pub(super) fn by_rows<T: Clone + Send>(
 }
 
 /// The same for positions and slab directions; a pixel that is not written shows nothing.
-///
-/// # Errors
-/// As [`by_rows`].
 pub(super) fn curved_by_rows(
     size: [usize; 2],
     stop: Stop,
@@ -96,10 +81,8 @@ pub(super) fn whole_pixels(length: f64, pixel_spacing: f64) -> f64 {
     (length / pixel_spacing + WHOLE).floor()
 }
 
-/// The size of an image with these numbers of columns and rows.
-///
-/// # Errors
-/// [`ErrorKind::Camera`], about `subject`, for too many of them.
+/// The size of an image with these numbers of columns and rows. Fails with [`ErrorKind::Camera`], about
+/// `subject`, for too many of them.
 pub(super) fn checked_size(subject: &str, size: [f64; 2]) -> Result<[usize; 2]> {
     let [width, height] = size;
     if width.max(height) > MAX_SIZE as f64 || width * height > MAX_PIXELS as f64 {

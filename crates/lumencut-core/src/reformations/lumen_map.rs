@@ -57,10 +57,8 @@ pub struct LumenMap {
 
 impl LumenMap {
     /// The map of the vessel with this path and this wall, in the straightened space of `view`, whose angle
-    /// applies.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Camera`] for an invalid view, spacing, angle or overlap, or too many pixels.
+    /// applies. Fails with [`ErrorKind::Camera`] for an invalid view, spacing, angle or overlap, or too many
+    /// pixels.
     pub fn new(
         path: Arc<CenterlinePath>,
         view: &View,
@@ -102,9 +100,6 @@ impl LumenMap {
     }
 
     /// The radius of the wall at each pixel (mm).
-    ///
-    /// # Errors
-    /// [`crate::error::ErrorKind::Interrupted`] once the caller asks to stop.
     pub fn wall(&self, stop: Stop) -> Result<Vec<f64>> {
         self.each(0.0, stop, |at, around| self.wall.radius(at, around))
     }
@@ -115,18 +110,12 @@ impl LumenMap {
     }
 
     /// Whether each pixel lies in the opening of a branch, where no wall was met.
-    ///
-    /// # Errors
-    /// [`crate::error::ErrorKind::Interrupted`] once the caller asks to stop.
     pub fn open(&self, stop: Stop) -> Result<Vec<bool>> {
         self.each(false, stop, |at, around| self.wall.is_open(at, around))
     }
 
     /// Brightness of the wall at each pixel, lit from the middle of the vessel: 1 where it is met at right
     /// angles. Its slope is that between the pixels on both sides.
-    ///
-    /// # Errors
-    /// [`crate::error::ErrorKind::Interrupted`] once the caller asks to stop.
     pub fn shades(&self, stop: Stop) -> Result<Vec<f32>> {
         let numbers = (0..self.size()[1] + 2).into_par_iter();
         let rows = numbers

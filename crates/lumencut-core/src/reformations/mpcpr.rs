@@ -26,12 +26,8 @@ const STEEPEST: f64 = 1e9;
 /// `unknown_radius` if silhouettes ask for lumen; there are neither levels of detail nor a depth filter.
 ///
 /// Rows that no vessel crosses lie beyond every volume ([`crate::math::lanes::FAR`]) and have the vessel
-/// [`super::NO_VESSEL`].
-///
-/// # Errors
-/// [`crate::error::ErrorKind::Settings`] for a setting outside its range,
-/// [`crate::error::ErrorKind::VesselTree`] for a vessel without length,
-/// [`crate::error::ErrorKind::Interrupted`] once the caller asks to stop.
+/// [`super::NO_VESSEL`]. Fails with [`crate::error::ErrorKind::Settings`] for a setting outside its range,
+/// [`crate::error::ErrorKind::VesselTree`] for a vessel without length.
 pub fn mpcpr(tree: &LeveledTree, request: &Request) -> Result<Frame> {
     request.settings.check()?;
     let levels = tree.levels(0, request.settings.centerline_smoothing);

@@ -65,9 +65,7 @@ pub struct Spiral {
 }
 
 impl Spiral {
-    /// The spiral CPR of the vessel with this path, seen as in [`Straightened`].
-    ///
-    /// # Errors
+    /// The spiral CPR of the vessel with this path, seen as in [`Straightened`]. Fails with
     /// [`ErrorKind::Camera`] for an invalid view, angle or length, or too many pixels: the error names a
     /// pitch that fits.
     pub fn new(path: Arc<CenterlinePath>, view: &View, parameters: SpiralParameters) -> Result<Self> {

@@ -25,8 +25,7 @@ pub struct Tangential {
 }
 
 impl Tangential {
-    /// # Errors
-    /// [`ErrorKind::Camera`] for a vessel that the camera sees as one point.
+    /// Fails with [`ErrorKind::Camera`] for a vessel that the camera sees as one point.
     pub fn new(path: Arc<CenterlinePath>, camera: Camera) -> Result<Self> {
         let along = path.direction().iter().map(|direction| direction.cross(camera.direction()).length());
         if along.fold(0.0, f64::max) < 1e-6 {

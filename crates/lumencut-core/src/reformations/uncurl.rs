@@ -39,10 +39,8 @@ pub struct Uncurl {
 impl Uncurl {
     /// A vessel straightened by `amount`: at 0 the tangential CPR from the camera, at 1 the straightened CPR
     /// in the middle of its image. Pixels farther than half of `width` (mm) from the vessel show nothing.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Settings`] for an amount outside 0 to 1, [`ErrorKind::Camera`] for a width that is not
-    /// above 0 mm.
+    /// Fails with [`ErrorKind::Settings`] for an amount outside 0 to 1, [`ErrorKind::Camera`] for a width
+    /// that is not above 0 mm.
     pub fn new(path: Arc<CenterlinePath>, camera: Camera, amount: f64, width: Option<f64>) -> Result<Self> {
         if !(0.0..=1.0).contains(&amount) {
             let expected = "from 0 (as the camera sees it) to 1 (straightened)";

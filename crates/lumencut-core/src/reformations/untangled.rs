@@ -124,12 +124,9 @@ pub struct Untangled {
 }
 
 impl Untangled {
-    /// Lays out a tree; only the directions of the camera apply.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Camera`] for a length outside its range or too many pixels, [`ErrorKind::VesselTree`] for
-    /// a vessel without length or a part without a free end, [`ErrorKind::Settings`] for an invalid unknown
-    /// radius, [`ErrorKind::Interrupted`] once `stop` says so.
+    /// Lays out a tree; only the directions of the camera apply. Fails with [`ErrorKind::Camera`] for a
+    /// length outside its range or too many pixels, [`ErrorKind::VesselTree`] for a vessel without length or
+    /// a part without a free end, [`ErrorKind::Settings`] for an invalid unknown radius.
     pub fn new(
         tree: &VesselTree,
         camera: &Camera,
@@ -171,9 +168,7 @@ impl Untangled {
         Ok(made)
     }
 
-    /// The same layout, without a new search, in pixels of another side (mm).
-    ///
-    /// # Errors
+    /// The same layout, without a new search, in pixels of another side (mm). Fails with
     /// [`ErrorKind::Camera`] for a side outside its range or too many pixels.
     pub fn with_pixels(&self, pixel_spacing: f64) -> Result<Self> {
         let parameters = UntangledParameters { pixel_spacing, ..self.parameters };
@@ -257,9 +252,6 @@ impl Untangled {
     }
 
     /// The vessel that each pixel shows, row by row; [`NO_VESSEL`] where nothing is shown.
-    ///
-    /// # Errors
-    /// [`crate::error::ErrorKind::Interrupted`] once the caller asks to stop.
     pub fn vessel(&self, stop: Stop) -> Result<Vec<i32>> {
         self.each(NO_VESSEL, stop, |place| self.laid_out[self.sheet.piece(place)].vessel as i32)
     }

@@ -16,11 +16,8 @@ pub struct Wall {
 
 impl Wall {
     /// The wall at rising arc lengths (mm): radius (mm) and opening in evenly spaced directions, from the
-    /// right of the straightened vessel into the scene.
-    ///
-    /// # Errors
-    /// [`ErrorKind::VesselTree`] for a table of other sizes, arc lengths that do not rise, or a radius that
-    /// is not above 0.
+    /// right of the straightened vessel into the scene. Fails with [`ErrorKind::VesselTree`] for a table of
+    /// other sizes, arc lengths that do not rise, or a radius that is not above 0.
     pub fn new(at: Vec<f64>, radius: Vec<f64>, open: Vec<bool>) -> Result<Self> {
         let directions = if at.is_empty() { 0 } else { radius.len() / at.len() };
         let rises = at.windows(2).all(|ends| ends[1] > ends[0]);

@@ -14,10 +14,8 @@ pub struct Choices {
 }
 
 impl Choices {
-    /// Sets a setting by its name in the table.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Settings`] for an unknown setting, a value of another kind, or an invalid name.
+    /// Sets a setting by its name in the table. Fails with [`ErrorKind::Settings`] for an unknown setting, a
+    /// value of another kind, or an invalid name.
     pub fn set(&mut self, name: &str, value: Value) -> Result<()> {
         if ContextChoices::ROWS.iter().any(|setting| setting.name == name) {
             self.context.set(name, value)
@@ -26,10 +24,7 @@ impl Choices {
         }
     }
 
-    /// The checked settings.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Settings`] naming the first setting outside its range.
+    /// The checked settings. Fails with [`ErrorKind::Settings`] naming the first setting outside its range.
     pub fn settings(&self) -> Result<Settings> {
         // Checks the context even if it is not wanted, so that errors in it appear at once.
         self.context.check_gamma()?;
@@ -43,10 +38,8 @@ impl Choices {
 }
 
 impl Settings {
-    /// Checks every setting against its range.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Settings`] naming the first setting outside its range.
+    /// Checks every setting against its range. Fails with [`ErrorKind::Settings`] naming the first setting
+    /// outside its range.
     pub fn check(&self) -> Result<()> {
         self.check_rows()?;
         self.check_chosen()?;

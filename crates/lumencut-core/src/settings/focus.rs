@@ -18,10 +18,7 @@ pub struct Focus {
 }
 
 impl Focus {
-    /// Checks margin and fade.
-    ///
-    /// # Errors
-    /// [`crate::error::ErrorKind::Settings`] for one outside its range.
+    /// Checks margin and fade. Fails with [`crate::error::ErrorKind::Settings`] for one outside its range.
     pub fn check(&self) -> Result<()> {
         MARGIN.check("focus margin", self.margin)?;
         FADE.check("focus fade", self.fade)

@@ -32,10 +32,8 @@ pub struct Slab {
 }
 
 impl Slab {
-    /// Checks the thickness.
-    ///
-    /// # Errors
-    /// [`crate::error::ErrorKind::Settings`] for a thickness outside its range.
+    /// Checks the thickness. Fails with [`crate::error::ErrorKind::Settings`] for a thickness outside its
+    /// range.
     pub fn check(&self) -> Result<()> {
         THICKNESS.check("slab thickness", self.thickness)
     }

@@ -22,10 +22,8 @@ impl Default for Window {
 }
 
 impl Window {
-    /// Checks level and width of the window called `name`.
-    ///
-    /// # Errors
-    /// [`crate::error::ErrorKind::Settings`] for a number outside its range.
+    /// Checks level and width of the window called `name`. Fails with [`crate::error::ErrorKind::Settings`]
+    /// for a number outside its range.
     pub fn check(&self, name: &str) -> Result<()> {
         Limits::INTENSITY.check(&format!("{name} level"), self.level)?;
         WIDTH.check(&format!("{name} width"), self.width)
@@ -42,10 +40,8 @@ pub struct Opacity {
 }
 
 impl Opacity {
-    /// Checks both intensities.
-    ///
-    /// # Errors
-    /// [`crate::error::ErrorKind::Settings`] for an intensity outside its range.
+    /// Checks both intensities. Fails with [`crate::error::ErrorKind::Settings`] for an intensity outside its
+    /// range.
     pub fn check(&self) -> Result<()> {
         Limits::INTENSITY.check("opacity start", self.transparent)?;
         Limits::INTENSITY.check("opacity end", self.opaque)

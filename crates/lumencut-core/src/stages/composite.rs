@@ -40,9 +40,6 @@ pub struct CompositeParameters {
 }
 
 /// Writes the RGBA picture, with straight alpha, of the layers over the background.
-///
-/// # Errors
-/// [`crate::error::ErrorKind::Interrupted`].
 pub fn composite(
     work: &Work,
     parameters: &CompositeParameters,
@@ -76,9 +73,6 @@ fn part<'a, T>(layer: Option<&'a [T]>, instead: &'a [T], first: usize, count: us
 }
 
 /// Writes premultiplied colours and opacity as RGBA with straight alpha into a transparent image.
-///
-/// # Errors
-/// [`crate::error::ErrorKind::Interrupted`].
 pub fn layer(work: &Work, colors: &[[f32; 4]], image: &mut [[u8; 4]]) -> Result<()> {
     work.expect_whole(Image::Gathered, colors);
     work.expect_whole(Image::Context, image);

@@ -59,11 +59,8 @@ pub fn starts(work: &Work, parameters: &StartParameters, surface: &SurfaceImages
 }
 
 /// Writes the premultiplied colours and opacity, 0 to 1, that the rays of `context`, the one of `settings`,
-/// gather; 0 where no ray starts.
-///
-/// # Errors
-/// [`crate::error::ErrorKind::Settings`] for a step so small that rays would have more than 65,536 samples,
-/// [`crate::error::ErrorKind::Interrupted`].
+/// gather; 0 where no ray starts. Fails with [`crate::error::ErrorKind::Settings`] for a step so small that
+/// rays would have more than 65,536 samples.
 pub fn context(
     work: &Work,
     surroundings: &Surroundings,

@@ -146,9 +146,6 @@ pub struct DepthImages<'a> {
 
 /// Writes depth (mm), vessel id and sheet of the cut surface at each pixel of the view. The level choice
 /// `nearest` needs the distances; for `own` they may be empty.
-///
-/// # Errors
-/// [`crate::error::ErrorKind::Interrupted`].
 pub fn depth(work: &Work, surface: &CutSurface, distance: &[f32], images: DepthImages) -> Result<()> {
     let seeds = [Seeds::default(); MAX_LEVELS + 1];
     depth_by(work, surface, distance, images, || LowestKeySearch { surface, seeds })

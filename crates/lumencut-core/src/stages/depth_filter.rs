@@ -53,9 +53,6 @@ impl Default for DepthFilterParameters {
 
 /// Writes the smoothed `image`: the whole of it, extended by its border pixels, or within the zones of
 /// `vessel` if given.
-///
-/// # Errors
-/// [`crate::error::ErrorKind::Interrupted`].
 pub fn depth_filter(
     work: &Work,
     parameters: &DepthFilterParameters,

@@ -14,9 +14,6 @@ use crate::math::tile::{Tile, scatter};
 use crate::math::walk::smallest_distances;
 
 /// Writes the distance (mm) of each pixel of the view to the nearest segment of the finest level.
-///
-/// # Errors
-/// [`crate::error::ErrorKind::Interrupted`].
 pub fn distance(work: &Work, surface: &CutSurface, distance: &mut [f32]) -> Result<()> {
     distance_by(work, surface, distance, || NearestSearch {
         finest: surface.finest(),

@@ -96,9 +96,6 @@ const LINES: usize = 1;
 /// Writes how much of the cut surface and of its silhouettes each pixel shows. In tiles of pixels where
 /// `leap` rules out lines, the share of silhouettes is arbitrary within 0 to 1; with an empty `leap` it is
 /// exact everywhere.
-///
-/// # Errors
-/// [`crate::error::ErrorKind::Interrupted`].
 pub fn focus(
     work: &Work,
     surface: &CutSurface,

@@ -34,9 +34,6 @@ impl LeapParameters {
 /// with precedence ends, by more than [`SMALLEST_LEAP`]. Also writes which pixels show lumen, and the side of
 /// each line: outside the lumen if only one side is lumen, else on the farther side, which the nearer one
 /// partly hides.
-///
-/// # Errors
-/// [`crate::error::ErrorKind::Interrupted`].
 pub fn leap(
     work: &Work,
     parameters: &LeapParameters,

@@ -44,9 +44,6 @@ impl Work<'_> {
     }
 
     /// Begins this number of pixels, unless the caller asks to stop.
-    ///
-    /// # Errors
-    /// [`crate::error::ErrorKind::Interrupted`].
     pub fn begin(&self, pixels: usize) -> Result<()> {
         if let Some(progress) = self.progress {
             progress.begin_pixels(pixels);

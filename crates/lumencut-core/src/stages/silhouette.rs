@@ -56,9 +56,6 @@ impl SilhouetteParameters {
 
 /// Writes the strength of the silhouette, 0 to 1, at each pixel: the slope of the depth (Sobel, mm per mm),
 /// raised at borders of influence zones, smoothed, and mapped by s / (s + half) after squaring both.
-///
-/// # Errors
-/// [`crate::error::ErrorKind::Interrupted`].
 pub fn silhouette(
     work: &Work,
     parameters: &SilhouetteParameters,
@@ -85,9 +82,6 @@ pub fn silhouette(
 /// Writes the strength of the silhouette, 0 to 1, at each pixel: how much of it the lines of the leaps cover.
 /// `value` is the volume on the surface, NaN where it shows nothing: a line there moves to the other side of
 /// its leap, unless that is lumen. Without values every pixel counts as shown.
-///
-/// # Errors
-/// [`crate::error::ErrorKind::Interrupted`].
 pub fn silhouette_of_leaps(
     work: &Work,
     parameters: &SilhouetteParameters,

@@ -58,9 +58,6 @@ pub struct SurfaceScene<'a> {
 
 /// Writes the volume's value at each pixel's position, NaN outside the volume; with a slab the largest, mean
 /// or smallest value of its part within the volume.
-///
-/// # Errors
-/// [`crate::error::ErrorKind::Interrupted`].
 pub fn surface(work: &Work, scene: &SurfaceScene, value: &mut [f32]) -> Result<()> {
     work.expect_whole(Image::Value, value);
     thin(work, scene, value)?;

@@ -66,10 +66,7 @@ impl Image {
         ("context", Self::Context),
     ];
 
-    /// The image that a frame has under this name.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Settings`] for another name.
+    /// The image that a frame has under this name. Fails with [`ErrorKind::Settings`] for another name.
     pub fn of_frame(name: &str) -> Result<Self> {
         let known = Self::OF_FRAME.iter().find(|(known, _)| *known == name);
         known.map(|(_, image)| *image).ok_or_else(|| {

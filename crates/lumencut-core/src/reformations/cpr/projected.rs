@@ -24,8 +24,7 @@ pub(super) struct Projected {
 }
 
 impl Projected {
-    /// # Errors
-    /// [`crate::error::ErrorKind::Camera`] for a vessel less than a row high.
+    /// Fails with [`crate::error::ErrorKind::Camera`] for a vessel less than a row high.
     pub(super) fn new(path: Arc<CenterlinePath>, axes: Axes, row: f64) -> Result<Self> {
         let heights: Vec<_> = path.points().iter().map(|point| point.dot(axes.up)).collect();
         let [low, high] = range(heights.iter().copied());

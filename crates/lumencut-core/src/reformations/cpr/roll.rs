@@ -43,10 +43,8 @@ pub struct Roll {
 }
 
 impl Roll {
-    /// The roll with these angles (radians) at rising arc lengths (mm).
-    ///
-    /// # Errors
-    /// [`ErrorKind::Camera`] for angles that are not finite, or not one for each arc length.
+    /// The roll with these angles (radians) at rising arc lengths (mm). Fails with [`ErrorKind::Camera`] for
+    /// angles that are not finite, or not one for each arc length.
     pub fn new(at: Vec<f64>, angle: Vec<f64>) -> Result<Self> {
         let rises = at.windows(2).all(|ends| ends[1] > ends[0]);
         if at.is_empty() || at.len() != angle.len() || !rises || !angle.iter().all(|a| a.is_finite()) {

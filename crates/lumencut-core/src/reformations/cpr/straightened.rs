@@ -49,8 +49,7 @@ impl Angle {
 }
 
 impl Straightened {
-    /// # Errors
-    /// [`crate::error::ErrorKind::Camera`] for zero or non-finite vectors.
+    /// Fails with [`crate::error::ErrorKind::Camera`] for zero or non-finite vectors.
     pub fn new(path: Arc<CenterlinePath>, view: &View) -> Result<Self> {
         let axes = view.unturned()?;
         let tangent = path.direction()[0];

@@ -33,8 +33,7 @@ pub(super) struct Stretched {
 }
 
 impl Stretched {
-    /// # Errors
-    /// [`crate::error::ErrorKind::Camera`] for a vessel that is parallel to the lines.
+    /// Fails with [`crate::error::ErrorKind::Camera`] for a vessel that is parallel to the lines.
     pub(super) fn new(path: Arc<CenterlinePath>, axes: Axes) -> Result<Self> {
         let points = path.points();
         // The vessel runs downwards in the image. One that rises in space is seen from the same side, upside

@@ -16,9 +16,6 @@ use crate::settings::Settings;
 use crate::stop::{Stop, go_on};
 
 /// The slot whose piece is nearest to each pixel of a camera, row by row; the first of equally near ones.
-///
-/// # Errors
-/// [`crate::error::ErrorKind::Interrupted`] once the caller asks to stop.
 pub(in crate::reformations) fn nearest_slots(level: &Level, camera: &Camera, stop: Stop) -> Result<Vec<u32>> {
     let mut view = ProjectedLevel::new(level);
     view.project(level, camera, Radii { scale: 1.0, unknown: 0.0 });

@@ -23,8 +23,8 @@ impl Default for CrParameters {
 }
 
 impl CrParameters {
-    /// # Errors
-    /// [`ErrorKind::Settings`] for a threshold that is negative, not finite or larger than a million pixels.
+    /// Fails with [`ErrorKind::Settings`] for a threshold that is negative, not finite or larger than a
+    /// million pixels.
     pub fn check(&self) -> Result<()> {
         for (name, value) in [("radius_offset", self.radius_offset), ("arc_threshold", self.arc_threshold)] {
             if !(0.0..=MOST_PIXELS).contains(&value) {

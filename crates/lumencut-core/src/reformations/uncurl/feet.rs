@@ -51,10 +51,6 @@ impl Feet {
     }
 
     /// A function that returns the foot of each pixel, by its number row by row.
-    ///
-    /// # Errors
-    /// Those of a vessel tree that cannot be built from the points, and
-    /// [`crate::error::ErrorKind::Interrupted`].
     pub(super) fn of_pixels(&self, stop: Stop) -> Result<impl Fn(usize) -> Foot + Sync + '_> {
         let vessel = Vessel::new(self.points.clone(), None)?;
         let levels = LeveledTree::new(VesselTree::new(vec![vessel])?).levels(0, 0.0);

@@ -40,10 +40,8 @@ pub(super) struct Growth {
 
 impl Growth {
     /// Grows from the vessel end nearest to `root`; parts without it grow from the free end of the largest
-    /// mean radius.
-    ///
-    /// # Errors
-    /// [`ErrorKind::VesselTree`] for a part without a free end, unless `root` names an end.
+    /// mean radius. Fails with [`ErrorKind::VesselTree`] for a part without a free end, unless `root` names
+    /// an end.
     pub(super) fn new(pieces: &[Piece], nodes: usize, root: Option<DVec3>) -> Result<Self> {
         let graph = Graph::new(pieces, nodes);
         let mut growth = Self {

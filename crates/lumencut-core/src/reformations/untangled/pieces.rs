@@ -55,10 +55,7 @@ impl Piece {
 }
 
 /// The pieces of all vessels, in the order of vessels and along them, and the number of junctions.
-/// `unknown_radius` replaces unknown radii.
-///
-/// # Errors
-/// [`ErrorKind::VesselTree`] for a vessel without length.
+/// `unknown_radius` replaces unknown radii. Fails with [`ErrorKind::VesselTree`] for a vessel without length.
 pub(super) fn pieces_of(tree: &VesselTree, unknown_radius: f64) -> Result<(Vec<Piece>, usize)> {
     let first_and_last = |vessel: &Vessel| [vessel.points()[0], vessel.points()[vessel.points().len() - 1]];
     let ends = Ends::of(tree.vessels().iter().flat_map(first_and_last));

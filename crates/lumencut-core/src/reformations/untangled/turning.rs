@@ -60,9 +60,6 @@ impl Turning {
 
 /// The first layout without overlaps in which all branches have room. If there is none, the tried layout with
 /// the fewest overlapping pieces, then with the fewest branching points without room.
-///
-/// # Errors
-/// [`crate::error::ErrorKind::Interrupted`] once `stop` says so.
 pub(super) fn untangle(tree: Tree, stop: Stop) -> Result<Turning> {
     let mut best: Option<Turning> = None;
     let ways: Vec<_> = NEAR.iter().flat_map(|near| STIFFNESS.map(|stiffness| (*near, stiffness))).collect();
