@@ -5,7 +5,6 @@ use glam::DVec3;
 use crate::error::{Error, ErrorKind, Result};
 use crate::vessel_tree::MAX_COORDINATE;
 
-/// The most pixels along one side of an image.
 pub(crate) const MAX_SIZE: usize = 32_768;
 
 /// The most pixels of an image: their buffers take a few gigabytes.

@@ -16,8 +16,8 @@ use rayon::prelude::*;
 use self::clock::Clock;
 pub use self::details::SurfaceDetails;
 pub use self::images::Images;
-use self::pass::Lines;
 pub(crate) use self::pass::CutSurfacePass;
+use self::pass::Lines;
 pub use self::pass::LookPass;
 use crate::camera::Camera;
 use crate::error::{Error, ErrorKind, Result};
@@ -77,7 +77,6 @@ impl<'a> Request<'a> {
         Self { images, ..self }
     }
 
-    /// Starts the progress of a view on the CPU with the costs of its stages.
     fn begin_view(&self, scene: &Scene) {
         let Some(progress) = self.progress else { return };
         let asked = self.without_unseen_picture(scene).images;

@@ -5,7 +5,6 @@ use std::sync::atomic::{AtomicU64, Ordering};
 /// The progress of the views of one call. The CPU reports it per stage and pixel, a GPU only per view.
 #[derive(Debug, Default)]
 pub struct Progress {
-    /// Views to render, and finished ones.
     views: AtomicU64,
     whole: AtomicU64,
     /// Cost per pixel of all stages of the view, of those that ended, and of the one that runs.

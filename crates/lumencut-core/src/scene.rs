@@ -102,7 +102,6 @@ const KEPT: usize = 2;
 #[derive(Debug)]
 pub struct LeveledTree {
     tree: VesselTree,
-    /// The latest values of `centerline_smoothing`, most recent first, and their levels.
     kept: Mutex<Vec<(f64, Arc<Vec<Level>>)>>,
 }
 

@@ -13,10 +13,8 @@ pub(crate) const OPAQUE: f32 = 1.0 - 1.0 / 1024.0;
 /// Premultiplied colours and opacity of sixteen pixels, channel by channel, 0 to 1.
 pub(crate) type Rgba = [[f32; FAN]; 4];
 
-/// Sixteen samples, one of each ray.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Samples<'a> {
-    /// The values, where present.
     pub value: &'a [f32; FAN],
     /// 1 where the ray has this sample, else 0; a number instead of `bool` keeps the compiler's vectors.
     pub present: &'a [f32; FAN],
@@ -47,7 +45,6 @@ pub(crate) struct Blend<'a> {
     mix: f32,
     color: [[f32; FAN]; 3],
     opacity: [f32; FAN],
-    /// The largest sample so far in the window, 0 to 1.
     most: [f32; FAN],
     brightest: Brightest<'a>,
 }
@@ -70,7 +67,6 @@ impl<'a> Blend<'a> {
         }
     }
 
-    /// Whether samples with values in a range would change nothing.
     #[inline(always)]
     pub(crate) fn ignores(&self, range: Range) -> bool {
         let unseen = smallest(&self.opacity) >= OPAQUE || self.palette.colors.is_transparent(range);
@@ -79,7 +75,6 @@ impl<'a> Blend<'a> {
             && (self.mix == 0.0 || self.brightest.ignores(range))
     }
 
-    /// Takes the next samples, from near to far.
     #[inline(always)]
     pub(crate) fn add(&mut self, samples: &Samples, light: &impl Light) {
         let mut own = self.palette.colors.opacity(samples.value);
@@ -118,7 +113,6 @@ impl<'a> Blend<'a> {
         }
     }
 
-    /// The finished pixels.
     #[inline(always)]
     pub(crate) fn finish(&self) -> Rgba {
         let brightest = self.brightest.finish();
@@ -173,7 +167,6 @@ impl<'a> Brightest<'a> {
     }
 }
 
-/// Opaque pixels where something was found, else transparent ones.
 #[inline(always)]
 pub(crate) fn opaque(color: [[f32; FAN]; 3], found: &[bool; FAN]) -> Rgba {
     let mut pixels = [color[0], color[1], color[2], [1.0; FAN]];

@@ -20,7 +20,6 @@ fn nothing() -> Gathered {
     return Gathered(vec3f(), 0.0, parameters.most, -HUGE);
 }
 
-// Whether samples with values in a range would change nothing.
 fn ignores(gathered: Gathered, range: vec2f) -> bool {
     let is_no_brighter = min(range.y, parameters.last) <= gathered.best;
     return (parameters.push == 0.0 || ramp_at(parameters.window, range.y) <= gathered.most)
@@ -28,7 +27,6 @@ fn ignores(gathered: Gathered, range: vec2f) -> bool {
         && (gathered.opacity >= OPAQUE || is_transparent(range));
 }
 
-// Takes the next sample: DVR, MIDA and the blends between them and MIP.
 fn gather(gathered: ptr<function, Gathered>, value: f32, place: Place, thickness: f32) {
     let intensity = ramp_at(parameters.window, value);
     let push = max(intensity - (*gathered).most, 0.0) * parameters.push;

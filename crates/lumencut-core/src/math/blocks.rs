@@ -140,7 +140,6 @@ impl Level {
     }
 }
 
-/// The ranges of the blocks along i at (`j`, `k`).
 fn row_of_blocks<T: Voxel>(voxels: &[T], volume: &Volume, [j, k]: [usize; 2], ranges: &mut [Range]) {
     let (size, strides) = (volume.size(), volume.strides());
     let reach = |block: usize, n: usize| block * SIDE..((block + 1) * SIDE + 1).min(n);

@@ -9,12 +9,10 @@ const FARTHEST: f32 = 1e6;
 
 @group(0) @binding(4) var<storage, read> blocks: array<vec2f>;
 
-// log2 of the side of a block of a level, in cells.
 fn side_bits(level: u32) -> u32 {
     return SIDE_BITS + parameters.finest + level;
 }
 
-// The range of the block that holds a voxel as the lower corner of a sample.
 fn range_at(level: u32, voxel: vec3i) -> vec2f {
     let size = parameters.levels[level];
     let block = vec3u(voxel) >> vec3u(side_bits(level));

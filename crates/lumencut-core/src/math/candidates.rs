@@ -29,7 +29,6 @@ pub(crate) fn candidates<const LUMEN_FIRST: bool>(
     found
 }
 
-/// Which pieces of a slot may cover a pixel of an area, with the numbers of that test.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Cover {
     pub(crate) in_stripe: bool,
@@ -43,8 +42,6 @@ pub(crate) struct Cover {
 }
 
 impl Cover {
-    /// The slot's stripe has these two ends; the other arguments are the edge along it and the edge before
-    /// it.
     #[inline(always)]
     pub(crate) fn new(area: &Area, ends: [[f32; 2]; 2], [ex, ey]: [f32; 2], [fx, fy]: [f32; 2]) -> Self {
         let ([cx, cy], [hx, hy]) = (area.center, area.half);

@@ -12,7 +12,6 @@ pub(crate) const NO_MEETING: f32 = 1e9;
 /// A ray that moves less than this along an axis runs along its planes (voxels).
 pub(crate) const ALONG_PLANE: f32 = 1e-9;
 
-/// Reduces the cubics along sixteen rays.
 pub(crate) trait Fold<R> {
     /// Whether cells with corners up to `top`, one for each ray, can change anything; `length` is as in
     /// [`Fold::take`].
@@ -100,7 +99,6 @@ impl<R: Real> Fold<R> for Sums<'_> {
 pub(crate) struct CellWalk<'a, T, F> {
     pub grid: &'a Grid,
     pub voxels: &'a [T],
-    /// A voxel before all cells.
     pub base: [i32; 3],
     /// Where the rays go, counted from there.
     pub stretch: &'a RaySpan,
@@ -125,7 +123,6 @@ struct Walkers {
     /// The next plane, and the share of the stretch that one voxel takes; 0 along a plane.
     plane: [[f32; FAN]; 3],
     per_voxel: [[f32; FAN]; 3],
-    /// The share of the stretch behind each ray.
     gone: [f32; FAN],
 }
 
@@ -153,7 +150,6 @@ impl Walkers {
         walkers
     }
 
-    /// The share of the stretch at which each ray meets its next plane along an axis.
     #[inline(always)]
     fn meeting(&self, stretch: &RaySpan, a: usize) -> [f32; FAN] {
         let mut meeting = [NO_MEETING; FAN];
@@ -168,8 +164,6 @@ impl Walkers {
 /// This many cells of each ray are found before the voxels of the first are read.
 const AHEAD: usize = 2;
 
-/// A cell of each ray, counted from the base, and the shares of the stretch where the ray enters and leaves
-/// it.
 #[derive(Clone, Copy)]
 struct Passed {
     cell: [[f32; FAN]; 3],
@@ -202,7 +196,6 @@ impl<T: Voxel, F: Fold<T::Real>> CellWalk<'_, T, F> {
         }
     }
 
-    /// Moves the rays to their next cells; finished rays stay.
     #[inline(always)]
     fn go_on<O: Offset>(&self, walkers: &mut Walkers, offset: &mut [O; FAN]) -> Passed {
         let stretch = self.stretch;
@@ -221,7 +214,6 @@ impl<T: Voxel, F: Fold<T::Real>> CellWalk<'_, T, F> {
         passed
     }
 
-    /// Moves the rays along an axis if they leave their cell through its plane.
     #[inline(always)]
     fn step<O: Offset>(
         &self,
@@ -279,7 +271,6 @@ impl<T: Voxel, F: Fold<T::Real>> CellWalk<'_, T, F> {
         self.fold.take(&cubic, &top, &length);
     }
 
-    /// The weights of the farther corners where the rays have gone a share of the stretch.
     #[inline(always)]
     fn weights(&self, cell: &[[f32; FAN]; 3], gone: &[f32; FAN]) -> Weights<T::Real, FAN> {
         // A loop over the axes would make the compiler vectorise over them instead of over the rays.

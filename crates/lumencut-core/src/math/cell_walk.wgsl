@@ -14,7 +14,6 @@ struct Found {
     share: f32,
 }
 
-// The corners in a cell times `sign`; HUGE where one of them has no value.
 fn corners_at(voxel: vec3i, sign: f32) -> Corners {
     let corners = corners_in(voxel);
     if FLOAT_VOXELS && largest_corner(corners) >= HUGE {

@@ -74,7 +74,6 @@ impl CenterlinePath {
     }
 }
 
-/// Smooths the vessel by one length everywhere.
 fn smoothed(vessel: &Vessel, length: f64) -> Result<Vessel> {
     let points = vessel.points().to_vec();
     let lengths = vec![length; points.len()];

@@ -31,7 +31,6 @@ pub fn smooth_centerlines(tree: &VesselTree, radii: f64) -> VesselTree {
     VesselTree::from_checked(smoothed.collect())
 }
 
-/// Smooths each stretch between two fixed points separately.
 fn smooth(vessel: &Vessel, radii: f64, ends: &PlaceMap<()>, layers: &[Layer]) -> Vessel {
     let Some(radius) = vessel.radius() else { return vessel.clone() };
     let (points, last) = (vessel.points(), vessel.points().len() - 1);
@@ -74,7 +73,6 @@ fn gaussian() -> [Layer; LAYERS] {
 /// A polyline between two fixed points, as its chord and the offset from the chord.
 struct FixedRun<'a> {
     points: &'a [DVec3],
-    /// Arc length from the start to each point (mm).
     arc: Vec<f64>,
     /// From the chord to each point, at equal shares of the length.
     offset: Vec<DVec3>,
@@ -108,7 +106,6 @@ impl<'a> FixedRun<'a> {
         self.arc[self.arc.len() - 1]
     }
 
-    /// The point on the chord that belongs to point `i`.
     fn chord(&self, i: usize) -> DVec3 {
         let share = if self.length() > 0.0 { self.arc[i] / self.length() } else { 0.0 };
         self.points[0].lerp(self.points[self.points.len() - 1], share)

@@ -37,8 +37,6 @@ pub fn chosen_slots(level: &Level, vessels: &[usize]) -> Vec<Range<u32>> {
     (0..count).map(of_vessel).collect()
 }
 
-/// Whether a point lies in the lumen of the vessel with these slots, whose radius is linear along each
-/// segment.
 fn is_within(level: &Level, slots: Range<u32>, point: DVec3) -> bool {
     let last = slots.end.saturating_sub(1) as usize;
     slots.map(|slot| slot as usize).any(|slot| {

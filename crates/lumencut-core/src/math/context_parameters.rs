@@ -22,11 +22,8 @@ const HALF_SHADED: f64 = 0.1;
 pub enum Gathering {
     /// Colours and opacities: DVR, MIDA and the blends between them and MIP.
     Blend,
-    /// The largest value: MIP.
     Brightest,
-    /// The smallest value.
     Darkest,
-    /// The mean.
     Average,
 }
 
@@ -61,15 +58,11 @@ impl Gathering {
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
 pub struct RiseParameters {
-    /// Added colour.
     pub color: [f32; 3],
-    /// Added opacity.
     pub opacity: f32,
-    /// The intensity at which it begins.
     pub start: f32,
     /// Share of the rise per unit of intensity.
     pub per_intensity: f32,
-    /// Padding for the layout rules of WGSL.
     pub padding: [f32; 2],
 }
 
@@ -77,7 +70,6 @@ pub struct RiseParameters {
 #[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
 #[repr(C)]
 pub struct BlockPlaces {
-    /// The number of sizes.
     pub level_count: u32,
     /// log2 of the ratio of the smallest blocks there to the volume's smallest.
     pub finest: u32,
@@ -89,9 +81,7 @@ pub struct BlockPlaces {
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
 pub struct ContextParameters {
-    /// The intensities from 0 to 1.
     pub(crate) window: Ramp,
-    /// The opacity of the cut surface.
     pub(crate) opacity: Ramp,
     /// Minimum number of parts of a ray per mm.
     pub per_step: f32,
@@ -113,19 +103,13 @@ pub struct ContextParameters {
     pub first_color: [f32; 3],
     /// The opacity before the first rise.
     pub first_opacity: f32,
-    /// The number of rises.
     pub rise_count: u32,
-    /// The number of gaps.
     pub gap_count: u32,
-    /// The number of block sizes.
     pub level_count: u32,
-    /// The size of the smallest blocks, see [`BlockPlaces::finest`].
     pub finest: u32,
-    /// The rises of the transfer function.
     pub rises: [RiseParameters; MOST_RISES],
     /// The ranges of intensity without opacity: from the first to the second number.
     pub gaps: [[f32; 4]; MOST_GAPS],
-    /// As [`BlockPlaces::levels`].
     pub levels: [[u32; 4]; MOST_BLOCK_LEVELS],
 }
 
@@ -178,7 +162,6 @@ impl ContextParameters {
 /// The part of [`ContextParameters`] that decides where rays start.
 #[derive(Clone, Copy, Debug)]
 pub struct StartParameters {
-    /// The opacity of the cut surface.
     pub(crate) opacity: Ramp,
     /// How far behind a transparent cut surface rays start (mm): behind its slab.
     pub behind: f32,
@@ -187,7 +170,6 @@ pub struct StartParameters {
 }
 
 impl StartParameters {
-    /// The parameters of `settings`.
     pub fn new(settings: &Settings) -> Self {
         let behind = settings.slab.map_or(0.0, |slab| slab.thickness / 2.0) as f32;
         let from_cut = settings.context.as_ref().is_none_or(|context| context.from == ContextFrom::Cut);

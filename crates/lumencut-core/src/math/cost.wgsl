@@ -3,7 +3,6 @@
 
 override LUMEN_FIRST: bool = false;
 
-// The keys of a piece at depths `z` with lumen radii `r`, at distances `d` from its centerline.
 fn keys(z: vec4f, d: vec4f, r: vec4f, tiers: f32) -> vec4f {
     let beyond = d - r;
     let cost = z + parameters.weight * max(beyond, vec4f(0.0));
@@ -14,9 +13,7 @@ fn keys(z: vec4f, d: vec4f, r: vec4f, tiers: f32) -> vec4f {
     return cost;
 }
 
-// How far a piece lies beyond its vessel's wall (mm).
 fn beyond_wall(key: f32, d: f32, r: f32) -> f32 {
-    // Keys of surroundings stay above -lift/2 + 0.5 mm, keys of walls below -lift/2 - 0.5 mm.
     if LUMEN_FIRST && key < -0.5 * parameters.lift {
         return 0.0;
     }
@@ -24,7 +21,6 @@ fn beyond_wall(key: f32, d: f32, r: f32) -> f32 {
 }
 
 fn is_lumen(key: f32, d: f32, r: f32) -> bool {
-    // The keys of a tier lie within half a lift around it, and 0.5 mm away from its borders.
     let is_beside = key >= -1.5 * parameters.lift || (is_first(key) && key >= -3.5 * parameters.lift);
     return select(d - r <= 0.0, !is_beside, LUMEN_FIRST);
 }
@@ -33,7 +29,6 @@ fn is_first(key: f32) -> bool {
     return LUMEN_FIRST && key < -2.5 * parameters.lift;
 }
 
-// A lower bound on the keys of pieces at depth ≥ `z` with radius ≤ `r`, at most `tiers`, and distance ≥ `d`.
 fn key_bound(z: f32, d: f32, r: f32, tiers: f32) -> f32 {
     let beyond = d - parameters.distance_slack - r;
     let nearest = z - parameters.depth_slack;
@@ -45,7 +40,6 @@ fn key_bound(z: f32, d: f32, r: f32, tiers: f32) -> f32 {
     return cost;
 }
 
-// The bound beyond which nothing can beat or tie with `key`.
 fn key_limit(key: f32) -> f32 {
     return key + parameters.depth_slack + abs(key) * 4e-7;
 }

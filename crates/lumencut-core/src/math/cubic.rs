@@ -53,7 +53,6 @@ impl<R: Real, const N: usize> Cubic<R, N> {
         bound
     }
 
-    /// The larger of the values at both ends.
     #[inline(always)]
     pub(crate) fn largest_end(&self) -> [R; N] {
         let mut largest = self.0[0];
@@ -106,7 +105,6 @@ fn summit<R: Real>([b0, b1, b2, b3]: [R; 4]) -> R {
     if u < one { u } else { one }
 }
 
-/// The value of a Bernstein cubic at `u`, by de Casteljau's scheme.
 #[inline(always)]
 fn at<R: Real>([b0, b1, b2, b3]: [R; 4], u: R) -> R {
     let mix = |a: R, b: R| a + (b - a) * u;
@@ -122,7 +120,6 @@ mod tests {
         larger(cubic.largest_end()[0], cubic.at_summit()[0])
     }
 
-    /// Pseudo-random numbers from −1 to 1.
     fn numbers() -> impl FnMut() -> f64 {
         let mut state = 88_172_645_463_325_252u64;
         move || {
@@ -165,7 +162,6 @@ mod tests {
             let [bound] = cubic.bound();
             assert!(found <= bound + 1e-9);
             inside += u32::from(found > values[0].max(values[steps as usize]) + 1e-9);
-            // Simpson's rule with one interval.
             let simpson = (values[0] + 4.0 * values[steps as usize / 2] + values[steps as usize]) / 6.0;
             assert!((cubic.mean()[0] - simpson).abs() < 1e-9);
         }

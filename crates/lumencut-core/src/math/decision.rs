@@ -11,11 +11,8 @@ use super::tile::{Area, Tile};
 #[repr(C, align(64))]
 pub(crate) struct Decision {
     pub vessel: [i32; PIXELS],
-    /// Arc length along the vessel (mm).
     pub arc_length: [f32; PIXELS],
-    /// How far the pixel lies beyond the vessel's wall (mm); 0 within.
     pub(crate) beyond_wall: [f32; PIXELS],
-    /// Radius of the vessel there (mm).
     pub radius: [f32; PIXELS],
     pub is_lumen: [bool; PIXELS],
     /// Whether the pixel shows a vessel that takes precedence.
@@ -83,7 +80,6 @@ impl Decision {
     }
 }
 
-/// One point for each pixel of a tile, field by field.
 #[repr(C, align(64))]
 struct Gathered {
     x: [f32; PIXELS],
@@ -119,17 +115,13 @@ impl Gathered {
     }
 }
 
-/// The pixels of a part of a tile, and their decisions.
 #[derive(Clone, Copy)]
 pub(crate) struct Part<'a> {
-    /// The box around them.
     pub area: &'a Area,
-    /// View x and y (mm).
     pub x: &'a [f32; PART_PIXELS],
     #[allow(missing_docs)]
     pub y: &'a [f32; PART_PIXELS],
     pub vessel: &'a [i32; PART_PIXELS],
-    /// Arc length along the vessel (mm).
     pub arc_length: &'a [f32; PART_PIXELS],
 }
 

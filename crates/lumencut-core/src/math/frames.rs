@@ -60,7 +60,6 @@ pub struct Station {
 }
 
 impl Station {
-    /// The frame at arc length `t`, between here and the next station.
     pub(crate) fn frame_at(&self, t: f64) -> MovingFrame {
         if self.turn == DVec3::ZERO {
             return self.frame;

@@ -39,7 +39,6 @@ impl Boxes {
         tiers: [0.0; FAN],
     };
 
-    /// Sets node `n` to hold all slots of `bundle`.
     fn enclose_bundle(&mut self, n: usize, bundle: &Bundle) {
         let mut one = Node::NOTHING;
         for s in (0..FAN).filter(|s| bundle.slot[*s] != NO_SLOT) {
@@ -55,7 +54,6 @@ impl Boxes {
         self.set(n, one);
     }
 
-    /// Sets node `n` to hold all nodes of `inner`.
     fn enclose_boxes(&mut self, n: usize, inner: &Boxes) {
         let mut one = Node::NOTHING;
         for s in (0..FAN).filter(|s| inner.low_x[*s] < FAR) {
@@ -89,19 +87,16 @@ impl Boxes {
         squared
     }
 
-    /// The largest radius in each node (mm).
     #[inline(always)]
     pub(crate) fn largest_radii(&self) -> &[f32; FAN] {
         &self.radius
     }
 
-    /// Whether each node has slots of chosen vessels.
     #[inline(always)]
     pub(crate) fn has_first(&self, n: usize) -> bool {
         self.tiers[n] > 0.0
     }
 
-    /// The smallest key that each node's pieces can reach in the tile.
     #[inline(always)]
     pub(crate) fn key_bounds<const LUMEN_FIRST: bool>(&self, tile: &Tile, rule: &Rule) -> [f32; FAN] {
         let mut bounds = self.squared_distances(&tile.area);
@@ -132,7 +127,6 @@ impl Node {
 /// height is one set of boxes.
 #[derive(Clone, Debug)]
 pub struct Hierarchy {
-    /// The projected slots.
     pub(crate) bundles: Vec<Bundle>,
     /// The boxes, bottom up.
     pub heights: Vec<Vec<Boxes>>,
@@ -175,7 +169,6 @@ impl Hierarchy {
         self.enclose();
     }
 
-    /// Recomputes all boxes.
     pub fn enclose(&mut self) {
         for (n, bundle) in self.bundles.iter().enumerate() {
             self.heights[0][n / FAN].enclose_bundle(n % FAN, bundle);

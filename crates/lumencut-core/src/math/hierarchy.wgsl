@@ -5,8 +5,6 @@
 // import math/tile
 // import math/pieces
 
-// The box around a node's segments in the view plane, its nearest depth, its largest radius (mm), and its
-// most tiers.
 struct NodeBox {
     low: vec2f,
     high: vec2f,
@@ -29,7 +27,6 @@ fn box_of(level: u32, node: Node) -> u32 {
     return first_box(level, node.height) + node.index;
 }
 
-// The squared distance (mm²) between the tile and a box.
 fn squared_distance(tile: Tile, low: vec2f, high: vec2f) -> f32 {
     let gap = max(max(low - tile.center, tile.center - high) - tile.half, vec2f(0.0));
     return dot(gap, gap);

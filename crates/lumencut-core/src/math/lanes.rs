@@ -8,11 +8,9 @@
 pub const COLUMNS: usize = 16;
 /// The height of a tile (pixels).
 pub const ROWS: usize = 8;
-/// The pixels of a tile.
 pub const PIXELS: usize = COLUMNS * ROWS;
 /// The children of a node of the hierarchy and the slots of a bundle, tested together.
 pub const FAN: usize = 16;
-/// The side of a part of a tile (pixels).
 pub(crate) const PART_SIDE: usize = 8;
 pub(crate) const PART_PIXELS: usize = PART_SIDE * PART_SIDE;
 pub const PARTS: usize = PIXELS / PART_PIXELS;
@@ -45,13 +43,11 @@ fn ordered(number: f32) -> i32 {
     bits ^ ((bits >> 31) & i32::MAX)
 }
 
-/// The inverse of [`ordered`].
 #[inline(always)]
 fn number(ordered: i32) -> f32 {
     f32::from_bits((ordered ^ ((ordered >> 31) & i32::MAX)) as u32)
 }
 
-/// The largest of some numbers, none of them NaN.
 #[inline(always)]
 pub fn largest<const N: usize>(numbers: &[f32; N]) -> f32 {
     let mut most = i32::MIN;
@@ -206,7 +202,7 @@ mod x86 {
         kernel.run()
     }
 
-    /// The only unsafe code of the crate.
+    /// The only `unsafe` code of the crate.
     #[allow(unsafe_code)]
     pub(super) fn dispatch<K: Kernel>(isa: Isa, kernel: K) -> K::Output {
         let widest = Isa::widest();

@@ -15,13 +15,9 @@ pub(crate) const MAX_HEIGHTS: usize = 8;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
 #[repr(C)]
 pub struct LevelPlace {
-    /// Index of the first slot.
     pub first_slot: u32,
-    /// Index of the first bundle.
     pub first_bundle: u32,
-    /// The number of bundles.
     pub bundle_count: u32,
-    /// The number of heights of boxes above them.
     pub height_count: u32,
     /// The first box of each height, bottom up.
     pub heights: [u32; MAX_HEIGHTS],
@@ -33,32 +29,23 @@ pub struct LevelPlace {
 pub struct CutSurfaceParameters {
     /// λ, the cost of a millimetre beyond the wall; this and the next four are those of [`Rule`].
     pub weight: f32,
-    /// Thickness of the wall around a lumen (mm).
     pub margin: f32,
-    /// Height of a tier (mm).
     pub lift: f32,
-    /// A bound on the rounding error of a projected distance (mm).
     pub distance_slack: f32,
-    /// A bound on the rounding error of a depth (mm).
     pub depth_slack: f32,
     /// N / σ (levels² per mm): f² = this · the distance that selects.
     pub selection: f32,
-    /// N.
     pub coarsest: u32,
     /// Factor on radii: 1 where they count, else 0.
     pub radius_scale: f32,
     /// Replaces a radius of 0 (mm).
     pub unknown_radius: f32,
-    /// The number of vessels, on a GPU.
     pub vessel_count: u32,
-    /// Aligns the next field to 16 bytes.
     pub padding: [u32; 2],
     /// View coordinates (mm) of the origin of the tree's points on a GPU: the part that adds to products
     /// without rounding.
     pub origin_coarse: [f32; 4],
-    /// The remainder.
     pub origin_fine: [f32; 4],
-    /// The position of each level in the GPU buffers.
     pub levels: [LevelPlace; MAX_LEVELS + 1],
 }
 
@@ -83,7 +70,6 @@ impl CutSurfaceParameters {
         }
     }
 
-    /// The rule that orders the pieces.
     pub(crate) fn rule(&self) -> Rule {
         let &Self { weight, margin, lift, distance_slack, depth_slack, .. } = self;
         Rule { weight, margin, lift, distance_slack, depth_slack }

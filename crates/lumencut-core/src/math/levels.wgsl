@@ -2,7 +2,6 @@
 // pieces.
 // import math/lanes
 
-// The most levels beyond the finest.
 const MAX_LEVELS = 15u;
 
 struct LevelPlace {
@@ -28,14 +27,10 @@ struct Span {
 struct Projected {
     point: vec3f,
     radius: f32,
-    // The edge to the next point; zero where it is missing or collinear with the view.
     edge: vec2f,
-    // The edge before the wedge at the point; zero where it is missing.
     before: vec2f,
-    // 1 / |edge|, zero with it.
     inverse_length: f32,
     arc_length: f32,
-    // 1 where a wedge, a half-plane or a plane stands.
     stands: u32,
     padding: u32,
 }

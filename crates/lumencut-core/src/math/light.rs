@@ -14,10 +14,8 @@ pub(crate) const DIFFUSE: f32 = 0.6;
 pub(crate) const SPECULAR: f32 = 0.2;
 /// Changes are clamped to this so that they can be squared.
 pub(crate) const STEEPEST: f32 = 1e12;
-/// Factor and term of a colour without shading.
 pub(crate) const UNSHADED: [f32; 2] = [1.0, 0.0];
 
-/// How strongly changes are shaded.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Shading {
     /// The square of a change that is half shaded.
@@ -31,13 +29,10 @@ fn bounded(change: f32) -> f32 {
     if change < -STEEPEST { -STEEPEST } else { change }
 }
 
-/// Light on sixteen positions of a volume.
 pub(crate) struct Headlight<'a> {
     /// Without it everything keeps its colour.
     pub shading: Option<Shading>,
-    /// The volume.
     pub sampler: &'a dyn Sampler,
-    /// From view to index.
     pub(crate) index_from_view: &'a IndexFromView,
     /// The voxel from which the positions are counted.
     pub base: [i32; 3],

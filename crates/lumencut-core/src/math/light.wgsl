@@ -7,7 +7,6 @@ const DIFFUSE: f32 = 0.6;
 const SPECULAR: f32 = 0.2;
 const STEEPEST: f32 = 1e12;
 
-// Factor and term on a colour.
 struct Light {
     lit: f32,
     shine: f32,
@@ -24,7 +23,6 @@ fn shade(place: Place) -> Light {
     for (var a = 0; a < 3; a++) {
         let side = vec3f(vec3i(a) == vec3i(0, 1, 2));
         let ends = vec2f(value_beside(place, side), value_beside(place, -side));
-        // With a neighbour of no value, there is no surface to shade.
         if FLOAT_VOXELS && any(ends >= vec2f(HUGE)) {
             return UNSHADED;
         }

@@ -4,7 +4,6 @@ use super::lanes::{FAN, FAR, PIXELS, larger, smaller, smallest};
 use super::pieces::Bundle;
 use super::tile::Tile;
 
-/// Lowers each pixel's squared distance (mm²) to the segment of slot `s` if that is nearer.
 #[inline(always)]
 pub(crate) fn lower_distance(tile: &Tile, squared: &mut [f32; PIXELS], bundle: &Bundle, s: usize) {
     let (x, y) = (bundle.x[s], bundle.y[s]);
@@ -33,7 +32,6 @@ impl NearestPoint {
         Self { distance: FAR, x: FAR, y: FAR }
     }
 
-    /// The same point seen from the middle of another tile.
     #[inline(always)]
     pub(crate) fn seen_from(&self, tile: &Tile) -> Self {
         let [cx, cy] = tile.area.center;
@@ -93,7 +91,6 @@ fn slack(tile: &Tile, x: f32, y: f32) -> f32 {
     1e-6 * (cx.abs() + cy.abs() + hx + hy + x.abs() + y.abs()) + 1e-6
 }
 
-/// The squared distances (mm²) of (x, y) to the segments of a bundle.
 #[inline(always)]
 pub(crate) fn squared_distances_to_segments(bundle: &Bundle, x: f32, y: f32) -> [f32; FAN] {
     let mut squared = [0.0; FAN];
@@ -104,7 +101,6 @@ pub(crate) fn squared_distances_to_segments(bundle: &Bundle, x: f32, y: f32) -> 
     squared
 }
 
-/// From the nearest point of the segment in slot `s` to (x, y).
 #[inline(always)]
 fn to_segment(bundle: &Bundle, s: usize, x: f32, y: f32) -> (f32, f32) {
     let (ux, uy) = (x - bundle.x[s], y - bundle.y[s]);

@@ -3,10 +3,8 @@
 // import math/pieces
 // import math/hierarchy
 
-// Squared distances (mm²) of the pixels of the tile.
 var<private> least_square: array<vec4f, MAX_QUADS>;
 
-// Where along a segment, from 0 to 1, it is nearest to the offset `u` from its start.
 fn foot(slot: Slot, u: vec2f) -> f32 {
     return clamp(dot(u, slot.edge) * slot.inverse_length * slot.inverse_length, 0.0, 1.0);
 }
@@ -32,7 +30,6 @@ fn lower_distance(slot: Slot) {
     }
 }
 
-// A bound on the rounding of distances between a tile and a segment near it (mm).
 fn slack(tile: Tile) -> f32 {
     return 4e-6 * (abs(tile.center.x) + abs(tile.center.y) + tile.half.x + tile.half.y) + 4e-6;
 }

@@ -19,11 +19,9 @@ pub(crate) struct NearestPieces {
     apart: [f32; PART_PIXELS],
     /// From the winner to the piece along the vessel (mm).
     pub along: [f32; PART_PIXELS],
-    /// Cost of the piece, which decides between pieces at equal distance.
     cost: [f32; PART_PIXELS],
     /// Twice its slot, plus 1 for the stripe: decides between equal costs.
     piece: [u32; PART_PIXELS],
-    /// Its depth (mm).
     pub z: [f32; PART_PIXELS],
     /// Change of depth to the right and upwards (mm per mm), if a sheet is made.
     pub slope: [[f32; PART_PIXELS]; 2],
@@ -41,7 +39,6 @@ impl NearestPieces {
         Self { apart, along: zero, cost: zero, piece: [u32::MAX; PART_PIXELS], z: zero, slope: [zero; 2] }
     }
 
-    /// Takes a piece at pixel `l` if it is covered and nearer than the one so far.
     #[inline(always)]
     fn offer<const SHEET: bool>(&mut self, l: usize, covered: bool, offered: Offered) {
         let Offered { along, cost, piece, z, slope } = offered;
@@ -83,30 +80,24 @@ struct Offered {
     slope: [f32; 2],
 }
 
-/// Pixels of one vessel at about the same arc length.
 struct Group {
     vessel: i32,
     /// The first slot of the vessel, and the one after its last.
     first: usize,
     end: usize,
-    /// The slot where the search starts.
     middle: usize,
-    /// The arc lengths that belong to the group (mm).
     low: f32,
     high: f32,
 }
 
-/// The pieces of all vessels at one level, in their order.
 #[derive(Clone, Copy)]
 pub(crate) struct OwnPieces<'a> {
     pub level: &'a Level,
-    /// Its projected slots.
     pub projected: &'a [Projected],
     pub rule: &'a Rule,
 }
 
 impl OwnPieces<'_> {
-    /// Finds for every wanted pixel the piece of its own vessel whose arc length is nearest.
     #[inline(always)]
     pub(crate) fn find<const SHEET: bool>(&self, part: &Part, nearest: &mut NearestPieces) {
         let mut is_open = [false; PART_PIXELS];
@@ -128,7 +119,6 @@ impl OwnPieces<'_> {
         }
     }
 
-    /// The slots around the position of one pixel on its vessel.
     #[inline(always)]
     fn group(&self, part: &Part, seed: usize) -> Group {
         let (vessel, s) = (part.vessel[seed], part.arc_length[seed]);
@@ -175,7 +165,6 @@ impl OwnPieces<'_> {
         }
     }
 
-    /// Offers the pieces of a slot that may cover a pixel of the part; returns whether there was one.
     #[inline(always)]
     fn offer_within<const SHEET: bool>(&self, part: &Part, slot: usize, nearest: &mut NearestPieces) -> bool {
         let here = &self.projected[slot];

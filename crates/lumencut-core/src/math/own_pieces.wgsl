@@ -18,12 +18,9 @@ struct Decision {
     is_first: bool,
 }
 
-// The pixel's foot on a stripe.
 struct Foot {
     covered: bool,
-    // Share along the stripe, 0 to 1 if it is covered.
     t: f32,
-    // Distance from the line of the stripe (mm).
     distance: f32,
 }
 
@@ -78,7 +75,6 @@ fn nearer_of(a: NearestPiece, b: NearestPiece) -> NearestPiece {
     return a;
 }
 
-// The nearer of the nearest piece so far and the pieces of point `i` that cover the pixel at `q`.
 fn with_pieces_of(i: u32, q: vec2f, s: f32, so_far: NearestPiece) -> NearestPiece {
     var nearest = so_far;
     let here = projected[i];
@@ -105,7 +101,6 @@ fn with_pieces_of(i: u32, q: vec2f, s: f32, so_far: NearestPiece) -> NearestPiec
     return nearest;
 }
 
-// The last point of a span with an arc length of at most `s`, or its first one.
 fn point_at(span: Span, s: f32) -> u32 {
     var low = span.first;
     var high = span.end;
@@ -120,8 +115,6 @@ fn point_at(span: Span, s: f32) -> u32 {
     return low;
 }
 
-// The piece of a vessel at a level whose arc length is nearest to `s` among those that cover the pixel at
-// `q`: from the middle outwards, until none farther out can be nearer.
 fn nearest_piece(level: u32, decision: Decision, q: vec2f) -> NearestPiece {
     let span = spans[level * parameters.vessel_count + u32(decision.vessel)];
     let s = decision.arc_length;

@@ -12,7 +12,6 @@ use super::cost::Rule;
 use super::lanes::{ABSENT, FAN, FAR, PART_PIXELS, PIXELS, SETTLED, UNSET, smaller};
 use super::tile::Tile;
 
-/// Sixteen slots in projection, field by field.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
 pub(crate) struct Bundle {
@@ -36,13 +35,10 @@ pub(crate) struct Bundle {
     pub inverse_length: [f32; FAN],
     /// Depth of the stripe at its start (mm), [`ABSENT`] without stripe.
     pub stripe_z: [f32; FAN],
-    /// Change of depth along the stripe (mm).
     pub stripe_dz: [f32; FAN],
     /// Depth of the wedge (mm), [`ABSENT`] without one.
     pub wedge_z: [f32; FAN],
-    /// Radius at the point (mm).
     pub radius: [f32; FAN],
-    /// Change of radius along the stripe (mm).
     pub radius_change: [f32; FAN],
     /// How many tiers lumen and wall come before those of other vessels ([`Rule::key`]): 2 for chosen
     /// vessels, else 0.
@@ -72,19 +68,16 @@ impl Bundle {
     };
 }
 
-/// The winner of each pixel of a tile so far.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
 pub(crate) struct Envelope {
     pub key: [f32; PIXELS],
-    /// Its depth (mm).
     pub z: [f32; PIXELS],
     /// Twice its slot, plus 1 for the stripe: the order of the pieces on a tie.
     pub piece: [u32; PIXELS],
 }
 
 impl Envelope {
-    /// Pixels without weight at this level are excluded.
     #[inline(always)]
     pub(crate) fn new(weight: &[f32; PIXELS]) -> Self {
         let mut key = [SETTLED; PIXELS];
@@ -121,7 +114,6 @@ pub(crate) struct Pixels<'a, const N: usize> {
 }
 
 impl<const N: usize> Pixels<'_, N> {
-    /// Takes the piece at pixel `l` if it is covered and wins.
     #[inline(always)]
     fn offer(&mut self, l: usize, covered: bool, key: f32, z: f32, piece: u32) {
         let (old_key, old_z, old_piece) = (self.key[l], self.z[l], self.piece[l]);
@@ -167,7 +159,6 @@ impl<const N: usize> Pixels<'_, N> {
     }
 }
 
-/// A stripe in the view plane.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Stripe {
     start: [f32; 2],
@@ -177,18 +168,15 @@ pub(crate) struct Stripe {
     per_square: f32,
 }
 
-/// The pixel's foot on a stripe.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Foot {
     pub covered: bool,
     /// Share along the stripe, 0 to 1 if it is covered.
     pub t: f32,
-    /// Distance from the line of the stripe (mm).
     pub distance: f32,
 }
 
 impl Stripe {
-    /// The stripe from `start` along `edge` to `end` (view x and y, mm), with 1 / |edge|.
     #[inline(always)]
     pub(crate) fn new(start: [f32; 2], end: [f32; 2], edge: [f32; 2], inverse_length: f32) -> Self {
         let unit = [edge[0] * inverse_length, edge[1] * inverse_length];
@@ -210,7 +198,6 @@ impl Stripe {
     }
 }
 
-/// A wedge, half-plane or plane in the view plane (mm).
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Wedge {
     pub point: [f32; 2],

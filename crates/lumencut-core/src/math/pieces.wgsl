@@ -45,7 +45,6 @@ fn offer_stripe(slot: Slot) {
             let uy = row_y[r] - slot.start.y;
             let after_start = ux * slot.edge.x + uy * slot.edge.y;
             let beyond_end = wx * slot.edge.x + (row_y[r] - slot.next.y) * slot.edge.y;
-            // Rounding must not carry t past the end, where depth and radius were never bounded.
             let t = min(after_start * per_square, vec4f(1.0));
             let d = abs(ux * unit.y - uy * unit.x);
             let z = slot.stripe_z + t * slot.stripe_dz;

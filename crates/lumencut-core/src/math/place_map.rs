@@ -13,7 +13,6 @@ pub(crate) struct PlaceMap<T> {
 }
 
 impl<T: Clone> PlaceMap<T> {
-    /// Positions no farther apart than `within` (mm) are equal.
     pub(crate) fn new(within: f64) -> Self {
         Self { cells: HashMap::new(), within }
     }
@@ -23,7 +22,6 @@ impl<T: Clone> PlaceMap<T> {
         (place / (10.0 * self.within)).floor().as_i64vec3().to_array()
     }
 
-    /// Writes a value into every cell that holds positions equal to this one.
     pub(crate) fn add(&mut self, place: DVec3, value: &T) {
         let (low, high) = (self.cell(place - self.within), self.cell(place + self.within));
         for (x, y) in (low[0]..=high[0]).flat_map(|x| (low[1]..=high[1]).map(move |y| (x, y))) {
@@ -33,7 +31,6 @@ impl<T: Clone> PlaceMap<T> {
         }
     }
 
-    /// The value at a position; the first one added if there are several.
     pub(crate) fn at(&self, place: DVec3) -> Option<&T> {
         let near = self.cells.get(&self.cell(place))?;
         near.iter().find(|(known, _)| known.distance(place) <= self.within).map(|(_, value)| value)

@@ -31,9 +31,7 @@ pub struct Level {
     pub arc_length: Vec<f32>,
     /// The slot in each entry of the bundles.
     pub order: Vec<u32>,
-    /// The bundle of each slot.
     pub(crate) bundle_of_slot: Vec<u32>,
-    /// The vessel of each slot.
     pub vessel_of_slot: Vec<i32>,
 }
 
@@ -68,7 +66,6 @@ impl Level {
         Self { first_slot, points, radii, arc_length, order, bundle_of_slot, vessel_of_slot }
     }
 
-    /// The number of bundles that hold the slots.
     pub fn bundle_count(&self) -> usize {
         self.order.len() / FAN
     }
@@ -87,16 +84,13 @@ pub struct Projected {
     pub before: [f32; 2],
     /// 1 / |e|, zero with e.
     pub inverse_length: f32,
-    /// Arc length along its vessel (mm).
     pub arc_length: f32,
-    /// The vessel.
     pub vessel: i32,
     /// Whether a wedge, a half-plane or a plane stands there.
     pub stands: bool,
 }
 
 impl Projected {
-    /// Whether a stripe begins at the point.
     #[inline(always)]
     pub fn has_stripe(&self) -> bool {
         self.inverse_length > 0.0
@@ -145,14 +139,11 @@ impl Radii {
 /// A level in one view; the buffers are kept from view to view.
 #[derive(Debug)]
 pub struct ProjectedLevel {
-    /// The slots in their order, vessel by vessel.
     pub projected: Vec<Projected>,
-    /// The projected slots in bundles.
     pub hierarchy: Hierarchy,
 }
 
 impl ProjectedLevel {
-    /// Buffers for `level`.
     pub fn new(level: &Level) -> Self {
         let along = level.arc_length.iter().zip(&level.vessel_of_slot);
         let place = |(arc_length, vessel): (&f32, &i32)| Projected {
@@ -174,7 +165,6 @@ impl ProjectedLevel {
         }
     }
 
-    /// Projects all slots of `level` into the view of `camera`.
     pub fn project(&mut self, level: &Level, camera: &Camera, radii: Radii) {
         for ((projected, point), radius) in self.projected.iter_mut().zip(&level.points).zip(&level.radii) {
             projected.point = camera.view_from_world(*point).as_vec3().to_array();

@@ -78,13 +78,11 @@ fn is_stripe(i: u32) -> bool {
     return any(projected[i].edge != vec2f(0.0));
 }
 
-// An integer with the order of the number.
 fn ordered(number: f32) -> u32 {
     let bits = bitcast<u32>(number);
     return select(bits | 0x80000000u, ~bits, (bits & 0x80000000u) != 0u);
 }
 
-// Finds the first and the last stripe of a vessel, or its nearest point if it has none.
 fn survey(span: Span, thread: u32) {
     if thread == 0u {
         atomicStore(&first_stripe, NOWHERE);
@@ -136,7 +134,6 @@ fn place(span: Span, i: u32) {
     projected[i].before = stands.xy;
     projected[i].stands = u32(stands.z);
     let stripe = is_stripe(i);
-    // A collinear segment keeps no extent: its other end has its own slot.
     let end = projected[select(i, i + 1u, stripe)];
     var slot: Slot;
     slot.start = here.point.xy;

@@ -8,7 +8,6 @@ use super::sampling::{Grid, PLACE_ROUNDING, Places, SampledRun};
 use crate::camera::Camera;
 use crate::volume::Volume;
 
-/// The columns and rows of a packet (pixels).
 pub(crate) const PACKET: [usize; 2] = [4, 4];
 /// Parts of a ray that are sampled or skipped together.
 pub const STEPS: usize = 8;
@@ -23,9 +22,7 @@ pub const SPARE: f64 = 1e-3;
 /// What all rays of a view share.
 #[derive(Clone, Copy, Debug)]
 pub struct Rays {
-    /// The grid of the volume.
     pub grid: Grid,
-    /// From view to index.
     pub(crate) index_from_view: IndexFromView,
     /// The longest part of a ray (mm).
     pub step: f64,
@@ -52,19 +49,16 @@ pub(crate) struct Packet {
     bounds: Bounds,
 }
 
-/// Bounds on a packet's numbers.
 #[derive(Clone, Copy, Debug, Default)]
 struct Bounds {
     foot: [[f64; 2]; 3],
     toward: [[f64; 2]; 3],
     near: [f64; 2],
     part: [f64; 2],
-    /// The largest depth where a ray ends.
     far: f64,
 }
 
 impl Packet {
-    /// Cuts `lines` within `grid` into parts of at most `step` mm.
     #[inline(always)]
     pub(crate) fn new(grid: &Grid, mut lines: Lines, step: f64) -> Self {
         lines.clip(grid);
@@ -128,7 +122,6 @@ impl Packet {
         self.between(grid, blocks, first, [first_part, end_part])
     }
 
-    /// The segment of `count` parts from `first` on, within bounds of the whole packet.
     #[inline(always)]
     pub(crate) fn whole_segment(
         &self,
@@ -171,7 +164,6 @@ impl Packet {
         Line { start: self.places(segment, 0.5), part: self.way(1.0) }
     }
 
-    /// The first `count` parts of a segment.
     #[inline(always)]
     pub(crate) fn stretch(&self, segment: &Segment, count: i32) -> RaySpan {
         let count = count as f32;
@@ -189,7 +181,6 @@ impl Packet {
         stretch
     }
 
-    /// The positions `parts` behind the beginning of a segment.
     #[inline(always)]
     fn places(&self, segment: &Segment, parts: f64) -> Places {
         let mut places = [[0.0; FAN]; 3];
@@ -215,7 +206,6 @@ impl Packet {
     }
 }
 
-/// Sixteen rays from the beginning of a segment on, counted from its base.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct RaySpan {
     /// Where they begin (voxels).
@@ -238,13 +228,11 @@ fn ends(numbers: &[f64; FAN]) -> [f64; 2] {
     [low, high]
 }
 
-/// Consecutive parts of a packet's rays.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Segment {
     pub first: i32,
     /// A voxel before all its samples.
     pub base: [i32; 3],
-    /// The values that its samples can have.
     pub range: Range,
 }
 

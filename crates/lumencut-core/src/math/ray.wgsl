@@ -5,7 +5,6 @@
 // The start of a ray that crosses the whole volume, and of one that is not needed (depth in mm).
 const WHOLE: f32 = -1e9;
 const NONE: f32 = 1e9;
-// Beyond both.
 const NEVER: f32 = 2e9;
 const SPARE: f32 = 1e-3;
 
@@ -23,11 +22,9 @@ struct Depth {
 
 struct Ray {
     foot: Foot,
-    // Where the first part begins.
     near: Depth,
     // The length of a part (mm).
     part: f32,
-    // The number of parts; 0 where the ray misses the volume.
     count: i32,
 }
 
@@ -68,7 +65,6 @@ fn place_at(foot: Foot, depth: Depth) -> Place {
     return Place(floor(foot.index) + floor(way), fract(foot.index) + fract(way) + rest);
 }
 
-// The later of two depths, axis by axis and then over all axes.
 fn latest(one: vec3f, rest: vec3f, start: Depth) -> Depth {
     var last = start;
     for (var a = 0; a < 3; a++) {
@@ -80,7 +76,6 @@ fn latest(one: vec3f, rest: vec3f, start: Depth) -> Depth {
     return last;
 }
 
-// The depths at which a ray meets a plane across each axis.
 fn coarse_meetings(foot: Foot, plane: vec3f) -> vec3f {
     return round((plane - foot.index) * grid.per_voxel.xyz * grid.per_unit) * grid.unit;
 }
@@ -91,7 +86,6 @@ fn rests(foot: Foot, plane: vec3f, at: vec3f) -> vec3f {
     return left * grid.per_voxel.xyz;
 }
 
-// The parts of a ray from depth `start` to depth `end`, no longer than a step.
 fn cut(foot: Foot, start: Depth, end: Depth, per_step: f32) -> Ray {
     let is_parallel = grid.per_voxel.xyz == vec3f();
     let first = vec3f(-0.5);

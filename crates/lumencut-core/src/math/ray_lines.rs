@@ -33,7 +33,6 @@ pub struct IndexFromView {
 }
 
 impl IndexFromView {
-    /// The map of one view of `volume`.
     pub fn new(volume: &Volume, camera: &Camera) -> Self {
         let index_from_world = volume.index_from_world();
         Self {
@@ -53,7 +52,6 @@ impl IndexFromView {
 /// The rays of a raster: one through each of its pixels.
 #[derive(Clone, Copy, Debug)]
 pub struct RayGrid {
-    /// Columns and rows.
     pub size: [usize; 2],
     /// View x and y of the first ray (mm).
     pub first: [f64; 2],
@@ -110,7 +108,6 @@ impl Lines {
         Self::of_view(to, &place, [near, far])
     }
 
-    /// The rays of a view at view coordinates `x` and `y` (mm), from depth `near` to depth `far`.
     #[inline(always)]
     fn of_view(to: &IndexFromView, [x, y]: &[[f64; FAN]; 2], [near, far]: [[f64; FAN]; 2]) -> Self {
         let mut lines = Self { foot: [[0.0; FAN]; 3], toward: [[0.0; FAN]; 3], near, far };
@@ -123,7 +120,6 @@ impl Lines {
         lines
     }
 
-    /// Restricts each ray to the volume's box.
     #[inline(always)]
     pub(crate) fn clip(&mut self, grid: &Grid) {
         let last = grid.last();

@@ -16,7 +16,6 @@ pub enum Reduction {
 }
 
 impl Reduction {
-    /// The reduction of a slab.
     pub fn of(mode: SlabMode) -> Self {
         match mode {
             SlabMode::Mean => Self::Mean,
@@ -25,12 +24,10 @@ impl Reduction {
         }
     }
 
-    /// The number that the shaders use.
     pub const fn code(self) -> u32 {
         self as u32
     }
 
-    /// A limit that no value reaches.
     pub(crate) fn no_limit(self) -> f32 {
         if self == Self::Smallest { -HUGE } else { HUGE }
     }

@@ -62,7 +62,6 @@ fn is_no_larger(range: vec2f, search: vec3f) -> bool {
     return min(top, search.y) <= search.z;
 }
 
-// Σ value · share of a stretch, and Σ share.
 fn sums_along(ray: Ray) -> vec2f {
     let way = ray.part * (grid.z.xyz + grid.z_rest.xyz);
     var sums = vec2f();

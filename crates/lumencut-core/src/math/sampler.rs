@@ -9,14 +9,11 @@ use crate::volume::Voxel;
 /// A volume of any voxel type on a chosen instruction set, so that ray code compiles once rather than per
 /// type.
 pub(crate) trait Sampler: Sync {
-    /// The volume at the samples of a segment of rays.
     fn along(&self, base: [i32; 3], line: &Line) -> [[f32; FAN]; STEPS];
-    /// The volume at the neighbours of sixteen positions.
     fn around(&self, base: [i32; 3], neighbours: &Around) -> [[f32; FAN]; 6];
     /// Raises the largest values of `sign` · volume along a stretch of rays; those above the limit count as
     /// the limit.
     fn widen(&self, base: [i32; 3], stretch: &RaySpan, sign_and_limit: [f32; 2], best: &mut [f32; FAN]);
-    /// Adds the integrals of the volume along a stretch of rays, and their lengths (mm).
     fn sum_up(&self, base: [i32; 3], stretch: &RaySpan, sums: &mut [[f64; FAN]; 2]);
 }
 
@@ -47,7 +44,6 @@ impl<T: Voxel> Sampler for TypedSampler<'_, T> {
     }
 }
 
-/// [`Grid::sample`] as a kernel.
 struct SampleRun<'a, T, P, const N: usize> {
     sampler: &'a TypedSampler<'a, T>,
     base: [i32; 3],

@@ -11,14 +11,12 @@ pub const PLACE_ROUNDING: f64 = 1e-3;
 /// The grid of a volume, prepared to find the voxels around a continuous index.
 #[derive(Clone, Copy, Debug)]
 pub struct Grid {
-    /// The last index along (i, j, k).
     last: [f64; 3],
     /// The last index that has a neighbour above it, and the distance in elements to that neighbour; both 0
     /// along an axis with one voxel.
     low: [usize; 3],
     step: [usize; 3],
     strides: [usize; 3],
-    /// Whether the voxels lie too far apart for offsets of 32 bits.
     wide: bool,
 }
 
@@ -28,7 +26,6 @@ pub type Places = [[f32; FAN]; 3];
 
 /// Positions to sample: sixteen at each of some steps.
 pub trait SampledRun {
-    /// The positions of step `n`, relative to a voxel before all of them.
     fn places(&self, n: usize) -> Places;
 }
 
@@ -61,7 +58,6 @@ impl SampledRun for Around {
 }
 
 impl Grid {
-    /// The grid of `volume`.
     pub fn new(volume: &Volume) -> Self {
         let (size, strides) = (volume.size(), volume.strides());
         let farthest: usize = (0..3).map(|a| (size[a] - 1) * strides[a]).sum();
@@ -117,7 +113,6 @@ impl Grid {
         interpolate(ends, weights.map(R::from_weight)).to_f32()
     }
 
-    /// [`Grid::trilinear`] at N times sixteen indices, given axis by axis.
     #[inline(always)]
     pub(crate) fn trilinear_lanes<T: Voxel, const N: usize>(
         &self,
@@ -226,7 +221,6 @@ impl Grid {
         self.wide
     }
 
-    /// The element of a voxel.
     #[inline(always)]
     pub fn offset_of(&self, voxel: [i32; 3]) -> usize {
         (0..3).map(|a| voxel[a] as usize * self.strides[a]).sum()
@@ -271,10 +265,8 @@ impl Grid {
 
 /// The distance of a voxel in elements.
 pub trait Offset: Copy + Default {
-    /// The distance of neighbours along an axis.
     fn stride(grid: &Grid, axis: usize) -> Self;
     fn plus(self, steps: i32, stride: Self) -> Self;
-    /// The distance as an index.
     fn elements(self) -> usize;
 }
 

@@ -46,7 +46,6 @@ struct Place {
     part: vec3f,
 }
 
-// The voxel before a position, and the weights of its neighbours.
 struct Cell {
     voxel: vec3i,
     share: vec3f,
@@ -64,7 +63,6 @@ fn is_outside(place: Place) -> bool {
     return any(above_first < vec3f()) || any(above_last > vec3f());
 }
 
-// The cell that holds a position; the outermost voxels extend beyond the outermost centres.
 fn cell_of(place: Place) -> Cell {
     let carry = floor(place.part);
     let whole = place.whole + carry;

@@ -12,7 +12,6 @@ pub(crate) const fn lane(r: usize, c: usize) -> usize {
     part * PART_PIXELS + r % PART_SIDE * PART_SIDE + c % PART_SIDE
 }
 
-/// The row and column of each lane's pixel: the inverse of [`lane`].
 pub(crate) const PLACE_OF_LANE: [(usize, usize); PIXELS] = {
     let mut places = [(0, 0); PIXELS];
     let mut n = 0;
@@ -67,7 +66,6 @@ pub struct Area {
     pub half: [f32; 2],
 }
 
-/// The pixel centres of a tile in view space (mm), lane by lane, and the boxes around them.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
 pub(crate) struct Tile {
@@ -75,7 +73,6 @@ pub(crate) struct Tile {
     pub y: [f32; PIXELS],
     pub area: Area,
     pub parts: [Area; PARTS],
-    /// Half the diagonal of the box.
     pub radius: f32,
     pub bits: Bits,
 }
@@ -108,7 +105,6 @@ impl Tile {
     }
 }
 
-/// The box around pixels whose columns and rows are evenly spaced.
 #[inline(always)]
 fn around(columns: &[f32], rows: &[f32]) -> Area {
     let middle = |values: &[f32]| (values[0] + values[values.len() - 1]) * 0.5;

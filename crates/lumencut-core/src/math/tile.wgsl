@@ -17,10 +17,8 @@ const TILES_ACROSS = 4u;
 // The pixel centres of a tile in view space (mm); pixels beyond the image repeat its last column and row.
 struct Tile {
     pixel: vec2u,
-    // The box around all pixels: its middle, and half its sides plus a bound on the rounding of the middle.
     center: vec2f,
     half: vec2f,
-    // Half the diagonal of the box.
     radius: f32,
 }
 

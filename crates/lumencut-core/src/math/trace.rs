@@ -9,7 +9,6 @@ use super::ray::{Packet, Rays, STEPS, Segment};
 use super::sampler::Sampler;
 use super::sampling::SampledRun;
 
-/// What rays run through.
 #[derive(Clone, Copy)]
 pub(crate) struct Passage<'a> {
     pub rays: &'a Rays,
@@ -19,7 +18,6 @@ pub(crate) struct Passage<'a> {
     pub shading: Option<Shading>,
 }
 
-/// Sixteen rays and what they have gathered.
 #[derive(Clone, Debug)]
 pub(crate) struct RayPacket<'a> {
     rays: Packet,

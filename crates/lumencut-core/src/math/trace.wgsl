@@ -30,7 +30,6 @@ fn trace(ray: Ray) -> vec4f {
     return finished(gathered);
 }
 
-// The first sample from `first` on that can change something; the search starts at blocks of `level`.
 fn skip(ray: Ray, way: vec3f, gathered: Gathered, first: i32, level: ptr<function, u32>) -> i32 {
     let coarsest = parameters.level_count - 1u;
     var n = first;

@@ -14,9 +14,7 @@ pub(crate) struct Rise {
     pub start: f32,
     /// Share of the rise per unit of intensity.
     pub per_intensity: f32,
-    /// Added colour.
     pub color: [f32; 3],
-    /// Added opacity.
     pub opacity: f32,
 }
 
@@ -37,7 +35,6 @@ impl Rise {
         larger(self.start.next_up(), self.start + 1.0 / self.per_intensity)
     }
 
-    /// The share of the rise below an intensity.
     #[inline(always)]
     fn share(&self, intensity: f32) -> f32 {
         smaller(larger((intensity - self.start) * self.per_intensity, 0.0), 1.0)
@@ -55,7 +52,6 @@ pub struct Colors {
 }
 
 impl Colors {
-    /// Prepares `function`.
     pub fn new(function: &TransferFunction) -> Self {
         let points = &function.points;
         Self {
@@ -72,12 +68,10 @@ impl Colors {
         (self.color, self.opacity)
     }
 
-    /// The rises.
     pub(crate) fn rises(&self) -> &[Rise] {
         &self.rises
     }
 
-    /// The ranges of intensity without opacity, by rising intensity.
     pub fn gaps(&self) -> &[Range] {
         &self.transparent
     }
@@ -88,7 +82,6 @@ impl Colors {
         self.last
     }
 
-    /// Whether every value of a range is fully transparent.
     #[inline(always)]
     pub(crate) fn is_transparent(&self, range: Range) -> bool {
         self.transparent.iter().any(|gap| range.low >= gap.low && range.high <= gap.high)

@@ -32,7 +32,6 @@ impl Stack {
         stack
     }
 
-    /// Pushes the nodes of one box set within `limit`, farthest first.
     #[inline(always)]
     pub(crate) fn push_nodes(
         &mut self,
@@ -54,7 +53,6 @@ impl Stack {
         }
     }
 
-    /// Takes the nearest node: its bound, its height and its index there.
     #[inline(always)]
     pub(crate) fn pop(&mut self) -> Option<(f32, u32, u32)> {
         self.length = self.length.checked_sub(1)?;
@@ -91,7 +89,6 @@ impl Seeds {
     }
 }
 
-/// Finds the winner of every wanted pixel of the tile among all pieces of the hierarchy.
 #[inline(always)]
 pub(crate) fn lowest_keys<const LUMEN_FIRST: bool>(
     hierarchy: &Hierarchy,

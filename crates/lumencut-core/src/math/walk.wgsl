@@ -3,14 +3,12 @@
 // import math/pieces
 // import math/candidates
 
-// The smallest key that a node's pieces can reach in the tile.
 fn node_bound(tile: Tile, level: u32, node: Node) -> f32 {
     let around = boxes[box_of(level, node)];
     let away = sqrt(squared_distance(tile, around.low, around.high));
     return key_bound(around.z, away, around.radius, around.tiers);
 }
 
-// The node with the lowest bound among a node and its later siblings.
 fn most_promising(tile: Tile, level: u32, first: Node) -> Node {
     var best = first;
     var least = ABSENT;
@@ -32,7 +30,6 @@ fn promising_bundle(tile: Tile, level: u32) -> u32 {
     return node.index;
 }
 
-// The next bundle, from a node on, that can hold a winner; beyond the last node if there is none.
 fn next_bundle(tile: Tile, level: u32, first: Node, limit: f32) -> Node {
     var node = first;
     while !is_beyond(level, node) {
@@ -69,7 +66,6 @@ fn offer_bundle(tile: Tile, bundle: u32, limit: f32) -> f32 {
     return key_limit(largest(winner_key));
 }
 
-// Finds the winner of every wanted pixel of the tile among all pieces of a level.
 fn lowest_keys(tile: Tile, level: u32) {
     let first_bundle = parameters.levels[level].first_bundle;
     let seed = promising_bundle(tile, level);

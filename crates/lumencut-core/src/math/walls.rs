@@ -85,8 +85,6 @@ pub(crate) fn nearest_walls<const OF_FIRST: bool>(
     }
 }
 
-/// The smallest distance (mm) of a pixel of the tile from the wall of each segment; [`ABSENT`] for one that
-/// does not count.
 #[inline(always)]
 fn segment_bounds<const OF_FIRST: bool>(bundle: &Bundle, tile: &Tile, slack: f32) -> [f32; FAN] {
     let [cx, cy] = tile.area.center;
@@ -100,8 +98,6 @@ fn segment_bounds<const OF_FIRST: bool>(bundle: &Bundle, tile: &Tile, slack: f32
 }
 
 impl Boxes {
-    /// The smallest distance (mm) of a pixel of the tile from the walls within each node; [`ABSENT`] where
-    /// none counts.
     #[inline(always)]
     fn wall_bounds<const OF_FIRST: bool>(&self, tile: &Tile, slack: f32) -> [f32; FAN] {
         let mut bounds = self.squared_distances(&tile.area);

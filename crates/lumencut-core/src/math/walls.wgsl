@@ -30,7 +30,6 @@ fn lower_beyond(slot: Slot) {
     }
 }
 
-// The smallest distance of a pixel of the tile from the walls within a node; ABSENT where none counts.
 fn wall_bound(tile: Tile, node: Node, of_first: bool) -> f32 {
     let around = boxes[box_of(0u, node)];
     if of_first && around.tiers <= 0.0 {
@@ -39,7 +38,6 @@ fn wall_bound(tile: Tile, node: Node, of_first: bool) -> f32 {
     return sqrt(squared_distance(tile, around.low, around.high)) - around.radius - parameters.distance_slack;
 }
 
-// The next bundle, from a node on, that can lower a distance; beyond the last node if there is none.
 fn next_walls(tile: Tile, first: Node, limit: f32, of_first: bool) -> Node {
     var node = first;
     while !is_beyond(0u, node) {
@@ -68,8 +66,6 @@ fn meet_walls(tile: Tile, bundle: u32, limit: f32, of_first: bool) {
     }
 }
 
-// Finds the distance of every pixel of the tile from the wall of its nearest vessel, or chosen vessel. The
-// search ends beyond `far`, and once all pixels are nearer than `near`.
 fn nearest_walls(tile: Tile, near: f32, far: f32, of_first: bool) {
     for (var q = 0u; q < ACROSS * ROWS; q++) {
         beyond[q] = vec4f(FAR);

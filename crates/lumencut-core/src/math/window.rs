@@ -19,7 +19,6 @@ impl Ramp {
         Self { scale: (1.0 / span) as f32, offset: (-zero / span) as f32 }
     }
 
-    /// Grey of a window.
     pub(crate) fn grey(window: Window) -> Self {
         Self::between(window.level - window.width / 2.0, window.level + window.width / 2.0)
     }
@@ -29,7 +28,6 @@ impl Ramp {
         opacity.map_or(Self { scale: 0.0, offset: 1.0 }, |o| Self::between(o.transparent, o.opaque))
     }
 
-    /// The intensity at which the ramp begins to rise from 0.
     pub(crate) fn zero(&self) -> f32 {
         -self.offset / self.scale
     }

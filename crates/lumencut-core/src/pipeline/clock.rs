@@ -5,7 +5,6 @@ use web_time::Instant;
 use crate::frame::Timing;
 use crate::stages::Stage;
 
-/// The time since the last stage ended, and the times of all stages.
 pub(super) struct Clock {
     last: Instant,
     pub timings: Vec<Timing>,
@@ -16,7 +15,6 @@ impl Clock {
         Self { last: Instant::now(), timings: Vec::new() }
     }
 
-    /// Records the end of a stage.
     pub(super) fn lap(&mut self, stage: Stage) {
         let now = Instant::now();
         let milliseconds = (now - self.last).as_secs_f64() * 1e3;

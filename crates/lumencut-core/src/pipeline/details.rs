@@ -20,7 +20,6 @@ pub struct SurfaceDetails {
 impl SurfaceDetails {
     pub(super) const WANTED: ImageSet = ImageSet::of(&[Image::Sheet, Image::Leap]);
 
-    /// The details of a view whose request asks for [`SurfaceDetails::WANTED`].
     pub(super) fn of(pass: &CutSurfacePass) -> Result<Self> {
         let (settings, mut images) = (pass.settings, Images::default());
         for stage in Stage::of_cut_surface(settings, Self::WANTED) {

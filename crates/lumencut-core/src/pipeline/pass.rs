@@ -27,7 +27,6 @@ pub(crate) struct CutSurfacePass<'a> {
     pub surface: CutSurface<'a>,
     /// Whether the stage `depth` writes the sheet.
     pub has_sheet: bool,
-    /// The images that the frame shall have.
     pub wanted: ImageSet,
     pub settings: &'a Settings,
 }
@@ -90,14 +89,12 @@ impl CutSurfacePass<'_> {
 
 /// What the stages that show the volume share.
 #[derive(Clone, Copy)]
+#[doc(hidden)]
 pub struct LookPass<'a> {
     /// Pixels, instruction set, and whether to stop.
     pub work: Work<'a>,
-    /// The volume.
     pub volume: &'a SharedVolume<'a>,
-    /// How it is shown.
     pub settings: &'a Settings,
-    /// The positions of the pixels.
     pub geometry: &'a Geometry,
     /// The vessel of each pixel; empty if unknown.
     pub vessel: &'a [i32],
@@ -155,7 +152,6 @@ impl LookPass<'_> {
         Ok(())
     }
 
-    /// Where the rays start, and the volume's blocks if any ray does.
     fn blocks(&self, images: &mut Images) -> Result<()> {
         self.starts(images)?;
         if has_rays(&images.start) { self.volume.blocks(self.work.stop).map(drop) } else { Ok(()) }
@@ -212,7 +208,6 @@ impl LookPass<'_> {
     }
 }
 
-/// The input of silhouettes.
 pub(super) struct Lines<'a> {
     pub depth: &'a [f32],
     pub vessel: &'a [i32],
@@ -226,7 +221,6 @@ impl<'a> Lines<'a> {
         Self { depth: frame.depth(), vessel: &frame.vessel, leap: &frame.leap, value: &[] }
     }
 
-    /// The strength of the silhouettes by the rule of the settings.
     pub(super) fn strength(&self, work: &Work, settings: &Settings, camera: &Camera) -> Result<Vec<f32>> {
         let (mut strength, parameters) =
             (vec![0.0; work.pixels()], SilhouetteParameters::new(settings, camera));

@@ -11,7 +11,6 @@ use crate::math::place_map::PlaceMap;
 use crate::math::projection::Level;
 use crate::math::same_place::VESSEL_END;
 
-/// A point where a vessel meets others.
 #[derive(Clone, Copy, Debug)]
 struct Meeting {
     vessel: u32,
@@ -33,9 +32,7 @@ const MOST_KEPT: usize = 1 << 24;
 /// Where the vessels of a tree meet: wherever one of them ends at a point of another.
 #[derive(Debug)]
 pub struct Connections {
-    /// In the order of vessels and along them.
     meetings: Vec<Meeting>,
-    /// The first meeting of each vessel, and the number of meetings at the end.
     first_of_vessel: Vec<u32>,
     of_junction: Vec<Vec<u32>>,
     /// The meetings reachable from each junction, computed on first use, and their number so far.
@@ -170,7 +167,6 @@ impl Ends {
         ends
     }
 
-    /// Adds an end as a new junction, unless there is one.
     fn add(&mut self, end: DVec3) {
         if self.at(end).is_none() {
             self.places.add(end, &self.count);

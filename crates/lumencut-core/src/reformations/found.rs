@@ -13,7 +13,6 @@ use crate::stages::{Stage, Work};
 /// The vessel of a pixel that shows none.
 pub const NO_VESSEL: i32 = -1;
 
-/// What a pixel shows.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Place {
     pub depth: f32,
@@ -48,7 +47,6 @@ impl Found {
         }
     }
 
-    /// The frame of the view, with leaps if silhouettes need them.
     pub(super) fn into_frame(self, request: &Request) -> Result<Frame> {
         let &Request { camera, settings, images, .. } = request;
         let mut leaps = Vec::new();

@@ -76,7 +76,6 @@ pub(super) fn curved_by_rows(
 /// Tolerance for a length that is a whole number of pixels.
 const WHOLE: f64 = 1e-9;
 
-/// The whole pixels with a side of `pixel_spacing` (mm) that fit into a length (mm).
 pub(super) fn whole_pixels(length: f64, pixel_spacing: f64) -> f64 {
     (length / pixel_spacing + WHOLE).floor()
 }

@@ -52,7 +52,6 @@ pub fn mpcpr(tree: &LeveledTree, request: &Request) -> Result<Frame> {
     found.into_frame(request)
 }
 
-/// A point of a centerline in view space (mm).
 #[derive(Clone, Copy)]
 struct Point {
     x: f64,
@@ -62,7 +61,6 @@ struct Point {
     vessel: i32,
 }
 
-/// The centerlines of a tree in view space.
 struct Lines {
     points: Vec<Point>,
     /// The smallest and largest y of the segments that start in each block of points.
@@ -124,7 +122,6 @@ impl Lines {
     }
 }
 
-/// A point at which a row crosses a vessel.
 #[derive(Clone, Copy)]
 struct Crossing {
     x: f64,
@@ -142,7 +139,6 @@ struct Crossing {
 }
 
 impl Crossing {
-    /// The point of the segment from `a` to `b` at view `y`.
     fn new(a: &Point, b: &Point, slot: usize, y: f64) -> Self {
         let [dx, dy, dz] = [b.x - a.x, b.y - a.y, b.z - a.z];
         let t = (y - a.y) / dy;
@@ -171,7 +167,6 @@ impl Crossing {
     }
 }
 
-/// A segment that lies within a row.
 struct Run {
     a: Point,
     b: Point,
@@ -200,7 +195,6 @@ impl Run {
     }
 }
 
-/// Where one row crosses the vessels.
 #[derive(Default)]
 struct Row {
     /// Once finished: from left to right, with one point per x.
@@ -211,7 +205,6 @@ struct Row {
 }
 
 impl Row {
-    /// Marks vessels with several points in the row, and sorts the points.
     fn finish(&mut self) {
         for group in self.crossings.chunk_by_mut(|a, b| a.vessel == b.vessel) {
             let vessel = group[0].vessel;

@@ -71,7 +71,6 @@ impl Segments {
         (best.0 != usize::MAX).then_some(best)
     }
 
-    /// The segments within `limit` (mm), in their order.
     pub(super) fn within(&self, point: DVec3, limit: f64) -> Vec<usize> {
         let mut found = Vec::new();
         self.visit(

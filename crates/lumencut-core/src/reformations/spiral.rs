@@ -105,7 +105,6 @@ impl SpiralParameters {
         self.pitch / PI
     }
 
-    /// Number of pixels on each side of the middle.
     fn half(&self) -> f64 {
         let outermost = self.radius / self.rate();
         let length = match self.sampling {
@@ -115,7 +114,6 @@ impl SpiralParameters {
         whole_pixels(length, self.pixel_spacing)
     }
 
-    /// The length of a spiral from the middle to an angle.
     fn length(&self, angle: f64) -> f64 {
         self.rate() / 2.0 * (angle * angle.hypot(1.0) + angle.asinh())
     }
@@ -128,7 +126,6 @@ impl SpiralParameters {
         })
     }
 
-    /// The angle along the spiral this many pixels from the middle.
     fn along(&self, pixels: f64) -> f64 {
         let length = pixels.abs() * self.pixel_spacing;
         match self.sampling {

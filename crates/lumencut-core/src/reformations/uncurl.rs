@@ -70,7 +70,6 @@ impl Uncurl {
         self.feet.places().iter().fold(DVec2::ZERO, |extent, place| extent.max(place.abs()))
     }
 
-    /// The world position and the slab direction of a foot's pixel.
     fn look(&self, foot: &Foot) -> (DVec3, DVec3) {
         let from_bent = self.bent.true_from_bent(foot.at);
         let aside = self.camera.right() * foot.aside.x + self.camera.up() * foot.aside.y;
@@ -86,13 +85,11 @@ impl Uncurl {
         foot.aside.length_squared() <= self.reach * self.reach
     }
 
-    /// The image position (mm) of a pixel with fractions.
     fn place(&self, pixel: DVec2) -> DVec2 {
         let side = self.camera.pixel_spacing();
         DVec2::new(self.camera.view_x(0) + pixel.x * side, self.camera.view_y(0) - pixel.y * side)
     }
 
-    /// A function of the foot of each pixel that shows something, and `nothing` for others.
     fn each<T: Send + Clone + Sync>(
         &self,
         nothing: T,
@@ -193,8 +190,6 @@ impl Uncurl {
         found.into_iter().filter(|(_, depth)| depth.abs() <= ON_PICTURE).map(|(foot, _)| foot).collect()
     }
 
-    /// A world point seen from a point of the vessel in the bent surroundings, and how much deeper it lies
-    /// (mm).
     fn seen(&self, point: DVec3, segment: usize, at: f64) -> (Foot, f64) {
         let [start, end] = [self.feet.places()[segment], self.feet.places()[segment + 1]];
         let ends = &self.path.arc_length()[segment..];

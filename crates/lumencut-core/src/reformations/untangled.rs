@@ -119,7 +119,6 @@ pub struct Untangled {
     /// Width and height of all that is shown (mm).
     extent: DVec2,
     size: [usize; 2],
-    /// The segment that each pixel shows.
     segments: Arc<OnceLock<Vec<u32>>>,
 }
 
@@ -275,18 +274,15 @@ impl Untangled {
         [at(piece, usize::from(!growth.is_reversed[piece])), at(there, end)]
     }
 
-    /// Converts an image position from mm to pixels.
     fn pixel(&self, seen: DVec2) -> DVec2 {
         let from = (seen - self.origin) / self.parameters.pixel_spacing;
         DVec2::new(from.x, -from.y)
     }
 
-    /// Converts an image position from pixels to mm.
     fn seen(&self, pixel: DVec2) -> DVec2 {
         self.origin + DVec2::new(pixel.x, -pixel.y) * self.parameters.pixel_spacing
     }
 
-    /// The segment that each pixel shows, computed at the first call.
     fn segments(&self, stop: Stop) -> Result<&[u32]> {
         // Computed outside the lock: a pool thread waiting for its part could wait for itself.
         if let Some(known) = self.segments.get() {
@@ -304,7 +300,6 @@ impl Untangled {
         Ok(self.segments.get_or_init(|| segments))
     }
 
-    /// Finds the segments of a square of pixels; `rows` begin with its first row.
     fn fill_tile(&self, [first, top]: [usize; 2], rows: &mut [u32]) {
         let width = self.size[0];
         let side = (TILE - 1) as f64 / 2.0;

@@ -57,7 +57,6 @@ impl Wall {
         self.open[row * self.directions + column]
     }
 
-    /// The rows around an arc length, and its share between them (0 to 1).
     fn rows(&self, at: f64) -> ([usize; 2], f64) {
         if self.at.len() == 1 {
             return ([0, 0], 0.0);

@@ -69,7 +69,6 @@ impl ContextChoices {
         }
     }
 
-    /// Rejects a gamma for a context that has none.
     fn check_gamma(&self) -> Result<()> {
         let gamma = self.context_gamma;
         if gamma == 0.0 || self.context == Some(ContextName::Mida) {
@@ -82,7 +81,6 @@ impl ContextChoices {
         Err(Error::new(ErrorKind::Settings, "context_gamma", found, expected))
     }
 
-    /// Rejects a step for a context that takes no samples.
     fn check_step(&self) -> Result<()> {
         let (Some(step), Some(name)) = (self.context_step, self.context) else { return Ok(()) };
         if name.mode(self.context_gamma).is_sampled() {

@@ -14,7 +14,6 @@ pub(super) trait Field: Sized {
     /// Whether hosts may leave it open with [`Value::None`].
     const OPTIONAL: bool = false;
 
-    /// The valid names of it, or of a part of it.
     fn choices() -> Vec<&'static str> {
         Vec::new()
     }

@@ -7,7 +7,6 @@ use crate::named::Named;
 
 const OPACITY: Limits = Limits::new(0.0, 1.0, "per mm");
 
-/// The most control points of a transfer function.
 pub(crate) const MAX_POINTS: usize = 64;
 
 /// Colour and opacity at one intensity.

@@ -37,7 +37,6 @@ pub(crate) trait RaySource: Sync {
 
 /// The parallel rays of a view, each between the two depths that `chord` returns for its pixel (mm).
 pub struct ViewRays<F> {
-    /// From view to index.
     pub to: IndexFromView,
     /// The raster of the rays.
     pub rays: RayGrid,
@@ -52,7 +51,12 @@ impl<F: Fn(usize) -> [f64; 2] + Sync> RaySource for ViewRays<F> {
 }
 
 /// Writes the value of each ray; NaN where it meets no value.
-pub(crate) fn along_rays(work: &Work, along: &AlongRays, source: &dyn RaySource, values: &mut [f32]) -> Result<()> {
+pub(crate) fn along_rays(
+    work: &Work,
+    along: &AlongRays,
+    source: &dyn RaySource,
+    values: &mut [f32],
+) -> Result<()> {
     let (grid, isa, width) = (Grid::new(along.volume), work.isa, along.size[0]);
     with_voxels!(along.volume.voxels(), voxels => {
         let sampler: &dyn Sampler = &TypedSampler { grid, voxels, isa };
@@ -77,13 +81,11 @@ const PARTS: i32 = 8;
 /// Columns between two checks for stop.
 const TILE: usize = 32;
 
-/// A square of pixels in some rows of the image.
 struct Square<'a> {
     along: &'a AlongRays<'a>,
     grid: Grid,
     sampler: &'a dyn Sampler,
     source: &'a dyn RaySource,
-    /// The first of the rows, and the position of the square in them.
     row: usize,
     place: [usize; 2],
     values: &'a mut [f32],

@@ -27,15 +27,11 @@ pub struct Layers<'a> {
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
 pub struct CompositeParameters {
-    /// The background.
     pub background: [f32; 4],
-    /// The silhouettes.
     pub line: [f32; 3],
     /// Factor on the colours of the context.
     pub context: f32,
-    /// The values from black to white.
     pub(crate) grey: Ramp,
-    /// The values from transparent to opaque.
     pub(crate) opacity: Ramp,
 }
 
@@ -67,7 +63,6 @@ pub fn composite(
     })
 }
 
-/// The pixels of a layer from `first` on, or as many of its stand-in.
 fn part<'a, T>(layer: Option<&'a [T]>, instead: &'a [T], first: usize, count: usize) -> &'a [T] {
     layer.map_or_else(|| &instead[..count], |layer| &layer[first..][..count])
 }
@@ -85,7 +80,6 @@ pub fn layer(work: &Work, colors: &[[f32; 4]], image: &mut [[u8; 4]]) -> Result<
 }
 
 impl CompositeParameters {
-    /// The colours of `settings`.
     pub fn new(settings: &Settings) -> Self {
         let unit = |color: &u8| f32::from(*color) / 255.0;
         let strength = settings.context.as_ref().map_or(1.0, |context| context.strength);

@@ -3,13 +3,10 @@
 // import math/view
 // import math/window
 
-// Without silhouettes their binding is empty.
+// The bindings of missing layers are empty.
 override HAS_STRENGTH = true;
-// Without a focus its binding is empty.
 override HAS_FOCUS = false;
-// Without a context its binding is empty.
 override HAS_CONTEXT = true;
-// Without a cut surface its binding is empty.
 override ALONE = false;
 
 // The colours of one picture, 0 to 1; composite.rs explains the fields.
@@ -21,14 +18,12 @@ struct CompositeParameters {
     opacity: vec2f,
 }
 
-// Premultiplied colours and opacity.
 @group(0) @binding(1) var<storage, read> context: array<vec4f>;
 // RGBA with straight alpha, a byte each, red lowest.
 @group(0) @binding(2) var<storage, read_write> image: array<u32>;
 @group(0) @binding(3) var<storage, read> parameters: CompositeParameters;
 @group(0) @binding(4) var<storage, read> value: array<f32>;
 @group(0) @binding(5) var<storage, read> strength: array<f32>;
-// How much of the surface and of its silhouettes is shown, 0 to 1.
 @group(0) @binding(6) var<storage, read> focus: array<vec2f>;
 
 // The nearest integer to a value of at most a little over 255; ties go to the even one.
@@ -36,7 +31,6 @@ fn byte(value: f32) -> u32 {
     return u32(round(min(value, 255.0)));
 }
 
-// RGBA with straight alpha of a premultiplied colour; with opacity 0 the colour is `behind`.
 fn straight(pixel: vec4f, behind: vec3f) -> u32 {
     let any = pixel.w > 0.0;
     let per_alpha = 255.0 / select(1.0, pixel.w, any);

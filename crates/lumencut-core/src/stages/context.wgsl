@@ -11,7 +11,6 @@ const AVERAGE = 3u;
 
 override MODE: u32 = 0u;
 
-// One ray for each square of four pixels.
 override PREVIEW: bool = false;
 
 // Without a focus its binding is empty.
@@ -19,17 +18,13 @@ override HAS_FOCUS: bool = false;
 // Whether rays start at the cut surface where not all of it is shown; else in front of the volume.
 override FROM_CUT: bool = true;
 
-// A start in front of the volume while the pixels of a square are compared: later than behind every cut
-// surface, sooner than nowhere.
+// See raster.rs.
 const IN_FRONT: f32 = NONE / 2.0;
 
-// Bindings of the first pass.
 @group(0) @binding(2) var<storage, read> value: array<f32>;
 @group(0) @binding(3) var<storage, read> depth: array<f32>;
 @group(0) @binding(4) var<storage, read_write> start_image: array<f32>;
-// How much of the cut surface and of its silhouettes is shown, 0 to 1.
 @group(0) @binding(5) var<storage, read> focus: array<vec2f>;
-// Bindings of the second pass.
 @group(0) @binding(5) var<storage, read> start: array<f32>;
 @group(0) @binding(6) var<storage, read_write> context_image: array<vec4f>;
 
@@ -70,8 +65,6 @@ fn ray_from(n: vec2f, start: f32) -> vec4f {
     }
 }
 
-// A square of four pixels: its ray starts at the nearest start behind a cut surface, so that none of them
-// shows what lies before its own; else in front of the volume, if one of them starts there.
 fn square(first: vec2u) {
     var nearest = NONE;
     for (var n = 0u; n < 4u; n++) {

@@ -55,12 +55,10 @@ impl<'a> CutSurface<'a> {
         }
     }
 
-    /// The view.
     pub fn camera(&self) -> &'a Camera {
         self.camera
     }
 
-    /// The finest level in projection.
     pub fn finest(&self) -> &'a Hierarchy {
         self.hierarchy(0)
     }
@@ -75,7 +73,6 @@ impl<'a> CutSurface<'a> {
         &self.projected[level].hierarchy
     }
 
-    /// The pieces of a level in the order of its vessels.
     #[inline(always)]
     pub(crate) fn own_pieces(&self, level: usize) -> OwnPieces<'_> {
         OwnPieces {
@@ -86,7 +83,6 @@ impl<'a> CutSurface<'a> {
     }
 }
 
-/// How the pieces that a tile shows are found.
 pub(crate) trait Search {
     fn lowest<const LUMEN_FIRST: bool>(
         &mut self,
@@ -96,7 +92,6 @@ pub(crate) trait Search {
         envelope: &mut Envelope,
     );
 
-    /// The pieces of one level that belong to the vessels already decided.
     fn own<const SHEET: bool>(&mut self, pieces: OwnPieces, part: &Part, nearest: &mut NearestPieces);
 }
 

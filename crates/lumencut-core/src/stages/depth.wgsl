@@ -3,7 +3,6 @@
 // import math/walk
 // import math/own_pieces
 
-// The gap in a sheet where a chosen vessel takes precedence.
 const FIRST: f32 = -1.0;
 
 override HAS_SHEET: bool = false;
@@ -26,8 +25,6 @@ var<private> sheets: array<array<vec4f, QUAD>, MAX_QUADS>;
 var<private> finer_vessel: array<vec4u, MAX_QUADS>;
 var<private> finer_arc_length: array<vec4f, MAX_QUADS>;
 
-// Level selection at the distances of the tile: f = √(N·D/σ) between ⌊f⌋ and ⌊f⌋ + 1, N beyond. Bit k is set
-// if a pixel needs level k.
 fn select_levels(tile: Tile) -> u32 {
     var needed = vec4u(0u);
     for (var r = 0u; r < ROWS; r++) {
@@ -51,13 +48,11 @@ fn distances_at(tile: Tile, a: u32, r: u32) -> vec4f {
     return distances;
 }
 
-// The weights of level `k` in a quad; 0 where it is not needed.
 fn weights(q: u32, k: f32) -> vec4f {
     let coarse = select(vec4f(0.0), coarse_weight[q], fine_level[q] + 1.0 == vec4f(k));
     return select(coarse, 1.0 - coarse_weight[q], fine_level[q] == vec4f(k));
 }
 
-// No winner yet where a level has weight; excluded elsewhere.
 fn begin(k: f32) {
     for (var q = 0u; q < ACROSS * ROWS; q++) {
         winner_key[q] = select(vec4f(SETTLED), vec4f(UNSET), weights(q, k) > vec4f(0.0));
@@ -78,7 +73,6 @@ fn blend(level: u32) {
     }
 }
 
-// Adds a level to the sheets by its weights, finest first.
 fn add_to_sheets(tile: Tile, level: u32) {
     for (var r = 0u; r < ROWS; r++) {
         for (var a = 0u; a < ACROSS; a++) {
@@ -110,7 +104,6 @@ fn add_to_sheets(tile: Tile, level: u32) {
     }
 }
 
-// The paper's way: at each level the piece with the smallest key, of any vessel.
 @compute @workgroup_size(TILES)
 fn nearest(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) thread: u32) {
     let tile = tile_at(group.xy, thread);
@@ -144,7 +137,6 @@ fn nearest(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index)
     }
 }
 
-// One decision: the winner on the finest level decides the vessel; only its levels are blended.
 fn blend_own(place: u32, decision: Decision, z: f32, q: vec2f) {
     let f = min(sqrt(parameters.selection * decision.beyond_wall), f32(parameters.coarsest));
     let fine = floor(f);

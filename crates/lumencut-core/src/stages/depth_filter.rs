@@ -15,7 +15,6 @@ const SPAN: usize = 2 * REACH + 1;
 /// The zone of pixels beyond the image, different from that of any vessel.
 const OUTSIDE: i32 = i32::MIN;
 
-/// The parameters of the stage.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
 pub struct DepthFilterParameters {
@@ -23,9 +22,7 @@ pub struct DepthFilterParameters {
     pub weights: [f32; REACH + 1],
     /// Within zones: the largest deviation of a pair of neighbours from a straight line (mm).
     pub leap: f32,
-    /// Pads the structure to a multiple of 16 bytes.
     pub padding: f32,
-    /// Padding.
     pub more_padding: [f32; 2],
 }
 

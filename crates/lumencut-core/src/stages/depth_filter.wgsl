@@ -6,9 +6,7 @@
 override DOWN: bool = true;
 
 struct DepthFilterParameters {
-    // From the middle outwards.
     weights: vec4f,
-    // Within zones: the largest deviation of a pair of neighbours from a straight line (mm).
     leap: f32,
     padding: f32,
     more_padding: vec2f,
@@ -20,7 +18,6 @@ struct DepthFilterParameters {
 // Read only within zones.
 @group(0) @binding(4) var<storage, read> vessel: array<i32>;
 
-// The image, extended by its border pixels.
 fn continued(column: i32, row: i32) -> f32 {
     let last = vec2i(view.size) - 1;
     return image[place_of(vec2u(clamp(vec2i(column, row), vec2i(0), last)))];

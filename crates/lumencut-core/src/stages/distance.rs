@@ -21,9 +21,7 @@ pub fn distance(work: &Work, surface: &CutSurface, distance: &mut [f32]) -> Resu
     })
 }
 
-/// How the distances of one tile are found.
 pub(crate) trait Measure {
-    /// Lowers the squared distances (mm²) to those of the nearest segments.
     fn lower(&mut self, tile: &Tile, squared: &mut [f32; PIXELS]);
 }
 

@@ -22,7 +22,6 @@ fn nearest_node(tile: Tile, first: Node) -> Node {
     return nearest;
 }
 
-// A bundle near the tile: from the root to the nearest box of each height.
 fn near_bundle(tile: Tile) -> u32 {
     var node = nearest_node(tile, first_node(0u));
     while node.height > 0u {
@@ -48,7 +47,6 @@ fn next_bundle(tile: Tile, first: Node, limit: f32) -> Node {
     return node;
 }
 
-// Meets the segments of a bundle that can lower a distance; returns the largest remaining squared distance.
 fn meet(tile: Tile, bundle: u32, limit: f32) -> f32 {
     // No pixel is farther than the radius from the middle.
     let reach = sqrt(limit) + tile.radius + slack(tile);
@@ -73,7 +71,6 @@ fn distance(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index
     for (var q = 0u; q < ACROSS * ROWS; q++) {
         least_square[q] = vec4f(UNSET);
     }
-    // A near bundle first, and then all others that matter.
     var limit = meet(tile, near_bundle(tile), FAR * FAR);
     var node = next_bundle(tile, first_node(0u), limit);
     while !is_beyond(0u, node) {

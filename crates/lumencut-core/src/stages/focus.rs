@@ -20,7 +20,6 @@ const HARD: f64 = 1e20;
 /// Minimum width of a fade (pixels): a narrower one would show steps.
 const NARROWEST: f64 = 2.0;
 
-/// The parameters of the stage.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
 pub struct FocusParameters {
@@ -34,7 +33,6 @@ pub struct FocusParameters {
     pub far: f32,
     /// The share that remains around the other vessels if some are chosen, 0 to 1.
     pub others: f32,
-    /// Pads the structure to a multiple of 8 bytes.
     pub padding: f32,
 }
 
@@ -132,7 +130,6 @@ fn tiles_with_lines(leap: &[u32], width: usize, row: usize) -> Vec<bool> {
 struct FocusRow<'a> {
     surface: &'a CutSurface<'a>,
     parameters: &'a FocusParameters,
-    /// Whether a line can lie in each tile; empty if unknown.
     has_lines: &'a [bool],
     row: usize,
     pixels: &'a mut [Shares],

@@ -16,7 +16,6 @@ struct FocusParameters {
 
 var<private> shown: array<array<vec2f, QUAD>, MAX_QUADS>;
 
-// The shares of the cut surface and of its silhouettes at a distance (mm) from the wall, 0 to 1.
 fn shares(beyond_wall: f32) -> vec2f {
     let past = (max(beyond_wall, 0.0) - focus_parameters.margin) * focus_parameters.per_fade;
     let away = clamp(past, vec2f(0.0), vec2f(1.0));

@@ -14,7 +14,6 @@ use crate::math::leaps::{DOWNWARDS, LINE_DOWNWARDS, LINE_TO_THE_RIGHT, LUMEN, TO
 /// The smallest leap (mm), for vessels whose diameter is smaller.
 pub const SMALLEST_LEAP: f32 = 2.0;
 
-/// The parameters of the stage.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
 pub struct LeapParameters {
@@ -23,7 +22,6 @@ pub struct LeapParameters {
 }
 
 impl LeapParameters {
-    /// The parameters of a view.
     pub fn new(camera: &Camera) -> Self {
         Self { pixel_spacing: camera.pixel_spacing() as f32 }
     }
@@ -53,7 +51,6 @@ pub fn leap(
     })
 }
 
-/// The surface to search for leaps.
 #[derive(Clone, Copy)]
 struct Surface<'a> {
     depth: &'a [f32],
@@ -128,14 +125,12 @@ fn whole<T>(row: &[T], i: usize) -> Option<&[T; FAN]> {
     row.get(i..).and_then(|rest| rest.first_chunk())
 }
 
-/// Sixteen pixels of a row, field by field.
 struct Strip {
     z: [f32; FAN],
     slope: [[f32; FAN]; 2],
     /// The smallest change that counts as a leap (mm).
     threshold: [f32; FAN],
     is_lumen: [bool; FAN],
-    /// Whether a chosen vessel takes precedence.
     is_first: [bool; FAN],
 }
 

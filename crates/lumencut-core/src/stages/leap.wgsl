@@ -14,8 +14,6 @@ struct LeapParameters {
 @group(0) @binding(3) var<storage, read> sheet: array<vec4f>;
 @group(0) @binding(4) var<storage, read_write> leap_image: array<u32>;
 
-// Whether a change of depth over a step (view x and y, mm) differs from what the slope of a sheet predicts;
-// `ends_first`: a chosen vessel with precedence ends there.
 fn is_off(change: f32, sheet: vec4f, step: vec2f, ends_first: bool) -> bool {
     let expected = sheet.x * step.x + sheet.y * step.y;
     return abs(change - expected) > select(max(2.0 * abs(sheet.z), SMALLEST_LEAP), SMALLEST_LEAP, ends_first);
@@ -42,7 +40,6 @@ fn leap(@builtin(global_invocation_id) thread: vec3u) {
     }
     let here = place_of(thread.xy);
     let side = parameters.pixel_spacing;
-    // Beyond the last column and the last row there is nothing to leap to.
     var bits = select(0u, LUMEN, sheet[here].z > 0.0);
     if thread.y + 1u < view.size.y {
         bits |= leap_bits(here, here + view.size.x, vec2f(0.0, -side)) & (DOWNWARDS | LINE_DOWNWARDS);

@@ -22,7 +22,6 @@ pub fn levels(tree: &VesselTree, count: usize) -> Vec<VesselTree> {
 /// A control point of the spline: a point with its radius, and its arc length on the original vessel (mm).
 type Control = (DVec4, f64);
 
-/// The next coarser level of one vessel.
 fn smooth(vessel: &Vessel) -> Vessel {
     let points = vessel.points();
     let count = points.len().div_ceil(2).max(2);

@@ -1,15 +1,27 @@
-//! The stages of the pipeline, one module each, in the order of the paper's Fig. 4, and the table of them.
+//! The stages of the pipeline, one module each, in the order of the paper's Fig. 4, and the table of them. Hidden
+//! modules are public only for the other crates of this workspace.
 
+#[doc(hidden)]
 pub mod along_rays;
+#[doc(hidden)]
 pub mod composite;
+#[doc(hidden)]
 pub mod context;
+#[doc(hidden)]
 pub mod depth;
+#[doc(hidden)]
 pub mod depth_filter;
+#[doc(hidden)]
 pub mod distance;
+#[doc(hidden)]
 pub mod focus;
+#[doc(hidden)]
 pub mod leap;
+#[doc(hidden)]
 pub mod levels;
+#[doc(hidden)]
 pub mod silhouette;
+#[doc(hidden)]
 pub mod surface;
 mod table;
 
@@ -51,10 +63,7 @@ impl Work<'_> {
         go_on(self.stop)
     }
 
-    /// Every image of a view has one entry for each of its pixels.
-    ///
-    /// # Panics
-    /// If the caller's buffers are not of this view: a bug, never an input error.
+    /// Panics unless the image has one entry for each pixel of the view.
     pub(crate) fn expect_whole<T>(&self, image: Image, pixels: &[T]) {
         let [width, height] = self.size;
         assert_eq!(

@@ -28,7 +28,6 @@ pub(crate) const WIDEST_LINE: f64 = 1.5;
 pub(crate) const FARTHEST_LEAP: usize = 2;
 const _: () = assert!(WIDEST_LINE <= FARTHEST_LEAP as f64);
 
-/// The parameters of the stage.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
 pub struct SilhouetteParameters {
@@ -159,7 +158,6 @@ impl Kernel for SlopeRows<'_> {
     }
 }
 
-/// Whether a neighbour belongs to another influence zone.
 #[inline(always)]
 fn is_border(here: i32, neighbours: [i32; 4]) -> bool {
     let [a, b, c, d] = neighbours.map(|n| n != here);

@@ -64,7 +64,6 @@ fn strength(@builtin(global_invocation_id) thread: vec3u) {
 // HUGE where the surface shows nothing.
 @group(0) @binding(4) var<storage, read> value: array<f32>;
 
-// The bits of a pixel; none beyond the image.
 fn bits_at(pixel: vec2i) -> u32 {
     let is_inside = all(pixel >= vec2i(0)) && all(pixel < vec2i(view.size));
     return select(0u, leap[place_of(vec2u(select(vec2i(0), pixel, is_inside)))], is_inside);
@@ -73,7 +72,6 @@ fn bits_at(pixel: vec2i) -> u32 {
 // The border between a pixel and the neighbour at a step to the right, to the left, down or up.
 struct Border {
     is_leap: bool,
-    // Whether the line of the leap lies in the pixel.
     has_line: bool,
 }
 
@@ -90,16 +88,12 @@ fn ends(here: vec2i, step: vec2i) -> bool {
     return border(here, step).has_line && (bits_at(here) & bits_at(here + step) & LUMEN) != 0u;
 }
 
-// How much of a pixel a line covers, by the offset between its leap and the pixel (pixels).
 fn cover_at(apart: vec2f) -> f32 {
     let within = max(line_parameters.line_width, 1.0) + 0.5;
     let distance = sqrt(apart.x * apart.x + apart.y * apart.y);
-    // A line narrower than a pixel is drawn one pixel wide, only fainter.
     return min(line_parameters.line_width, 1.0) * clamp(within - distance, 0.0, 1.0);
 }
 
-// How much of a pixel of a lumen the line of a leap in one direction covers: only straight across from a leap
-// to another lumen, where the pixel's own lumen ends.
 fn cover_of_lumen(here: vec2i, step: vec2i) -> f32 {
     if ends(here, step) {
         return min(line_parameters.line_width, 1.0);
@@ -112,14 +106,11 @@ fn is_shown(pixel: vec2i) -> bool {
     return value[place_of(vec2u(pixel))] < HUGE;
 }
 
-// Whether a pixel shows the line of the leap to a neighbour: it lies there, or it would lie where nothing is
-// shown and there is no lumen here.
 fn shows_line(here: vec2i, step: vec2i) -> bool {
     let may_lie_here = (bits_at(here) & LUMEN) == 0u && !is_shown(here + step);
     return is_shown(here) && (border(here, step).has_line || may_lie_here);
 }
 
-// Whether the line of the leap from a pixel to a neighbour is shown on one side of it, beyond it or not.
 fn shows_line_of(owner: vec2i, step: vec2i, beyond: bool) -> bool {
     return shows_line(select(owner, owner + step, beyond), select(step, -step, beyond));
 }

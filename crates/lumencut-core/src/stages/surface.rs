@@ -29,7 +29,6 @@ pub struct SurfaceParameters {
     /// Minimum number of parts of a view ray per mm: one for each voxel along the axis where it meets most of
     /// them.
     pub per_step: f32,
-    /// Padding for the layout rules of WGSL.
     pub padding: u32,
 }
 
@@ -43,16 +42,12 @@ impl SurfaceParameters {
     }
 }
 
-/// The input of the stage.
 #[derive(Clone, Copy)]
 pub struct SurfaceScene<'a> {
-    /// The positions of the pixels.
     pub geometry: &'a Geometry,
-    /// The volume.
     pub volume: &'a Volume<'a>,
     /// Blocks that a slab can skip; `None` reads everything, with the same result.
     pub blocks: Option<&'a Blocks>,
-    /// How thick the surface is.
     pub slab: Option<Slab>,
 }
 
@@ -71,7 +66,6 @@ pub fn surface(work: &Work, scene: &SurfaceScene, value: &mut [f32]) -> Result<(
     Ok(())
 }
 
-/// The values on the cut surface itself.
 fn thin(work: &Work, &SurfaceScene { geometry, volume, .. }: &SurfaceScene, value: &mut [f32]) -> Result<()> {
     with_voxels!(volume.voxels(), voxels => {
         let voxels = GridVoxels { grid: Grid::new(volume), voxels };
@@ -89,7 +83,6 @@ fn thin(work: &Work, &SurfaceScene { geometry, volume, .. }: &SurfaceScene, valu
     })
 }
 
-/// The values of the slab where the cut surface has a `value`.
 fn thicken(work: &Work, scene: &SurfaceScene, slab: Slab, value: &[f32], thick: &mut [f32]) -> Result<()> {
     let (half, volume) = (slab.thickness / 2.0, scene.volume);
     let reduction = Reduction::of(slab.mode);
@@ -113,7 +106,6 @@ fn thicken(work: &Work, scene: &SurfaceScene, slab: Slab, value: &[f32], thick: 
     }
 }
 
-/// The slabs of a curved geometry.
 struct CurvedRays<'a> {
     curved: &'a Curved,
     index_from_world: DAffine3,
@@ -156,7 +148,6 @@ type Run = [[f32; FAN]; RUN / FAN];
 /// Continuous indices of a run of pixels, axis by axis.
 type Indices = [[[f64; FAN]; 3]; RUN / FAN];
 
-/// The positions of a geometry's pixels in the volume.
 trait Places: Sync {
     /// The volume at the run of pixels that begins at (`i`, `j`); entries beyond the image are arbitrary.
     fn sample(&self, i: usize, j: usize) -> Run;
@@ -168,7 +159,6 @@ struct GridVoxels<'a, T> {
     voxels: &'a [T],
 }
 
-/// The points where a camera's rays meet the cut surface.
 struct OrthographicPlaces<'a, T> {
     camera: &'a Camera,
     depth: &'a [f32],

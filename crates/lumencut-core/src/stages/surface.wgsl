@@ -81,14 +81,12 @@ fn slab_within(own: CurvedPlace) -> vec2f {
     return ends;
 }
 
-// The result with another stretch of the slab.
 fn join(shown: Found, start: Place, way: vec3f, share: f32) -> Found {
     let sign = select(1.0, -1.0, parameters.mode == SMALLEST);
     let found = walk_cells(start, way, sign, HUGE, parameters.mode == MEAN, shown.best);
     return Found(found.best, shown.sum + share * found.sum, shown.share + share * found.share);
 }
 
-// The slab within the volume.
 fn thick(seen: Target, center: f32) -> f32 {
     var shown = Found(-HUGE, 0.0, 0.0);
     if CURVED {

@@ -6,7 +6,6 @@ use crate::vessel_tree::Vessel;
 const RADIUS: f64 = 20.0;
 const PITCH: f64 = 5.0;
 
-/// The helix (R cos a, R sin a, P a) and its Frenet frame.
 fn helix(a: f64) -> (DVec3, DVec3, DVec3) {
     let (sine, cosine) = a.sin_cos();
     let point = DVec3::new(RADIUS * cosine, RADIUS * sine, PITCH * a);
@@ -14,7 +13,6 @@ fn helix(a: f64) -> (DVec3, DVec3, DVec3) {
     (point, tangent, DVec3::new(-cosine, -sine, 0.0))
 }
 
-/// The angle of a frame about its tangent, from the principal normal of the helix.
 fn from_normal(frame: &MovingFrame, a: f64) -> f64 {
     let (_, tangent, normal) = helix(a);
     frame.ahead.dot(tangent.cross(normal)).atan2(frame.ahead.dot(normal))
@@ -85,11 +83,9 @@ fn frames_are_orthonormal_and_continuous_everywhere() {
         last = MovingFrame { tangent, across, ahead };
     }
     assert!(path.length() < 130.0);
-    // Straight runs are crossed at right angles.
     for (t, along) in [(10.0, DVec3::X), (30.0, DVec3::Y), (45.0, DVec3::Y)] {
         assert!(frames.at(t).tangent.distance(along) < 1e-12);
     }
-    // In a plane the direction of view is constant.
     assert!(frames.at(70.0).ahead.distance(DVec3::Z) < 1e-12);
 }
 

@@ -15,7 +15,6 @@ use crate::math::same_place::ON_PICTURE;
 pub(super) struct Projected {
     path: Arc<CenterlinePath>,
     axes: Axes,
-    /// The height of each point along up (mm).
     heights: Vec<f64>,
     ends: [f64; 2],
     /// Half of the vessel's extent across the view, and its middle (mm).
@@ -24,7 +23,6 @@ pub(super) struct Projected {
 }
 
 impl Projected {
-    /// Fails with [`crate::error::ErrorKind::Camera`] for a vessel less than a row high.
     pub(super) fn new(path: Arc<CenterlinePath>, axes: Axes, row: f64) -> Result<Self> {
         let heights: Vec<_> = path.points().iter().map(|point| point.dot(axes.up)).collect();
         let [low, high] = range(heights.iter().copied());
@@ -47,7 +45,6 @@ impl Projected {
         }
     }
 
-    /// The parts of the vessel at a height.
     fn runs(&self, height: f64) -> Vec<Run> {
         let mut runs: Vec<Run> = Vec::new();
         for (segment, ends) in self.heights.windows(2).enumerate() {

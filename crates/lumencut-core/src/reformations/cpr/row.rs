@@ -2,13 +2,11 @@
 
 use glam::DVec3;
 
-/// A point of the vessel.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Anchor {
     pub point: DVec3,
     /// Its position in the image, to the right of the middle (mm).
     pub x: f64,
-    /// Arc length (mm).
     pub arc_length: f64,
 }
 
@@ -76,12 +74,10 @@ impl Row {
         }
     }
 
-    /// The arc length of the first point (mm).
     pub(super) fn arc_length(&self) -> f64 {
         self.runs[0].from.arc_length
     }
 
-    /// Whether several points of the vessel share the row.
     pub(super) fn is_shared(&self) -> bool {
         self.runs.len() > 1 || self.runs[0].from.arc_length < self.runs[0].to.arc_length
     }

@@ -81,7 +81,6 @@ impl Sections {
         found
     }
 
-    /// Adds the sections of one interval that hold a point.
     pub(super) fn within(&self, n: usize, point: DVec3, found: &mut Vec<Section>) {
         let ends = [self.marks[n], self.marks[n + 1]];
         let [low, high] = ends.map(|mark| mark.section(point).ahead());
@@ -169,7 +168,6 @@ fn halved(mut from: f64, mut to: f64, holds: impl Fn(f64) -> bool) -> f64 {
 }
 
 impl Mark {
-    /// The section here, with the offset of a point that need not lie in it.
     fn section(&self, point: DVec3) -> Section {
         Section { at: self.at, frame: self.frame, offset: point - self.point }
     }

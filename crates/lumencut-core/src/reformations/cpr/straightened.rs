@@ -23,12 +23,10 @@ pub struct Straightened {
     angle: Angle,
 }
 
-/// The angle about the vessel from which its sections are seen.
 #[derive(Clone)]
 enum Angle {
     /// Constant: its sine and cosine.
     Even([f64; 2]),
-    /// One for each section.
     Rolled(Arc<Roll>),
 }
 

@@ -33,7 +33,6 @@ pub(super) struct Stretched {
 }
 
 impl Stretched {
-    /// Fails with [`crate::error::ErrorKind::Camera`] for a vessel that is parallel to the lines.
     pub(super) fn new(path: Arc<CenterlinePath>, axes: Axes) -> Result<Self> {
         let points = path.points();
         // The vessel runs downwards in the image. One that rises in space is seen from the same side, upside
@@ -62,7 +61,6 @@ impl Stretched {
         &self.strips[self.strips.partition_point(|strip| strip.y <= y).max(1) - 1]
     }
 
-    /// The point of the vessel at `share` of a strip, which may lie beyond its ends.
     fn anchor(&self, strip: &Strip, share: f64) -> Anchor {
         let [from, to] = [strip.segment, strip.segment + 1];
         let point = self.path.points()[from] + (self.path.points()[to] - self.path.points()[from]) * share;
@@ -85,7 +83,6 @@ impl Stretched {
     }
 }
 
-/// An image position where a point may lie.
 #[derive(Clone, Copy, Debug)]
 struct Candidate {
     /// From the point to the surface there (mm).
@@ -97,7 +94,6 @@ struct Candidate {
 }
 
 impl Candidate {
-    /// Whether a point belongs here rather than there.
     fn is_better(&self, other: &Self) -> bool {
         if (self.distance - other.distance).abs() > ON_PICTURE {
             return self.distance < other.distance;

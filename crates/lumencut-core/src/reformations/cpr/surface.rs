@@ -7,15 +7,11 @@ use super::row::Row;
 use crate::error::{Error, ErrorKind};
 
 pub(super) trait Surface: Send + Sync {
-    /// The height of the image (mm).
     fn height(&self) -> f64;
     /// Extent of the vessel to each side of the middle (mm).
     fn reach(&self) -> f64;
-    /// The row at `y`, also above and below the image.
     fn row(&self, y: f64) -> Row;
-    /// The image position of a world point.
     fn image_from_world(&self, point: DVec3) -> DVec2;
-    /// Whether each of the pixels at `y` and these x is folded.
     fn folded(&self, y: f64, x: &[f64]) -> Vec<bool>;
 }
 
@@ -26,7 +22,6 @@ pub(super) fn comes_first([aside, y]: [f64; 2], [other_aside, other_y]: [f64; 2]
     if nearer.abs() > ON_PICTURE { nearer > 0.0 } else { y + ON_PICTURE < other_y }
 }
 
-/// The error for a vessel at most one row high.
 pub(super) fn one_row(mode: &str, mend: &str) -> Error {
     let found = format!("a vessel that lies in one row of the {mode} CPR");
     Error::new(ErrorKind::Camera, "up of the CPR", found, "a vessel of several rows").mend(mend)

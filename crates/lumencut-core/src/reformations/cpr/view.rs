@@ -15,7 +15,6 @@ pub struct View {
     pub normal: Option<DVec3>,
 }
 
-/// Unit vectors of a view, perpendicular to each other.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Axes {
     /// To the right in the image.
@@ -38,7 +37,6 @@ impl View {
         Ok(Axes { across: ahead.cross(up), up, ahead })
     }
 
-    /// The view turned by its angle around up.
     pub(super) fn turned(&self) -> Result<Axes> {
         let Axes { across, up, ahead } = self.unturned()?;
         let (sine, cosine) = self.checked_angle()?.sin_cos();

@@ -10,7 +10,6 @@ pub(super) struct Chains {
     pub bundles: Vec<Bundle>,
     /// The box around each chain in the image: from and to view x, from and to view y (mm).
     boxes: [Vec<f32>; 4],
-    /// The first chain of each vessel, and the number of chains at the end.
     first_of_vessel: Vec<u32>,
 }
 
@@ -57,14 +56,12 @@ impl Chains {
         self.first_of_vessel[vessel] + (slot - level.first_slot[vessel]) / FAN as u32
     }
 
-    /// The arc lengths (mm) between which a chain lies.
     pub(super) fn span(&self, level: &Level, vessel: i32, chain: u32) -> [f64; 2] {
         let [first, end] = [vessel, vessel + 1].map(|id| level.first_slot[id as usize]);
         let start = first + (chain - self.first_of_vessel[vessel as usize]) * FAN as u32;
         [start, (start + FAN as u32).min(end - 1)].map(|slot| f64::from(level.arc_length[slot as usize]))
     }
 
-    /// The chains of a vessel that may lie between two arc lengths (mm).
     pub(super) fn between(&self, level: &Level, vessel: u32, [low, high]: [f64; 2]) -> [u32; 2] {
         let [first, end] = [vessel, vessel + 1].map(|id| level.first_slot[id as usize] as usize);
         let arc_length = &level.arc_length[first..end];
@@ -75,7 +72,6 @@ impl Chains {
         [before + (starts / FAN) as u32, before + ends.div_ceil(FAN) as u32]
     }
 
-    /// The squared distance (mm²) between an area and the box around a chain.
     #[inline(always)]
     pub(super) fn squared_distance(&self, chain: u32, area: &Area) -> f32 {
         let [low_x, high_x, low_y, high_y] = self.boxes.each_ref().map(|bounds| bounds[chain as usize]);

@@ -86,7 +86,6 @@ impl NearFirst {
     }
 }
 
-/// The best piece so far.
 struct Best<'a> {
     view: &'a CrView<'a>,
     /// The middle of the stretch: a vessel and an arc length (mm).

@@ -18,7 +18,6 @@ use crate::stages::depth::Sheet;
 pub(super) struct CrView<'a> {
     pub level: &'a Level,
     pub camera: &'a Camera,
-    /// The slots in their order.
     projected: Vec<Projected>,
     /// Their pieces without depth and radius: the smallest key is the smallest distance.
     plane: Hierarchy,
@@ -69,7 +68,6 @@ impl<'a> CrView<'a> {
         foremost.piece
     }
 
-    /// The ranges of chains that may lie within the threshold of a point on a chain.
     pub(super) fn around(&self, chain: u32) -> Vec<[u32; 2]> {
         let slot = self.chains.bundles[chain as usize].slot[0];
         let vessel = self.level.vessel_of_slot[slot as usize];
@@ -125,7 +123,6 @@ impl<'a> CrView<'a> {
 /// The value in an envelope before any piece was offered.
 pub(super) const NO_PIECE: u32 = u32::MAX;
 
-/// A piece as seen from a pixel.
 #[derive(Clone, Copy)]
 pub(super) struct Seen {
     /// Twice its slot, plus 1 for the stripe.

@@ -7,7 +7,6 @@ use crate::vessel_tree::Vessel;
 const FRONT: View = View { up: DVec3::Z, angle: 0.0, normal: None };
 const DIRECTIONS: usize = 360;
 
-/// A wall whose radius depends on the direction only.
 fn wall(length: f64, radius: impl Fn(f64) -> f64) -> Arc<Wall> {
     let row: Vec<f64> = (0..DIRECTIONS).map(|n| radius(TAU * n as f64 / DIRECTIONS as f64)).collect();
     Arc::new(Wall::new(vec![0.0, length], row.repeat(2), vec![false; 2 * DIRECTIONS]).unwrap())
@@ -22,10 +21,8 @@ fn map(points: &[DVec3], radius: impl Fn(f64) -> f64, changes: LumenMapParameter
 const TUBE: LumenMapParameters =
     LumenMapParameters { pixel_spacing: 0.5, mean_radius: 4.0, angle: 0.0, overlap: 0.0, beyond: 0.0 };
 
-/// A vessel that runs to the patient's feet.
 const STRAIGHT: [DVec3; 2] = [DVec3::new(1.0, 2.0, 30.0), DVec3::new(1.0, 2.0, 0.0)];
 
-/// Half a circle of a radius (mm) in the plane of x and z.
 fn half_circle(radius: f64) -> Vec<DVec3> {
     (0..=720).map(|n| PI * f64::from(n) / 720.0).map(|t| DVec3::new(t.cos(), 0.0, t.sin()) * radius).collect()
 }

@@ -22,7 +22,6 @@ fn diameter(wall: &Wall, at: f64, around: f64) -> f64 {
 
 #[test]
 fn it_follows_an_ellipse_that_turns() {
-    // A quarter of a turn over 50 mm.
     let wall = ellipse(50.0, |at| 0.3 + at / 50.0 * PI / 2.0);
     let narrow = Roll::following(&wall, 50.0, Side::Narrowest);
     let wide = Roll::following(&wall, 50.0, Side::Widest);

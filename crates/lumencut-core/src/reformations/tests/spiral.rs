@@ -23,7 +23,6 @@ fn helix() -> Arc<CenterlinePath> {
     )
 }
 
-/// The width of a row within a region (mm).
 fn width(spiral: &Spiral, is_inside: impl Fn(DVec2) -> bool) -> f64 {
     let inside = spiral.columns.iter().filter(|[place, _]| is_inside(*place)).count();
     inside as f64 * spiral.parameters.pixel_spacing

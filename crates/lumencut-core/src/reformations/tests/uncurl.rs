@@ -9,7 +9,6 @@ fn path(points: Vec<DVec3>) -> Arc<CenterlinePath> {
     Arc::new(CenterlinePath::new(&Vessel::new(points, None).unwrap(), 0.0).unwrap())
 }
 
-/// Two and a half turns of a helix of this radius and pitch (mm) that runs downwards.
 fn helix(radius: f64, pitch: f64) -> Vec<DVec3> {
     let point = |t: f64| DVec3::new(radius * t.cos(), radius * t.sin(), 20.0 - pitch * t / TAU);
     (0..=600).map(|n| point(2.5 * TAU * f64::from(n) / 600.0)).collect()

@@ -54,7 +54,6 @@ impl Random {
     }
 }
 
-/// A binary tree of `count` randomly bent vessels.
 fn random_tree(random: &mut Random, count: usize) -> VesselTree {
     let mut vessels = Vec::new();
     let mut waiting = std::collections::VecDeque::from([(DVec3::ZERO, DVec3::NEG_Z, 4.0)]);
@@ -79,7 +78,6 @@ fn random_tree(random: &mut Random, count: usize) -> VesselTree {
     VesselTree::new(vessels).unwrap()
 }
 
-/// A fork in the plane across the view: down, then to both sides.
 fn planar_fork() -> VesselTree {
     tree(&[
         (&[[0.0, 5.0, 40.0], [0.0, 5.0, 0.0]], 3.0),
@@ -125,7 +123,6 @@ fn lengths_are_true_whatever_the_smoothing() {
 
 #[test]
 fn two_vessels_one_before_the_other_turn_apart_by_the_same_angle() {
-    // From the front both branches run straight downwards.
     let twins = tree(&[
         (&[[0.0, 0.0, 30.0], [0.0, 0.0, 0.0]], 3.0),
         (&[[0.0, 0.0, 0.0], [0.0, 20.0, -40.0]], 3.0),
@@ -274,7 +271,6 @@ fn parts_lie_beside_each_other_from_left_to_right() {
     let x = |n: usize| made.laid_out()[n].pixels[0].x * PIXEL;
     assert!((x(0) - x(1) - 18.0).abs() < 1e-9, "two hulls of 4 mm and 10 mm between them");
     assert!((x(2) - x(1) - 201.0).abs() < 1e-9, "as seen");
-    // Upwards is to smaller rows.
     assert!((made.laid_out()[0].pixels[0].y - made.laid_out()[1].pixels[0].y - 40.0).abs() < 1e-9);
 }
 

@@ -13,14 +13,11 @@ const ALONG_VIEW: f64 = 0.05;
 /// Two directions whose cross product is shorter are parallel.
 const PARALLEL: f64 = 1e-12;
 
-/// A position from which on the true vessel turns at an even rate.
 #[derive(Clone, Copy, Debug)]
 struct Turning {
-    /// Arc length (mm).
     at: f64,
     /// Rotation vector per mm (radians per mm) of the true frame relative to the bent one.
     undone: DVec3,
-    /// From the surroundings of the bent vessel to those of the true one.
     from_bent: DQuat,
 }
 
@@ -65,12 +62,10 @@ impl Bent {
         DQuat::from_scaled_axis(turning.undone * (at - turning.at)) * turning.from_bent
     }
 
-    /// The arc lengths between which the vessel turns at an even rate (mm).
     pub(super) fn stations(&self) -> impl Iterator<Item = f64> {
         self.turnings.iter().map(|turning| turning.at)
     }
 
-    /// Lays segment after segment at its true length.
     fn lay(&mut self, path: &CenterlinePath) {
         let mut point = path.points()[0];
         self.points = vec![point];
@@ -88,7 +83,6 @@ impl Bent {
         }
     }
 
-    /// Moves the middle between both ends to its position in the image.
     fn shift(&mut self, path: &CenterlinePath, camera: &Camera, amount: f64) {
         let [here, own] =
             [&self.points[..], path.points()].map(|points| (points[0] + points[points.len() - 1]) / 2.0);
@@ -103,7 +97,6 @@ fn ahead_at(first: DVec3, camera: &Camera) -> DVec3 {
     if aside > ALONG_VIEW * first.dot(camera.direction()).abs() { camera.direction() } else { camera.up() }
 }
 
-/// The turns undone by `amount`, from the first frame on.
 fn turnings(frames: &Frames, amount: f64) -> Vec<Turning> {
     let stations = frames.stations();
     let mut from_bent = DQuat::IDENTITY;
@@ -127,7 +120,6 @@ fn rotation(frame: &MovingFrame) -> DQuat {
     DQuat::from_mat3(&glam::DMat3::from_cols(frame.across, frame.tangent, frame.ahead))
 }
 
-/// The same rotation the shorter way round.
 fn shorter(rotation: DQuat) -> DQuat {
     if rotation.w < 0.0 { -rotation } else { rotation }
 }

@@ -12,7 +12,6 @@ use crate::scene::LeveledTree;
 use crate::stop::Stop;
 use crate::vessel_tree::{Vessel, VesselTree};
 
-/// A point along a vessel.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Foot {
     /// Arc length (mm).
@@ -24,18 +23,15 @@ pub(super) struct Foot {
     pub aside: DVec2,
 }
 
-/// A vessel in the image of a camera.
 #[derive(Clone, Debug)]
 pub(super) struct Feet {
     camera: Camera,
     points: Vec<DVec3>,
-    /// The points in the image (mm).
     places: Vec<DVec2>,
     arc_length: Arc<[f64]>,
 }
 
 impl Feet {
-    /// A vessel by its points (mm, LPS) and their arc lengths (mm).
     pub(super) fn new(camera: &Camera, points: Vec<DVec3>, arc_length: &[f64]) -> Self {
         let places = points.iter().map(|point| camera.view_from_world(*point).truncate()).collect();
         Self { camera: *camera, points, places, arc_length: arc_length.into() }
@@ -45,7 +41,6 @@ impl Feet {
         &self.places
     }
 
-    /// The foot of an image position (mm).
     pub(super) fn of(&self, place: DVec2) -> Foot {
         self.among(place, 0, self.places.len() - 1)
     }

@@ -15,7 +15,6 @@ const MEAN_OVER: f64 = 10.0;
 /// Radii that differ by less are the same (mm).
 const SAME_RADIUS: f64 = 1e-6;
 
-/// Connected pieces.
 #[derive(Clone, Debug)]
 pub(super) struct Part {
     /// The point it grows from (mm, LPS).
@@ -26,7 +25,6 @@ pub(super) struct Part {
     pub first: Vec<usize>,
 }
 
-/// The order of growth of all pieces.
 #[derive(Clone, Debug)]
 pub(super) struct Growth {
     /// The parts, in the order of their smallest piece.
@@ -68,7 +66,6 @@ impl Growth {
         Ok(growth)
     }
 
-    /// Adds the part that grows from an end of a piece, along shortest paths.
     fn grow(&mut self, graph: &Graph, (piece, end): (usize, usize)) {
         let pieces = graph.pieces;
         let root = pieces[piece].nodes[end];
@@ -115,7 +112,6 @@ impl Growth {
         usize::from(self.is_reversed[piece])
     }
 
-    /// Lets a piece follow another one, or the root.
     fn attach(&mut self, part: &mut Part, piece: usize, after: Option<usize>) {
         part.order.push(piece);
         match after {
@@ -161,7 +157,6 @@ impl<'a> Graph<'a> {
         Self { pieces, ends }
     }
 
-    /// All pieces connected to one, in their order.
     fn reached_from(&self, piece: usize) -> Vec<usize> {
         let mut is_found = vec![false; self.pieces.len()];
         let (mut found, mut waiting) = (Vec::new(), vec![piece]);
@@ -176,7 +171,6 @@ impl<'a> Graph<'a> {
         found
     }
 
-    /// The end of a piece that is nearest to a point, the first one of several.
     fn nearest_end(&self, point: DVec3) -> (usize, usize) {
         let ends = self.pieces.iter().enumerate().flat_map(|(n, piece)| {
             [((n, 0), piece.points[0]), ((n, 1), *last_of(&piece.points))]
@@ -185,7 +179,6 @@ impl<'a> Graph<'a> {
         ends.fold(((0, 0), f64::INFINITY), |best, end| if end.1 < best.1 { end } else { best }).0
     }
 
-    /// The free end of the largest mean radius, the first one of several.
     fn widest_free_end(&self, members: &[usize]) -> Result<(usize, usize)> {
         let mut widest: Option<((usize, usize), f64)> = None;
         for &piece in members {

@@ -10,7 +10,6 @@ const RUN: usize = 16;
 /// Tolerance for discs that touch (mm).
 const TOUCHING: f64 = 1e-9;
 
-/// A disc around a station of a piece.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Disc {
     pub center: DVec2,
@@ -26,7 +25,6 @@ impl Disc {
         reach > 0.0 && self.center.distance_squared(other.center) < reach * reach
     }
 
-    /// The disc at a share of the way to the next one of its piece.
     fn towards(&self, next: &Self, share: f64) -> Self {
         let between = |from: f64, to: f64| from + (to - from) * share;
         Self {
@@ -81,7 +79,6 @@ fn crossing(from: DVec2, to: DVec2, distance: f64) -> f64 {
 
 type Circle = (DVec2, f64);
 
-/// Discs that move together.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Hull {
     discs: Vec<Disc>,
@@ -102,18 +99,15 @@ impl Hull {
         &self.discs
     }
 
-    /// The discs turned about the origin (radians).
     pub(super) fn turned(&self, angle: f64) -> Vec<Disc> {
         let turn = DVec2::from_angle(angle);
         self.discs.iter().map(|disc| Disc { center: turn.rotate(disc.center), ..*disc }).collect()
     }
 
-    /// Whether a disc of this hull overlaps one of another that is turned about the origin (radians).
     pub(super) fn overlaps(&self, other: &Self, angle: f64) -> bool {
         self.pairs(other, angle, &mut |_, _| true)
     }
 
-    /// Adds all pieces of two hulls, the other one turned, whose discs overlap.
     pub(super) fn add_overlapping(&self, other: &Self, angle: f64, pieces: &mut Vec<usize>) {
         self.pairs(other, angle, &mut |disc, other| {
             pieces.extend([disc.piece, other.piece]);

@@ -32,7 +32,6 @@ pub(super) struct Piece {
 }
 
 impl Piece {
-    /// The length along the vessel (mm).
     pub(super) fn length(&self) -> f64 {
         self.at[self.at.len() - 1] - self.at[0]
     }
@@ -104,7 +103,6 @@ struct Stations<'a> {
 }
 
 impl Stations<'_> {
-    /// The piece between two points of the vessel.
     fn piece(&self, id: usize, nodes: [usize; 2], first: usize, last: usize) -> Piece {
         let along = self.vessel.arc_length();
         let step = STEP.min((along[last] - along[first]) / FEWEST);
@@ -136,7 +134,6 @@ impl Stations<'_> {
     }
 }
 
-/// The vessels of pieces, each once.
 pub(super) fn vessels_of(pieces: &[Piece], numbers: &[usize]) -> Vec<usize> {
     let mut vessels: Vec<usize> = numbers.iter().map(|n| pieces[*n].vessel).collect();
     vessels.sort_unstable();

@@ -38,7 +38,6 @@ pub(super) fn extent(places: &[Vec<DVec2>], width: f64) -> (DVec2, DVec2) {
     (DVec2::new(low.x - width, high.y + width), high - low + 2.0 * width)
 }
 
-/// The size in pixels that holds an extent (mm).
 pub(super) fn size_of(extent: DVec2, pixel_spacing: f64) -> Result<[usize; 2]> {
     let pixels = extent / pixel_spacing;
     checked_size("size of the untangled CPR", pixels.to_array().map(|length| length.ceil() + 1.0))

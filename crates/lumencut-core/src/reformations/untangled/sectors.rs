@@ -36,7 +36,6 @@ impl Sector {
     }
 }
 
-/// An angle between −π and π.
 fn wrapped(angle: f64) -> f64 {
     (angle + PI).rem_euclid(TAU) - PI
 }

@@ -15,7 +15,6 @@ const HALVINGS: usize = 60;
 /// The most moves of a position to the next segment of its piece.
 const STEPS: usize = 4;
 
-/// A station of a strip in the image and in the world.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Station {
     /// Position in the image (mm).
@@ -38,7 +37,6 @@ pub(super) struct Place {
     pub aside: f64,
 }
 
-/// All strips of the image.
 #[derive(Clone, Debug)]
 pub(super) struct Sheet {
     /// The stations, piece by piece, in the order of vessels and along them.
@@ -55,7 +53,6 @@ pub(super) struct Sheet {
 }
 
 impl Sheet {
-    /// The sheet of strips whose stations have these positions in the image.
     pub(super) fn new(pieces: &[Piece], strips: &[Strip], places: &[Vec<DVec2>], width: f64) -> Self {
         let (mut stations, mut start, mut piece_of) = (Vec::new(), Vec::new(), Vec::new());
         for (n, piece) in pieces.iter().enumerate() {
@@ -103,7 +100,6 @@ impl Sheet {
         self.place_within(seen, self.width)
     }
 
-    /// The same, no farther than `limit` (mm) from a vessel.
     fn place_within(&self, seen: DVec2, limit: f64) -> Option<Place> {
         let (segment, _) = self.seen.nearest(seen.extend(0.0), limit)?;
         Some(self.on_segment(segment, seen))
@@ -177,7 +173,6 @@ impl Sheet {
         [self.stations[start], self.stations[start + 1]]
     }
 
-    /// The world point of a position (mm, LPS).
     pub(super) fn point(&self, place: &Place) -> DVec3 {
         let [a, b] = self.ends(place.segment);
         self.center(place) + a.across.lerp(b.across, place.share.clamp(0.0, 1.0)) * place.aside
@@ -196,13 +191,11 @@ impl Sheet {
         (b.point - a.point).cross(across).normalize_or_zero()
     }
 
-    /// The arc length of a position (mm), clamped to the ends.
     pub(super) fn arc_length(&self, place: &Place) -> f64 {
         let [a, b] = self.ends(place.segment);
         a.at + (b.at - a.at) * place.share.clamp(0.0, 1.0)
     }
 
-    /// The image point of a position (mm).
     pub(super) fn seen(&self, place: &Place) -> DVec2 {
         let [a, b] = self.ends(place.segment);
         let share = place.share.clamp(0.0, 1.0);
@@ -242,7 +235,6 @@ impl Sheet {
         best.map(|(place, _)| place)
     }
 
-    /// Whether the image shows a position at its image point.
     fn is_shown(&self, place: &Place) -> bool {
         // Tolerates rounding at the very edge.
         let there = self.place_within(self.seen(place), self.width + ON_PICTURE);
@@ -293,7 +285,6 @@ impl Sheet {
     }
 }
 
-/// The part of a segment that is perpendicular to the line across its end.
 fn perpendicular(along: DVec3, across: DVec3) -> DVec3 {
     along - across * (along.dot(across) / across.length_squared())
 }

@@ -23,7 +23,6 @@ pub(super) const LONGEST_MITRE: f64 = 3.0;
 /// A shorter vector has no direction.
 const NO_DIRECTION: f64 = 1e-9;
 
-/// A piece as a strip, before it is bent or turned.
 #[derive(Clone, Debug)]
 pub(super) struct Strip {
     /// The direction of each segment in the image (radians, unwrapped).
@@ -33,7 +32,6 @@ pub(super) struct Strip {
 }
 
 impl Strip {
-    /// The strip of a piece as a camera sees it, its directions smoothed by `smoothing` mm.
     pub(super) fn new(piece: &Piece, camera: &Camera, smoothing: f64) -> Self {
         let directions: Vec<DVec3> =
             piece.points.windows(2).map(|ends| (ends[1] - ends[0]).normalize_or_zero()).collect();

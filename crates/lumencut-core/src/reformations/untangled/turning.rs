@@ -34,7 +34,6 @@ pub(super) struct Tree<'a> {
     pub hull_margin: f64,
 }
 
-/// One layout of all pieces.
 #[derive(Clone, Debug)]
 pub(super) struct Turning {
     /// The stations of each piece, from where it begins to grow, not turned (mm).
@@ -120,7 +119,6 @@ fn attempt(tree: Tree, near: f64, stiffness: f64, stop: Stop) -> Result<Turning>
     Ok(turning)
 }
 
-/// The direction at the end of growth of a piece.
 fn forward_of(places: &[DVec2], is_reversed: bool) -> DVec2 {
     let last = places.len() - 1;
     let step = if is_reversed { places[0] - places[1] } else { places[last] - places[last - 1] };
@@ -151,7 +149,6 @@ fn turn_apart(
         .collect()
 }
 
-/// A point where branches begin, in its own coordinates.
 struct Node {
     /// The hulls of the branches beyond the radius within which all may overlap.
     branches: Vec<Hull>,
@@ -180,7 +177,6 @@ impl Node {
         Self { branches, parent: outer(&parent), forward }
     }
 
-    /// The turns that set all sectors apart, and whether there is room for them.
     fn wanted_turns(&self) -> (Vec<f64>, bool) {
         let behind = Sector::of(self.parent.discs(), -self.forward).unwrap_or(Sector { low: 0.0, high: 0.0 });
         let room = Sector { low: behind.high - PI, high: PI + behind.low };
@@ -219,7 +215,6 @@ impl Node {
         pairs.for_each(|(hull, other, angle)| hull.add_overlapping(other, angle, pieces));
     }
 
-    /// All pairs of hulls, each with the angle by which the second one is turned relative to the first one.
     fn pairs<'a>(&'a self, wanted: &'a [f64], share: f64) -> impl Iterator<Item = (&'a Hull, &'a Hull, f64)> {
         let angles = wanted.iter().map(move |wanted| share * wanted);
         let all: Vec<(&Hull, f64)> = self.branches.iter().zip(angles).chain([(&self.parent, 0.0)]).collect();

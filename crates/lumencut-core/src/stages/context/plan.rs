@@ -14,9 +14,7 @@ use crate::volume::Volume;
 /// The volume around the cut surface, in a view.
 #[derive(Clone, Copy)]
 pub struct Surroundings<'a> {
-    /// The view.
     pub camera: &'a Camera,
-    /// The volume.
     pub volume: &'a Volume<'a>,
     /// Blocks to skip; `None` samples everything, with the same result.
     pub blocks: Option<&'a Blocks>,
@@ -46,7 +44,6 @@ pub fn step(volume: &Volume, settings: &Context) -> Result<f64> {
     Ok(step)
 }
 
-/// What rays with blended samples need, prepared once.
 pub(super) struct Plan<'a> {
     pub volume: &'a Volume<'a>,
     pub blocks: Option<&'a Blocks>,
@@ -56,7 +53,6 @@ pub(super) struct Plan<'a> {
 }
 
 impl<'a> Plan<'a> {
-    /// Prepares the rays of `context`, the one of `settings`.
     pub(super) fn new(
         &Surroundings { camera, volume, blocks }: &Surroundings<'a>,
         settings: &Settings,

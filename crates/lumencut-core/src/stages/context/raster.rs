@@ -20,7 +20,6 @@ pub(super) fn coarse_starts(start: &[f32], [width, height]: [usize; 2]) -> Vec<f
     coarse.into_iter().map(|start| if (IN_FRONT..NONE).contains(&start) { WHOLE } else { start }).collect()
 }
 
-/// Gives each pixel that needs a ray the result of its square's ray.
 pub(super) fn spread(coarse: &[[f32; 4]], start: &[f32], [width, _]: [usize; 2], pixels: &mut [[f32; 4]]) {
     let columns = width.div_ceil(2);
     let rows = pixels.chunks_mut(width).zip(start.chunks(width));

@@ -15,8 +15,6 @@ use crate::settings::Context;
 use crate::stages::Work;
 use crate::stages::along_rays::{AlongRays, ViewRays, along_rays};
 
-/// Writes the colour of the largest, or the grey of the smallest or the mean value along the rays of a
-/// raster.
 pub(super) fn reduce_raster(
     work: &Work,
     &Surroundings { camera, volume, blocks }: &Surroundings,

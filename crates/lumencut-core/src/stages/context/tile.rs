@@ -51,12 +51,10 @@ fn trace_tiles(
     })
 }
 
-/// A tile of rays in its rows.
 struct Tile<'a> {
     plan: &'a Plan<'a>,
     sampler: &'a dyn Sampler,
     raster: &'a RayGrid,
-    /// The column and the row of its first ray.
     place: [usize; 2],
     start: &'a [f32],
     pixels: &'a mut [[f32; 4]],
@@ -95,14 +93,12 @@ impl Tile<'_> {
         [column, packet / ACROSS * PACKET[1] + lane / PACKET[0]]
     }
 
-    /// The index of a ray's pixel in these rows; `None` beyond the image.
     #[inline(always)]
     fn pixel(&self, packet: usize, lane: usize) -> Option<usize> {
         let ([i, j], width) = (self.ray(packet, lane), self.raster.size[0]);
         (i < width && j * width < self.pixels.len()).then_some(j * width + i)
     }
 
-    /// The rays of one packet; those beyond the image see nothing.
     #[inline(always)]
     fn packet(&self, n: usize) -> Packet {
         let Rays { grid, index_from_view, step } = &self.plan.rays;

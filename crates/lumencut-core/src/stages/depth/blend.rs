@@ -2,7 +2,6 @@
 
 use crate::math::lanes::{PIXELS, smaller};
 
-/// The two levels that each pixel of a tile blends, and the weights of their depths.
 pub(super) struct LevelBlend {
     /// k0, as a float that compares exactly.
     fine: [f32; PIXELS],
@@ -42,7 +41,6 @@ impl LevelBlend {
         all
     }
 
-    /// The weight of level `k` at pixel `l`; 0 where it is not needed.
     #[inline(always)]
     pub(super) fn weight(&self, k: f32, l: usize) -> f32 {
         let coarse = if self.fine[l] + 1.0 == k { self.coarse_weight[l] } else { 0.0 };

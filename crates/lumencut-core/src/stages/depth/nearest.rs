@@ -8,7 +8,6 @@ use crate::math::pieces::Envelope;
 use crate::math::tile::Tile;
 
 impl CutSurface<'_> {
-    /// The surface over one tile, given the distances to the nearest vessel.
     #[inline(always)]
     pub(super) fn nearest_surface<const LUMEN_FIRST: bool>(
         &self,
@@ -52,7 +51,6 @@ impl CutSurface<'_> {
     }
 }
 
-/// The sheets of a tile, from the winners of each level.
 struct BlendedSheets {
     sheet: [Sheet; PIXELS],
     /// Vessel and arc length (mm) of the finer of two levels; vessel −1 before it is known.

@@ -46,7 +46,6 @@ impl CutSurface<'_> {
     }
 }
 
-/// The blend of two levels so far.
 struct Sum {
     depth: [f32; PIXELS],
     slope: [[f32; PIXELS]; 2],
@@ -57,7 +56,6 @@ struct Sum {
 }
 
 impl Sum {
-    /// The finest level, which is that of the winners, by its weights.
     #[inline(always)]
     fn of_winners(blend: &LevelBlend, winners: &Envelope, decision: &Decision) -> Self {
         let zero = [0.0; PIXELS];
@@ -73,7 +71,6 @@ impl Sum {
         sum
     }
 
-    /// Adds a coarser level by its weights in part `p`.
     #[inline(always)]
     fn add<const SHEET: bool>(&mut self, p: usize, weight: &[f32; PART_PIXELS], nearest: &NearestPieces) {
         let depth = &mut self.depth.as_chunks_mut::<PART_PIXELS>().0[p];
@@ -94,7 +91,6 @@ impl Sum {
         }
     }
 
-    /// The gap along the vessel between the two levels in a pixel (mm).
     #[inline(always)]
     fn gap(&self, l: usize) -> f32 {
         (self.coarser[l] - self.finer[l]).abs()

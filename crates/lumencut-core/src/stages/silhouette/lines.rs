@@ -8,7 +8,6 @@ type Place = [isize; 2];
 
 const STEPS: [Place; 4] = [[1, 0], [-1, 0], [0, 1], [0, -1]];
 
-/// The leaps of a view and the width of their lines.
 pub(super) struct LeapLines<'a> {
     leap: &'a [u32],
     /// The values on the surface, NaN where it shows nothing; empty if all of it counts as shown.
@@ -24,7 +23,6 @@ pub(super) struct LeapLines<'a> {
 
 struct Border {
     is_leap: bool,
-    /// Whether the line of the leap lies in the pixel.
     has_line: bool,
 }
 
@@ -37,7 +35,6 @@ impl<'a> LeapLines<'a> {
         Self { leap, value, size, line_width, most, reach: line_width.ceil() as isize }
     }
 
-    /// Writes how much of each pixel of a row the lines cover.
     pub(super) fn fill_row(&self, row: usize, strength: &mut [f32]) {
         for (n, strength) in strength.chunks_mut(FAN).enumerate() {
             let [i, j] = [(n * FAN) as isize, row as isize];
@@ -130,7 +127,6 @@ impl<'a> LeapLines<'a> {
         self.most * (self.line_width + 0.5 - (x * x + y * y).sqrt()).clamp(0.0, 1.0)
     }
 
-    /// The border between a pixel and the neighbour at one of the [`STEPS`].
     fn border(&self, here: Place, step: Place) -> Border {
         let (bit, line) =
             if step[1] == 0 { (TO_THE_RIGHT, LINE_TO_THE_RIGHT) } else { (DOWNWARDS, LINE_DOWNWARDS) };
@@ -148,7 +144,6 @@ impl<'a> LeapLines<'a> {
         self.value.is_empty() || !self.value[(j * self.size[0] + i) as usize].is_nan()
     }
 
-    /// The bits of a pixel; none beyond the image.
     fn bits(&self, [i, j]: Place) -> u32 {
         let is_inside = (0..self.size[0]).contains(&i) && (0..self.size[1]).contains(&j);
         if is_inside { self.leap[(j * self.size[0] + i) as usize] } else { 0 }
