@@ -1,6 +1,4 @@
 //! The context: the sampler against a scalar loop, and every mode with and without block skipping.
-//!
-//! `cargo bench -p lumencut-core --bench context`
 
 use glam::{DAffine3, DVec3};
 use lumencut_core::camera::Camera;

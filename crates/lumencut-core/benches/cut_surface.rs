@@ -1,6 +1,4 @@
 //! The cut surface (projection, distance and depth at all levels) against brute force in the same run.
-//!
-//! `cargo bench -p lumencut-core --bench cut_surface`
 
 use glam::DVec3;
 use lumencut_core::brute_force;

@@ -1,6 +1,4 @@
 //! The cut surface by the default rules and by the paper's, in alternation, at several pixel spacings.
-//!
-//! `cargo bench -p lumencut-core --bench level_choice`
 
 use glam::DVec3;
 use lumencut_core::camera::Camera;

@@ -1,6 +1,4 @@
 //! mpCPR, CR and the cut surface: 512 × 512 pixels of the workloads from the front, without context.
-//!
-//! `cargo bench -p lumencut-core --bench reformations`
 
 use glam::DVec3;
 use lumencut_core::error::Result;

@@ -1,6 +1,4 @@
 //! Untangled CPR of trees of 9, 50 and 200 random vessels at about 512 × 1024 pixels: layout and positions.
-//!
-//! `cargo bench -p lumencut-core --bench untangled`
 
 use glam::DVec3;
 use lumencut_core::camera::Camera;

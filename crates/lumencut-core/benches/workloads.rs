@@ -1,7 +1,4 @@
-//! Table 2 of the paper: each stage on the three workloads, 512 × 512 pixels, by the default and the paper's
-//! rules, next to the paper's figures.
-//!
-//! `cargo bench -p lumencut-core --bench workloads`
+//! Table 2 of the paper: each stage on the three workloads at 512 × 512 pixels, next to the paper's figures.
 
 use glam::DVec3;
 use lumencut_core::error::Result;

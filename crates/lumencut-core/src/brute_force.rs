@@ -1,5 +1,4 @@
-//! The reference: every pixel against every piece of every level it needs. Vectorised and parallel, but
-//! without the hierarchy; for tests and benches only.
+//! The reference for tests and benches: every pixel against every piece, parallel but without the hierarchy.
 
 use crate::error::Result;
 use crate::math::cost::Rule;

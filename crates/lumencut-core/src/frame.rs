@@ -13,8 +13,7 @@ pub struct Timing {
     pub milliseconds: f64,
 }
 
-/// The images of one view. Every buffer has `width × height` entries in rows from the top; a missing image is
-/// empty.
+/// The images of one view: `width × height` entries in rows from the top; a missing image is empty.
 #[derive(Clone, Debug)]
 pub struct Frame {
     /// The position of every pixel, with the depth of the cut surface.
@@ -25,15 +24,13 @@ pub struct Frame {
     pub vessel: Vec<i32>,
     /// Where the cut surface leaps ([`crate::stages::leap`]).
     pub leap: Vec<u32>,
-    /// How much of the cut surface and of its silhouettes each pixel shows ([`crate::stages::focus`]); empty
-    /// where it shows all of both.
+    /// Shown shares of cut surface and silhouettes ([`crate::stages::focus`]); empty where all is shown.
     pub focus: Vec<Shares>,
     /// Projected distance to the nearest centerline (mm).
     pub distance: Vec<f32>,
     /// The volume at the cut surface, NaN outside the volume.
     pub value: Vec<f32>,
-    /// The context alone, RGBA with straight alpha; transparent where none was needed, empty without a
-    /// context.
+    /// The context alone, RGBA with straight alpha; transparent where not needed, empty without a context.
     pub context: Vec<[u8; 4]>,
     /// For reformations: whether other points of the vessel share the pixel. Otherwise empty.
     pub folded: Vec<bool>,

@@ -1,5 +1,4 @@
-//! Position of every pixel in world space. What is shown there (`look` in `pipeline.rs`) is independent of
-//! the method that found it.
+//! Position of every pixel in world space, independent of the method that found it.
 
 use glam::{DVec3, Vec3};
 

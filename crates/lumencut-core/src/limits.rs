@@ -23,8 +23,7 @@ impl Limits {
         Self { low, high, unit }
     }
 
-    /// Checks the value of the parameter `name`. Fails with [`ErrorKind::Settings`] for a number outside the
-    /// range or NaN.
+    /// Checks the parameter `name`. Fails with [`ErrorKind::Settings`] for a number outside or NaN.
     pub fn check(&self, name: &str, value: f64) -> Result<()> {
         let &Self { low, high, unit } = self;
         if value >= low && value <= high {

@@ -17,8 +17,7 @@ pub trait Named: Copy + PartialEq + 'static {
         Self::NAMES.iter().find(|(_, value)| *value == self).map_or("", |(name, _)| *name)
     }
 
-    /// The value called `name`; `subject` is what it is chosen for. Fails with [`ErrorKind::Settings`] for
-    /// any other name.
+    /// The value called `name` for `subject`. Fails with [`ErrorKind::Settings`] for any other name.
     fn named(subject: &str, name: &str) -> Result<Self> {
         if let Some((_, value)) = Self::NAMES.iter().find(|(known, _)| *known == name) {
             return Ok(*value);

@@ -143,8 +143,7 @@ impl CpuRenderer {
         }
     }
 
-    /// The details of the cut surface of one view; ignores the images of the request. Fails as
-    /// [`CpuRenderer::render`].
+    /// The details of the cut surface; ignores the images of the request. Fails as [`CpuRenderer::render`].
     pub fn details(&mut self, tree: &LeveledTree, request: &Request) -> Result<SurfaceDetails> {
         request.settings.check()?;
         let settings = &*request.settings.for_vessels(tree.tree().vessels().len())?;
@@ -153,8 +152,8 @@ impl CpuRenderer {
         SurfaceDetails::of(&self.pass(&Request { settings, images: SurfaceDetails::WANTED, ..*request }))
     }
 
-    /// The strength of the silhouettes of a reformation's frame, 0 to 1, as if all of it were shown. The
-    /// frame needs [`crate::stages::Image::Leap`].
+    /// Strength of the silhouettes of a reformation's frame with [`crate::stages::Image::Leap`], 0 to 1,
+    /// unmasked.
     pub fn strength(&self, frame: &Frame, request: &Request) -> Result<Vec<f32>> {
         let &Request { camera, settings, stop, .. } = request;
         let work = Work { size: frame.size(), isa: self.isa, stop, progress: None };
@@ -199,8 +198,7 @@ impl CpuRenderer {
         Ok(images.into_frame(frame, clock.timings).keeping(request.images))
     }
 
-    /// Takes over the levels of a tree, if tree, smoothing, number of levels or chosen vessels changed since
-    /// the last view.
+    /// Takes over the levels of a tree if it, their number, smoothing or chosen vessels changed.
     pub fn prepare(&mut self, tree: &LeveledTree, settings: &Settings) {
         let levels = tree.levels(settings.levels, settings.centerline_smoothing);
         if !Arc::ptr_eq(&self.levels, &levels) {

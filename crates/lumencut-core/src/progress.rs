@@ -50,8 +50,7 @@ impl Progress {
         self.whole.fetch_add(1, Ordering::Relaxed);
     }
 
-    /// The finished share of all work, 0 to 1, roughly proportional to time: stages weigh as much as they
-    /// usually take.
+    /// The finished share of all work, 0 to 1, weighted by the usual time of the stages.
     pub fn share(&self) -> f64 {
         let [views, whole, planned, ended, running, pixels, begun] =
             [&self.views, &self.whole, &self.planned, &self.ended, &self.running, &self.pixels, &self.begun]

@@ -13,8 +13,7 @@ use crate::stop::Stop;
 use crate::vessel_tree::VesselTree;
 use crate::volume::Volume;
 
-/// What is shown. Creating and cloning a scene is cheap: the [`VolumeKey`] and the [`LeveledTree`] keep what
-/// takes time.
+/// What is shown. Cloning is cheap: the [`VolumeKey`] and the [`LeveledTree`] keep what takes time.
 #[derive(Clone, Debug, Default)]
 pub struct Scene<'a> {
     /// The volume; without it only the cut surface can be rendered.
@@ -42,8 +41,8 @@ impl<'a> Scene<'a> {
     }
 }
 
-/// Identifies the voxels of one volume, wherever they are borrowed; caches on the CPU and the GPU are found
-/// by it. Clones identify the same voxels.
+/// Identifies the voxels of one volume, wherever they are borrowed, for caches on CPU and GPU; shared by
+/// clones.
 #[derive(Clone, Debug, Default)]
 pub struct VolumeKey {
     blocks: Arc<OnceLock<Blocks>>,
@@ -87,15 +86,13 @@ impl<'a> SharedVolume<'a> {
         if let Some(blocks) = self.key.blocks.get() {
             return Ok(blocks);
         }
-        // Computed outside the lock: a pool thread waiting for its part could take up another view and wait
-        // for itself. Blocks that another thread computed meanwhile are equal.
+        // Computed outside the lock: a waiting pool thread could take up another view and wait for itself.
         let blocks = Blocks::new(&self.volume, stop)?;
         Ok(self.key.blocks.get_or_init(|| blocks))
     }
 }
 
-/// Number of `centerline_smoothing` values whose levels are kept, so that two pictures or renderers can
-/// alternate.
+/// Number of `centerline_smoothing` values with cached levels, so that two renderers can alternate.
 const KEPT: usize = 2;
 
 /// A tree with its levels of detail, computed once for all renderers.
@@ -116,10 +113,8 @@ impl LeveledTree {
         &self.tree
     }
 
-    /// The tree's points, smoothed by `smoothing` radii, in at least `coarsest` levels of detail, finest
-    /// first.
-    ///
-    /// The levels of the last two values of `smoothing` are kept.
+    /// The tree smoothed by `smoothing` radii in at least `coarsest` levels, finest first; the last two are
+    /// kept.
     pub fn levels(&self, coarsest: usize, smoothing: f64) -> Arc<Vec<Level>> {
         if let Some(known) = self.latest(smoothing, None).filter(|known| known.len() > coarsest) {
             return known;

@@ -1,5 +1,4 @@
-//! The stages as WGSL: each module's shader lies next to its Rust file, under the same name. This text is all
-//! that this crate knows of GPUs.
+//! The stages as WGSL, each next to its Rust file: all that this crate knows of GPUs.
 
 /// A module's shader.
 #[derive(Clone, Copy, Debug)]

@@ -17,8 +17,8 @@ pub struct Vessel {
 }
 
 impl Vessel {
-    /// A vessel from at least two finite points and, if given, one finite radius ≥ 0 per point. Fails with
-    /// [`ErrorKind::VesselTree`] for another count or value.
+    /// At least two finite points and, if given, one finite radius ≥ 0 each. Fails with
+    /// [`ErrorKind::VesselTree`].
     pub fn new(points: Vec<DVec3>, radius: Option<Vec<f64>>) -> Result<Self> {
         let wrong = |subject: &str, found: String, expected: &str| {
             Err(Error::new(ErrorKind::VesselTree, subject, found, expected))
@@ -65,8 +65,7 @@ impl Vessel {
         self.radius.as_deref()
     }
 
-    /// Arc length of each point (mm); at a level of detail that of the original vessel, filtered like the
-    /// points.
+    /// Arc length of each point (mm); for levels of detail that of the original vessel, filtered like points.
     pub fn arc_length(&self) -> &[f64] {
         &self.arc_length
     }
@@ -77,16 +76,14 @@ impl Vessel {
     }
 }
 
-/// A set of vessels that may share end points; a vessel's index is its id. Forests, cycles and loose pieces
-/// are legal.
+/// Vessels that may share end points; the index is the id. Forests, cycles and loose pieces are legal.
 #[derive(Clone, Debug, PartialEq)]
 pub struct VesselTree {
     vessels: Vec<Vessel>,
 }
 
 impl VesselTree {
-    /// A tree of at least one vessel. Fails with [`ErrorKind::VesselTree`] for a tree without vessels, or one
-    /// with more points than 2³⁰.
+    /// Fails with [`ErrorKind::VesselTree`] for no vessels, or more than 2³⁰ points.
     pub fn new(vessels: Vec<Vessel>) -> Result<Self> {
         let points: usize = vessels.iter().map(|v| v.points.len()).sum();
         if vessels.is_empty() || points > 1 << 30 {

@@ -253,8 +253,7 @@ fn a_cell_without_a_number_is_left_out() {
     let run = |reduction| reduced(&volume, &camera, reduction, None, Isa::widest(), &whole)[4];
     assert_eq!(run(Reduction::Largest), 3.0);
     assert_eq!(run(Reduction::Smallest), 1.0);
-    // Along k: one half voxel and one voxel of 1, two voxels of NaN, one that rises from 1 to 3, half a voxel
-    // of 3.
+    // Along k: half a voxel and one of 1, two of NaN, one from 1 to 3, half a voxel of 3.
     let mean = (0.5 + 1.0 + 2.0 + 1.5) / 3.0;
     assert!((f64::from(run(Reduction::Mean)) - mean).abs() < 1e-5, "{}", run(Reduction::Mean));
 }

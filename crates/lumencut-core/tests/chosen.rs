@@ -1,5 +1,4 @@
-//! Chosen vessels with precedence: against the vessels alone, against plain pictures to the bit, and in
-//! closed form.
+//! Chosen vessels: against the vessels alone, against plain pictures to the bit, and in closed form.
 #![allow(clippy::unwrap_used)]
 
 use glam::DVec3;
@@ -120,8 +119,7 @@ fn beyond(tree: &VesselTree, camera: &Camera, n: usize) -> f64 {
     segments.fold(f64::MAX, f64::min)
 }
 
-/// A tube across the view, a branch that begins in its middle with its radius and goes upwards, and a tube
-/// before the branch.
+/// A tube across the view, a branch upwards from its middle with its radius, and a tube before the branch.
 fn branching() -> VesselTree {
     let across = vessel(&[[-80.0, 0.0, 0.0], [0.0, 0.0, 0.0], [80.0, 0.0, 0.0]], 10.0);
     let points = (0..=60).map(|n| DVec3::new(0.0, 0.0, f64::from(n)));
@@ -277,8 +275,7 @@ fn the_outline_of_a_chosen_vessel_is_drawn_whatever_silhouettes_say() {
         let frame = cut(&near, &camera, &Settings { silhouettes, ..choosing(&[1]) });
         let row = pixel(&frame, 0.0, 2.0) / 100 * 100;
         let leaps: Vec<usize> = (0..99).filter(|i| frame.leap[row + i] & 1 != 0).collect();
-        // The wall of the chosen vessel ends 4 mm off its centerline: between columns 41 and 42, and 57 and
-        // 58.
+        // The chosen vessel's wall ends 4 mm off: between columns 41 and 42, and 57 and 58.
         assert_eq!(leaps, [41, 57]);
     }
     let picture = shown(

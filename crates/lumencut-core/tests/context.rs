@@ -1,5 +1,4 @@
-//! The context gives the same bits with and without skipping, on every instruction set, number of threads and
-//! memory layout.
+//! The same bits with and without skipping, on every instruction set, thread count and memory layout.
 #![allow(clippy::unwrap_used)]
 
 use std::sync::atomic::{AtomicUsize, Ordering};

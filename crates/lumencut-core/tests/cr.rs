@@ -60,8 +60,7 @@ fn met(projected: &[Projected], x: f32, y: f32) -> Vec<Met> {
     all
 }
 
-/// CR of one pixel, exactly as in docs/method/reformations.md. Depths are compared as keys, which `lift`
-/// rounds.
+/// CR of one pixel as in docs/method/reformations.md; `lift` rounds depths as it does keys.
 fn by_brute_force(
     all: &[Met],
     offset: f32,
@@ -126,8 +125,7 @@ fn the_vessel_in_front_keeps_its_disc_and_a_larger_offset_hides_more() {
         for j in 0..120 {
             for i in 0..120 {
                 let (x, y) = (camera.view_x(i).abs(), camera.view_y(j).abs());
-                // Within its disc the vessel in front; elsewhere the nearer one, and at equal distance the
-                // first.
+                // Within its disc the vessel in front; elsewhere the nearer one, then the first.
                 let expected = if y <= 4.0 + offset || y <= x { 0.0 } else { 40.0 };
                 assert_eq!(frame.depth()[j * 120 + i], expected, "{x}, {y} with {offset} pixels");
             }

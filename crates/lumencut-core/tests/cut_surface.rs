@@ -42,8 +42,7 @@ fn a_bend_has_a_wedge_on_its_outside_and_the_nearer_stripe_inside() {
     for (x, y) in [(5.5, -5.5), (30.5, -0.5), (0.5, -30.5)] {
         near(at(&frame, frame.depth(), x, y), 10.0);
     }
-    // Inside, 10 mm from the first edge and 5 mm from the second: 10·1 − 1.25 against 15 − 5·… decides the
-    // cost.
+    // Inside, 10 mm from the first edge and 5 mm from the second: 10·1 − 1.25 against 15 − 5·….
     let (x, y) = (-4.5, 10.5);
     let first = (10.0 * (x + 40.0) / 40.0, y);
     let second = (10.0 + y, -x);

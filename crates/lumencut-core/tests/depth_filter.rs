@@ -26,8 +26,7 @@ fn image(size: [usize; 2], depth: impl Fn(f32, f32) -> f32) -> Vec<f32> {
     (0..size[0] * size[1]).map(|p| depth((p % size[0]) as f32, (p / size[0]) as f32)).collect()
 }
 
-/// The rule of one axis in f64: the mean of a pixel and of the pairs that count. Also returns the number of
-/// pairs.
+/// The rule of one axis in f64: the mean of a pixel and the pairs that count, and their number.
 fn mean_along(
     size: [usize; 2],
     step: [isize; 2],

@@ -1,5 +1,4 @@
-//! The focus: its share against closed forms and an independent distance, and its limits against CSR and the
-//! context alone.
+//! The focus against closed forms and an independent distance; its limits against CSR and the context.
 #![allow(clippy::unwrap_used)]
 
 use glam::{DVec2, DVec3};

@@ -1,5 +1,5 @@
-//! The same bits on every instruction set and number of threads; stops when asked; a further view allocates
-//! nothing of the size of the tree or the volume.
+//! Independence of instruction set and threads; stopping; no allocation of the size of tree or volume for a
+//! further view.
 #![allow(clippy::unwrap_used)]
 
 use std::sync::atomic::{AtomicUsize, Ordering};

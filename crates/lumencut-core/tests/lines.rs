@@ -115,8 +115,7 @@ fn a_line_is_as_wide_in_every_direction() {
     }
 }
 
-/// Distance of a pixel from a leap to a nearer lumen along a row or a column, with lumen up to there
-/// (pixels).
+/// Distance (pixels) of a pixel from a leap to a nearer lumen along a row or column of lumen.
 fn to_a_nearer_lumen(leap: &[u32], depth: &[f32], [i, j]: [usize; 2]) -> Option<usize> {
     let at = |i: isize, j: isize| {
         let is_inside = (0..SIZE[0] as isize).contains(&i) && (0..SIZE[1] as isize).contains(&j);

@@ -1,5 +1,4 @@
-//! The tests of the core as one program, linked once. `memory.rs` counts allocations and needs its own
-//! process.
+//! The tests of the core as one program; `memory.rs` counts allocations in its own process.
 
 mod along_rays;
 mod bad_input;

@@ -1,5 +1,5 @@
-//! Peak memory stays within 64 bytes per pixel and 400 bytes per segment besides the volume, and a further
-//! view allocates nothing of the size of the tree or the volume.
+//! Peak memory stays within 64 bytes per pixel and 400 per segment besides the volume; a further view
+//! allocates nothing of the size of tree or volume.
 #![allow(clippy::unwrap_used, unsafe_code)]
 
 use std::alloc::{GlobalAlloc, Layout, System};

@@ -114,8 +114,7 @@ fn the_vessel_of_a_pixel_does_not_depend_on_the_levels() {
     }
 }
 
-/// A vessel behind and beyond all others with the largest coordinates, so that rounding does not depend on
-/// the other vessels.
+/// A vessel beyond all others with the largest coordinates, so that rounding is the same without others.
 fn far_away() -> Vessel {
     let points = vec![DVec3::new(-700.0, 900.0, 700.0), DVec3::new(-720.0, 900.0, 700.0)];
     Vessel::new(points, Some(vec![1.0; 2])).unwrap()

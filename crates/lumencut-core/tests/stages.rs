@@ -257,8 +257,8 @@ fn a_slab_far_thicker_than_the_volume_shows_all_of_it() {
 
 #[test]
 fn leaps_are_where_neither_side_goes_on_and_never_beyond_the_image() {
-    // A steep plane, 90 mm per mm to the right and 70 upwards, with a step of 5 mm after the third column;
-    // and one of 3 mm after the second row, which a vessel of 2 mm radius bridges.
+    // A steep plane (90 mm per mm right, 70 up) with a 5 mm step after the third column, and a 3 mm step
+    // after the second row that a vessel of 2 mm radius bridges.
     let size = [19, 7];
     let camera = view([0.0, 1.0, 0.0], size, 0.5);
     let place = |p: usize| (p % size[0], p / size[0]);

@@ -72,8 +72,7 @@ fn tube(height: f64, depth: f64, radius: f64) -> Tube {
 
 #[test]
 fn lumen_beats_wall_and_wall_beats_surroundings_whatever_the_depth() {
-    // The lumen reaches to 2, its wall to 3; the nearer tube's from 4 and 3.5 on; the nearest one is a thin
-    // line far above.
+    // Lumen to 2, wall to 3; the nearer tube's from 4 and 3.5 on; the nearest is a thin line far above.
     let tubes = [tube(0.0, 1000.0, 2.0), tube(5.0, 500.0, 1.5), tube(12.0, -900.0, 0.5)];
     let thin_wall = Settings { lumen_margin: 0.75, ..unfiltered() };
     assert_eq!(

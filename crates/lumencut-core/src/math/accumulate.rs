@@ -6,8 +6,7 @@ use super::lanes::{FAN, larger, smaller, smallest};
 use super::thickness::of_thickness;
 use super::transfer::Colors;
 
-/// Accumulated opacity from which on only brighter samples still matter: less than half a grey value of what
-/// lies behind remains.
+/// Accumulated opacity from which on only brighter samples matter: less than half a grey value remains.
 pub(crate) const OPAQUE: f32 = 1.0 - 1.0 / 1024.0;
 
 /// Premultiplied colours and opacity of sixteen pixels, channel by channel, 0 to 1.
@@ -34,8 +33,7 @@ pub(crate) struct Palette {
     pub parameters: ContextParameters,
 }
 
-/// DVR, MIDA and the blends between them and MIP (Bruckner and Gröller 2009,
-/// doi:10.1111/j.1467-8659.2009.01474.x).
+/// DVR, MIDA, MIP and blends (Bruckner and Gröller 2009, doi:10.1111/j.1467-8659.2009.01474.x).
 #[derive(Clone, Debug)]
 pub(crate) struct Blend<'a> {
     palette: &'a Palette,
@@ -53,8 +51,7 @@ impl<'a> Blend<'a> {
     /// Rays that are not `active` take no samples.
     #[inline(always)]
     pub(crate) fn new(palette: &'a Palette, active: &[bool; FAN]) -> Self {
-        // Transparent samples change nothing before the first visible one, which is brighter than all of
-        // them.
+        // Transparent samples matter only until the first visible one, which is brighter than all of them.
         let most = palette.parameters.most;
         Self {
             palette,

@@ -11,8 +11,7 @@ pub fn arc_lengths(points: &[DVec3]) -> Vec<f64> {
     lengths
 }
 
-/// A position on a polyline: on the segment from point `segment` to the next one, at this `share` of it (0 to
-/// 1).
+/// A position on a polyline: at `share` (0 to 1) of the segment from point `segment` to the next one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LinePlace {
     /// Index of the point before the position.
@@ -21,16 +20,14 @@ pub struct LinePlace {
     pub share: f64,
 }
 
-/// The segment at arc length `at`, given the rising arc lengths of at least one point. Beyond the ends it is
-/// the first or last segment, at a point the one after it.
+/// The segment at arc length `at`: beyond the ends the first or last one, at a point the one after it.
 pub(crate) fn segment_at(lengths: &[f64], at: f64) -> usize {
     let last = lengths.len() - 1;
     lengths.partition_point(|length| *length <= at).clamp(1, last.max(1)) - 1
 }
 
 impl LinePlace {
-    /// The position at arc length `at` on the segment of [`segment_at`]; beyond the ends of the line its
-    /// nearer end.
+    /// The position at arc length `at`; beyond the ends of the line its nearer end.
     pub fn at(lengths: &[f64], at: f64) -> Self {
         let last = lengths.len() - 1;
         let segment = segment_at(lengths, at);

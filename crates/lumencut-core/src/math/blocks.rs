@@ -25,17 +25,13 @@ pub const HUGE: f32 = 3e38;
 /// An empty range, which every value widens.
 const NOTHING: Range = Range { low: HUGE, high: -HUGE };
 
-/// The values between two numbers, both included.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Range {
-    /// The smallest.
     pub low: f32,
-    /// The largest.
     pub high: f32,
 }
 
 impl Range {
-    /// Every value.
     pub const ALL: Self = Self { low: -HUGE, high: HUGE };
 
     fn between<T: Voxel>(low: T, high: T) -> Self {
@@ -43,7 +39,6 @@ impl Range {
         Self { low, high }
     }
 
-    /// The range of the negated values.
     #[inline(always)]
     pub fn negated(self) -> Self {
         Self { low: -self.high, high: -self.low }
@@ -76,7 +71,6 @@ struct Level {
 }
 
 impl Blocks {
-    /// Reads the volume once.
     pub fn new(volume: &Volume, stop: Stop) -> Result<Self> {
         let size = volume.size().map(|n| (n.max(2) - 1).div_ceil(SIDE));
         let mut ranges = vec![NOTHING; size.iter().product()];
@@ -95,8 +89,7 @@ impl Blocks {
         Ok(Self { levels })
     }
 
-    /// The blocks along each axis and the range of each, i fastest, level by level, the smallest blocks
-    /// first.
+    /// The number of blocks along each axis and their ranges, i fastest, the finest level first.
     pub fn levels(&self) -> impl Iterator<Item = ([usize; 3], &[Range])> {
         self.levels.iter().map(|level| (level.size, &level.ranges[..]))
     }

@@ -13,11 +13,9 @@ pub(crate) const NO_MEETING: f32 = 1e9;
 pub(crate) const ALONG_PLANE: f32 = 1e-9;
 
 pub(crate) trait Fold<R> {
-    /// Whether cells with corners up to `top`, one for each ray, can change anything; `length` is as in
-    /// [`Fold::take`].
+    /// Whether cells with corners up to `top` can change anything; `length` is as in [`Fold::take`].
     fn asks(&self, top: &[f32; FAN], length: &[f32; FAN]) -> bool;
-    /// Takes the cubics of the rays whose corners reach up to `top`; `length` is their length along each ray
-    /// (mm), 0 where the ray has ended.
+    /// Takes cubics with corners up to `top`; `length` is their length along each ray (mm), 0 after its end.
     fn take(&mut self, cubic: &Cubic<R, FAN>, top: &[f32; FAN], length: &[f32; FAN]);
 }
 
@@ -117,8 +115,7 @@ impl<T: Voxel, F: Fold<T::Real>> Kernel for CellWalk<'_, T, F> {
 }
 
 struct Walkers {
-    /// The cell of each ray, axis by axis. In the half voxel beyond the outermost centres it is −1 or the
-    /// last voxel.
+    /// Cell of each ray, axis by axis: −1 or the last voxel in the half voxel beyond the outermost centres.
     cell: [[i32; FAN]; 3],
     /// The next plane, and the share of the stretch that one voxel takes; 0 along a plane.
     plane: [[f32; FAN]; 3],

@@ -127,9 +127,8 @@ impl<'a> FixedRun<'a> {
         (self.chord(i) + mean).clamp(-bound, bound)
     }
 
-    /// The integral of the offset from the start to arc length `s`, which may lie beyond the ends. Point
-    /// reflection makes the integral symmetric about both ends. `segment` is where the search starts and
-    /// where it ended.
+    /// The integral of the offset from the start to arc length `s`, symmetric about both ends by reflection.
+    /// `segment` is where the search starts and where it ended.
     fn integral_to(&self, s: f64, segment: &mut usize) -> DVec3 {
         let s = folded(s, self.length());
         *segment = self.segment(s, *segment);

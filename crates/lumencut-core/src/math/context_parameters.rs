@@ -13,11 +13,9 @@ const MOST_GAPS: usize = MAX_POINTS / 2 + 1;
 /// The most sizes of blocks; with them the largest block holds a volume of any size.
 pub(crate) const MOST_BLOCK_LEVELS: usize = 16;
 
-/// Change over two voxels that is half shaded, as a share of the context window. Noise within vessels stays
-/// below it; the borders of vessels and bones are far above.
+/// Change over two voxels that is half shaded (share of the window): above the noise, below all borders.
 const HALF_SHADED: f64 = 0.1;
 
-/// How the samples of a ray are combined.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Gathering {
     /// Colours and opacities: DVR, MIDA and the blends between them and MIP.
@@ -38,7 +36,6 @@ impl Gathering {
         }
     }
 
-    /// The reduction of the values along a ray; none where samples are blended.
     pub fn reduction(self) -> Option<Reduction> {
         match self {
             Self::Blend => None,
@@ -48,7 +45,6 @@ impl Gathering {
         }
     }
 
-    /// The number that the shaders use.
     pub const fn code(self) -> u32 {
         self as u32
     }
@@ -93,15 +89,12 @@ pub struct ContextParameters {
     pub mix: f32,
     /// In the window, a value above all that is transparent before the first visible sample.
     pub most: f32,
-    /// The black end of the window.
     pub black: f32,
     /// The square of a change that is half shaded.
     pub noise: f32,
     /// The intensity from which on the colour is constant.
     pub last: f32,
-    /// The colour before the first rise of the transfer function.
     pub first_color: [f32; 3],
-    /// The opacity before the first rise.
     pub first_opacity: f32,
     pub rise_count: u32,
     pub gap_count: u32,
@@ -114,7 +107,6 @@ pub struct ContextParameters {
 }
 
 impl ContextParameters {
-    /// The parameters of `context`, whose transfer function is `colors`, sampled at least every `step` mm.
     pub fn new(
         settings: &Settings,
         context: &Context,
@@ -163,9 +155,7 @@ impl ContextParameters {
 #[derive(Clone, Copy, Debug)]
 pub struct StartParameters {
     pub(crate) opacity: Ramp,
-    /// How far behind a transparent cut surface rays start (mm): behind its slab.
     pub behind: f32,
-    /// Whether rays around a focus start at the cut surface.
     pub from_cut: bool,
 }
 

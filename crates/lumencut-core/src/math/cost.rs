@@ -1,5 +1,4 @@
-//! The cost that decides which piece of the cut surface a pixel sees (paper Eq. 2), and its *lumen first*
-//! variant.
+//! The cost that decides which piece a pixel sees (paper Eq. 2), and its *lumen first* variant.
 
 use super::lanes::larger;
 use crate::settings::Settings;
@@ -11,9 +10,8 @@ pub(crate) struct Rule {
     pub weight: f32,
     /// Thickness of the wall around a lumen (mm).
     pub margin: f32,
-    /// Height of a tier, above the depth range of the tree (mm). Under *lumen first* it puts every wall
-    /// before all surroundings, every lumen before every wall, and both of a chosen vessel before those of
-    /// all others.
+    /// Height of a tier, above the depth range of the tree (mm). Under *lumen first* walls come before
+    /// surroundings, lumens before walls, and both of a chosen vessel before all others.
     pub lift: f32,
     /// A bound on the rounding error of a projected distance (mm).
     pub distance_slack: f32,
@@ -22,8 +20,7 @@ pub(crate) struct Rule {
 }
 
 impl Rule {
-    /// The rule of `settings`. View coordinates of the tree and of the pixels stay within these distances
-    /// (mm) of the view's origin.
+    /// Coordinates of tree and pixels stay within these distances (mm) of the view's origin.
     pub(crate) fn new(settings: &Settings, tree_reach: f32, view_reach: f32) -> Self {
         let rounding = 4e-6 * larger(tree_reach, view_reach) + 1e-5;
         Self {
@@ -35,8 +32,8 @@ impl Rule {
         }
     }
 
-    /// The key of a piece at depth `z` with lumen radius `r`, at distance `d` from its centerline. Under
-    /// *lumen first* its lumen and wall come `tiers` before those of other vessels.
+    /// The key at depth `z`, lumen radius `r` and distance `d` from the centerline. Under *lumen first* lumen
+    /// and wall come `tiers` before those of other vessels.
     #[inline(always)]
     pub(crate) fn key<const LUMEN_FIRST: bool>(&self, z: f32, d: f32, r: f32, tiers: f32) -> f32 {
         let beyond = d - r;
@@ -48,8 +45,7 @@ impl Rule {
         if beyond <= self.margin { lifted } else { cost }
     }
 
-    /// How far a piece at distance `d` from its centerline, of radius `r`, lies beyond its vessel's wall
-    /// (mm). Under *lumen first* the key decides whether it does.
+    /// Distance beyond the vessel's wall (mm); under *lumen first* the key decides whether there is one.
     #[inline(always)]
     pub(crate) fn beyond_wall<const LUMEN_FIRST: bool>(&self, key: f32, d: f32, r: f32) -> f32 {
         let beyond = larger(d - r - self.margin, 0.0);
@@ -58,8 +54,7 @@ impl Rule {
         if is_lifted { 0.0 } else { beyond }
     }
 
-    /// Whether a piece at distance `d` from its centerline, of radius `r`, shows its lumen; under *lumen
-    /// first* the key decides.
+    /// Whether a piece at distance `d`, of radius `r`, shows its lumen; under *lumen first* the key decides.
     #[inline(always)]
     pub(crate) fn is_lumen<const LUMEN_FIRST: bool>(&self, key: f32, d: f32, r: f32) -> bool {
         // The keys of a tier lie within half a lift around it, and 0.5 mm away from its borders.
@@ -73,8 +68,7 @@ impl Rule {
         key < -2.5 * self.lift
     }
 
-    /// A lower bound on the keys of pieces at depth ≥ `z` with radius ≤ `r`, at most `tiers`, and distance ≥
-    /// `d`.
+    /// A lower bound on keys at depth ≥ `z`, radius ≤ `r`, at most `tiers`, and distance ≥ `d`.
     #[inline(always)]
     pub(crate) fn bound<const LUMEN_FIRST: bool>(&self, z: f32, d: f32, r: f32, tiers: f32) -> f32 {
         self.key::<LUMEN_FIRST>(z - self.depth_slack, d - self.distance_slack, r, tiers)

@@ -1,5 +1,5 @@
-//! The volume along a ray within one cell. Trilinear interpolation along a line is a cubic, here in Bernstein
-//! form: its four coefficients are averages of interpolated values.
+//! The volume along a ray within one cell: a cubic in Bernstein form, whose coefficients average interpolated
+//! values.
 
 use super::lanes::larger;
 use crate::volume::Real;
@@ -17,8 +17,7 @@ pub(crate) type Weights<R, const N: usize> = [[R; N]; 3];
 pub(crate) struct Cubic<R, const N: usize>([[R; N]; 4]);
 
 impl<R: Real, const N: usize> Cubic<R, N> {
-    /// The cubic between two positions of each ray. Its coefficients are the trilinear form with the weights
-    /// of one position along some axes and those of the other along the rest.
+    /// The cubic between two positions of each ray: trilinear forms with weights of either position per axis.
     #[inline(always)]
     pub(crate) fn between(corners: &Corners<R, N>, enter: &Weights<R, N>, leave: &Weights<R, N>) -> Self {
         let third = R::from_weight(1.0 / 3.0);
@@ -88,8 +87,7 @@ impl<R: Real, const N: usize> Cubic<R, N> {
 #[inline(always)]
 fn summit<R: Real>([b0, b1, b2, b3]: [R; 4]) -> R {
     let (zero, one, tiny) = (R::from_f32(0.0), R::from_f32(1.0), R::from_f32(TINY));
-    // A third of the derivative is d0·(1 − u)² + 2·d1·u·(1 − u) + d2·u², divided by the largest of the three
-    // so that no square overflows.
+    // A third of the derivative is d0·(1 − u)² + 2·d1·u·(1 − u) + d2·u², scaled so that no square overflows.
     let (d0, d1, d2) = (b1 - b0, b2 - b1, b3 - b2);
     let size = |d: R| larger(d, zero - d);
     let scale = one / larger(larger(size(d0), size(d1)), larger(size(d2), tiny));

@@ -15,7 +15,6 @@ pub(crate) struct Decision {
     pub(crate) beyond_wall: [f32; PIXELS],
     pub radius: [f32; PIXELS],
     pub is_lumen: [bool; PIXELS],
-    /// Whether the pixel shows a vessel that takes precedence.
     pub is_first: [bool; PIXELS],
     /// Change of depth to the right and upwards (mm per mm).
     pub slope: [[f32; PIXELS]; 2],

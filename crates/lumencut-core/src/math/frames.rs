@@ -27,16 +27,14 @@ pub struct MovingFrame {
 }
 
 impl MovingFrame {
-    /// The frame with this tangent (a unit vector) whose `ahead` is the perpendicular part of the given one,
-    /// or arbitrary if that is parallel.
+    /// The frame with this unit tangent whose `ahead` is the perpendicular part of the given one, if any.
     pub fn looking(tangent: DVec3, ahead: DVec3) -> Self {
         let perpendicular = ahead.reject_from_normalized(tangent).try_normalize();
         let ahead = perpendicular.unwrap_or_else(|| tangent.any_orthonormal_vector());
         Self { tangent, across: tangent.cross(ahead), ahead }
     }
 
-    /// The frame turned about its tangent by an angle with this sine and cosine; the viewer moves to the
-    /// right, as with cameras.
+    /// The frame turned about its tangent by this sine and cosine; the viewer moves to the right.
     #[must_use]
     pub fn turned(self, [sine, cosine]: [f64; 2]) -> Self {
         let Self { tangent, across, ahead } = self;
@@ -110,16 +108,14 @@ impl Frames {
     }
 }
 
-/// The rotation vector (radians) of the smallest turn of a frame that brings its tangent to `to`. A path that
-/// reverses turns about the direction of view.
+/// The smallest rotation vector (radians) that brings the tangent to `to`; a reversal turns about the view.
 fn turn(frame: MovingFrame, to: DVec3) -> DVec3 {
     let axis = frame.tangent.cross(to);
     let angle = axis.length().atan2(frame.tangent.dot(to));
     axis.try_normalize().filter(|_| axis.length() >= SAME_DIRECTION).unwrap_or(frame.ahead) * angle
 }
 
-/// The frame with the tangent `to` after a step along `chord`: reflect in the plane across the chord, then in
-/// the plane that brings the reflected tangent to the new one.
+/// The frame with the tangent `to` after a step along `chord`, by reflection in two planes.
 pub fn double_reflection(frame: MovingFrame, chord: DVec3, to: DVec3) -> MovingFrame {
     let [tangent, ahead] = [frame.tangent, frame.ahead].map(|vector| reflected(vector, chord));
     let ahead = reflected(ahead, to - tangent);

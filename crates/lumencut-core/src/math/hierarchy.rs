@@ -14,8 +14,8 @@ use super::tile::{Area, Tile};
 /// An entry of the order that holds no slot.
 pub const NO_SLOT: u32 = u32::MAX;
 
-/// Sixteen nodes of one height, field by field: the box around a node's segments in the view plane, its
-/// nearest depth, its largest radius (mm), and its most tiers ([`Rule::key`]).
+/// Sixteen nodes of one height: the box in the view plane, nearest depth, largest radius (mm), most tiers
+/// ([`Rule::key`]).
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
 pub struct Boxes {
@@ -123,17 +123,14 @@ impl Node {
         Self { low_x: FAR, high_x: -FAR, low_y: FAR, high_y: -FAR, z: ABSENT, radius: 0.0, tiers: 0.0 };
 }
 
-/// The slots of a level in bundles, and the boxes above them: `heights[0]` encloses the bundles, the last
-/// height is one set of boxes.
+/// Slots in bundles, and the boxes above them: `heights[0]` encloses the bundles, the last one is the root.
 #[derive(Clone, Debug)]
 pub struct Hierarchy {
     pub(crate) bundles: Vec<Bundle>,
-    /// The boxes, bottom up.
     pub heights: Vec<Vec<Boxes>>,
 }
 
 impl Hierarchy {
-    /// An empty hierarchy over `bundles` bundles.
     pub fn new(bundles: usize) -> Self {
         let mut heights = Vec::new();
         let mut nodes = bundles;
@@ -159,7 +156,6 @@ impl Hierarchy {
         self.enclose();
     }
 
-    /// Adds this length to all radii (mm).
     pub fn widen(&mut self, by: f32) {
         for bundle in &mut self.bundles {
             for s in 0..FAN {

@@ -67,7 +67,6 @@ pub fn smallest(numbers: &[f32; FAN]) -> f32 {
     number(least)
 }
 
-/// The bit of each lane, for masks as integers.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
 pub struct Bits([u32; FAN]);
@@ -100,7 +99,6 @@ impl Default for Bits {
     }
 }
 
-/// The indices of the set bits, lowest first.
 #[inline(always)]
 pub fn places(mut bits: u32) -> impl Iterator<Item = usize> {
     std::iter::from_fn(move || {
@@ -117,7 +115,6 @@ pub fn gap(low: f32, high: f32, center: f32, half: f32) -> f32 {
     larger(larger(low - center, center - high) - half, 0.0)
 }
 
-/// An instruction set that the kernels are compiled for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Isa {
     /// What every processor of the target has (SSE2, NEON, wasm simd128 if enabled).
@@ -131,7 +128,6 @@ pub enum Isa {
 }
 
 impl Isa {
-    /// The instruction sets this processor has, the widest last.
     pub fn available() -> Vec<Self> {
         #[allow(unused_mut)]
         let mut sets = vec![Self::Baseline];
@@ -147,7 +143,6 @@ impl Isa {
         sets
     }
 
-    /// The widest instruction set this processor has.
     pub fn widest() -> Self {
         static WIDEST: std::sync::OnceLock<Isa> = std::sync::OnceLock::new();
         *WIDEST.get_or_init(|| Self::available().pop().unwrap_or(Self::Baseline))
@@ -181,8 +176,7 @@ pub fn dispatch<K: Kernel>(isa: Isa, kernel: K) -> K::Output {
     }
 }
 
-/// A separate function, as for the other sets: inlined into its callers, the kernel would be optimised again
-/// in each, a third of this crate's compile time.
+/// A separate function: inlined, the kernel would be optimised in each caller, a third of the compile time.
 #[cfg_attr(target_arch = "x86_64", inline(never))]
 fn baseline<K: Kernel>(kernel: K) -> K::Output {
     kernel.run()

@@ -1,5 +1,4 @@
-// Sentinels: finite, so that no shader ever meets inf or NaN; lanes.rs, hierarchy.rs and blocks.rs explain
-// them.
+// Finite sentinels, so that no shader meets inf or NaN; lanes.rs, hierarchy.rs and blocks.rs explain them.
 
 const FAN = 16u;
 const UNSET: f32 = 1e30;

@@ -1,5 +1,4 @@
-//! The parameters of the stages that make the cut surface (projection, distance, depth), in the shaders'
-//! layout.
+//! The parameters of the stages that make the cut surface, in the shaders' layout.
 
 use bytemuck::{Pod, Zeroable};
 
@@ -19,7 +18,6 @@ pub struct LevelPlace {
     pub first_bundle: u32,
     pub bundle_count: u32,
     pub height_count: u32,
-    /// The first box of each height, bottom up.
     pub heights: [u32; MAX_HEIGHTS],
 }
 
@@ -42,16 +40,15 @@ pub struct CutSurfaceParameters {
     pub unknown_radius: f32,
     pub vessel_count: u32,
     pub padding: [u32; 2],
-    /// View coordinates (mm) of the origin of the tree's points on a GPU: the part that adds to products
-    /// without rounding.
+    /// View coordinates (mm) of the origin of a GPU's points: the part that adds to products without
+    /// rounding.
     pub origin_coarse: [f32; 4],
     pub origin_fine: [f32; 4],
     pub levels: [LevelPlace; MAX_LEVELS + 1],
 }
 
 impl CutSurfaceParameters {
-    /// The parameters of a view of a tree whose view coordinates stay within `tree_reach` mm of the view's
-    /// origin.
+    /// The parameters of a view whose tree stays within `tree_reach` mm of the view's origin.
     pub fn new(settings: &Settings, camera: &Camera, tree_reach: f32) -> Self {
         let view_reach = camera.view_x(0).abs().max(camera.view_y(0).abs()) as f32;
         let rule = Rule::new(settings, tree_reach, view_reach);

@@ -18,7 +18,6 @@ pub(crate) const UNSHADED: [f32; 2] = [1.0, 0.0];
 
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Shading {
-    /// The square of a change that is half shaded.
     pub noise: f32,
 }
 
@@ -30,7 +29,6 @@ fn bounded(change: f32) -> f32 {
 }
 
 pub(crate) struct Headlight<'a> {
-    /// Without it everything keeps its colour.
     pub shading: Option<Shading>,
     pub sampler: &'a dyn Sampler,
     pub(crate) index_from_view: &'a IndexFromView,

@@ -83,8 +83,7 @@ impl NearestPoint {
     }
 }
 
-/// A bound on the rounding of distances between a tile and the point (x, y), which grows with their
-/// coordinates (mm).
+/// A bound on the rounding of distances between a tile and the point (x, y) (mm).
 #[inline(always)]
 fn slack(tile: &Tile, x: f32, y: f32) -> f32 {
     let ([cx, cy], [hx, hy]) = (tile.area.center, tile.area.half);

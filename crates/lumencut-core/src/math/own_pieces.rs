@@ -1,5 +1,4 @@
-//! The pieces of the winner's own vessel at coarser levels: the one whose arc length is nearest to the
-//! winner's.
+//! The pieces of the winner's own vessel at coarser levels whose arc length is nearest to the winner's.
 
 use super::candidates::Cover;
 use super::cost::Rule;

@@ -40,8 +40,7 @@ pub(crate) struct Bundle {
     pub wedge_z: [f32; FAN],
     pub radius: [f32; FAN],
     pub radius_change: [f32; FAN],
-    /// How many tiers lumen and wall come before those of other vessels ([`Rule::key`]): 2 for chosen
-    /// vessels, else 0.
+    /// Tiers before lumen and wall of other vessels ([`Rule::key`]): 2 for chosen vessels, else 0.
     pub tiers: [f32; FAN],
     /// The slot's number in its level; rises along each vessel and from vessel to vessel.
     pub slot: [u32; FAN],

@@ -20,8 +20,7 @@ struct Slot {
     tiers: f32,
 }
 
-// The winner of each pixel of the tile so far: its key, its depth (mm), and twice its slot, plus 1 for the
-// stripe.
+// The winner of each pixel so far: key, depth (mm), and twice its slot, plus 1 for the stripe.
 var<private> winner_key: array<vec4f, MAX_QUADS>;
 var<private> winner_z: array<vec4f, MAX_QUADS>;
 var<private> winner_piece: array<vec4u, MAX_QUADS>;

@@ -1,5 +1,4 @@
-//! A map from positions to values that finds the value of any position near a stored one, such as vessel
-//! ends.
+//! A map whose values are found from any position near the stored one, such as vessel ends.
 
 use std::collections::HashMap;
 

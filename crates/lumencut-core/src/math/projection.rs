@@ -11,8 +11,8 @@ use crate::camera::Camera;
 use crate::settings::Settings;
 use crate::vessel_tree::VesselTree;
 
-/// A segment whose projection is shorter than this (mm) is collinear with the view direction and has no
-/// stripe. It is far below any voxel and well above the rounding of `f32`.
+/// A segment with a shorter projection (mm) is collinear with the view and has no stripe: far below any
+/// voxel, well above the rounding of `f32`.
 pub const COLLINEAR_LENGTH: f32 = 1e-3;
 
 /// How many tiers lumen and wall of a chosen vessel come before those of others: both before both.
@@ -23,7 +23,6 @@ const TIERS_OF_FIRST: f32 = 2.0;
 pub struct Level {
     /// The first slot of each vessel, and the number of slots at the end.
     pub first_slot: Vec<u32>,
-    /// The point of each slot (mm, LPS).
     pub points: Vec<DVec3>,
     /// The radius at each slot (mm), 0 where unknown.
     pub radii: Vec<f32>,
@@ -36,8 +35,8 @@ pub struct Level {
 }
 
 impl Level {
-    /// The slots of `tree`. A point nearer than [`COLLINEAR_LENGTH`] to the previous one gets no slot: it
-    /// would be collinear with the view from every side.
+    /// A point nearer than [`COLLINEAR_LENGTH`] to the previous one gets no slot: its segment has no
+    /// direction.
     pub fn new(tree: &VesselTree) -> Self {
         let slots = tree.segment_count() + tree.vessels().len();
         let (mut points, mut radii) = (Vec::with_capacity(slots), Vec::with_capacity(slots));
@@ -71,22 +70,17 @@ impl Level {
     }
 }
 
-/// A point in projection and its wedge.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Projected {
-    /// View coordinates (mm).
     pub point: [f32; 3],
-    /// Radius (mm), as far as radii count.
     pub radius: f32,
     /// e, zero where missing or collinear.
     pub edge: [f32; 2],
-    /// f of the wedge at the point.
     pub before: [f32; 2],
     /// 1 / |e|, zero with e.
     pub inverse_length: f32,
     pub arc_length: f32,
     pub vessel: i32,
-    /// Whether a wedge, a half-plane or a plane stands there.
     pub stands: bool,
 }
 
@@ -115,7 +109,6 @@ impl Projected {
     }
 }
 
-/// How the radii of a tree enter.
 #[derive(Clone, Copy, Debug)]
 pub struct Radii {
     /// Factor on radii: 1 where they count, else 0.
@@ -155,8 +148,7 @@ impl ProjectedLevel {
         Self { projected, hierarchy: Hierarchy::new(level.bundle_count()) }
     }
 
-    /// Puts lumen and wall of these slots, a range for each vessel, two tiers before all others in all later
-    /// views.
+    /// Puts lumen and wall of these slots, a range per vessel, two tiers before all others in later views.
     pub fn put_first(&mut self, level: &Level, chosen: &[Range<u32>]) {
         for (place, slot) in level.order.iter().enumerate().filter(|(_, slot)| **slot != NO_SLOT) {
             let is_first = chosen[level.vessel_of_slot[*slot as usize] as usize].contains(slot);
@@ -198,7 +190,6 @@ impl ProjectedLevel {
         bundle.radius_change[s] = end.radius - here.radius;
     }
 
-    /// The largest absolute view coordinate of all slots (mm).
     pub fn reach(&self) -> f32 {
         let coordinates = self.projected.iter().flat_map(|p| p.point);
         coordinates.fold(0.0, |reach, c| reach.max(c.abs()))

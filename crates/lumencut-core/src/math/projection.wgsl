@@ -5,8 +5,8 @@
 // import math/pieces
 // import math/hierarchy
 
-// A point of a level, counted from the middle of the tree (mm): a part of few digits, whose products with the
-// coarse axes of the view are exact, and the rest.
+// A point counted from the middle of the tree (mm): few digits, for exact products with coarse axes, and the
+// rest.
 struct Point {
     coarse: vec3f,
     radius: f32,

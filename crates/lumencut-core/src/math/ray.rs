@@ -15,8 +15,8 @@ pub const STEPS: usize = 8;
 /// The most samples along a ray and across a slab.
 pub const MOST_SAMPLES: f64 = 65_536.0;
 
-/// The share of a step by which a chord may exceed whole steps without another part: n voxels give n parts
-/// whatever the rounding of n · side, also in `f32` on a GPU.
+/// Share of a step that a chord may exceed whole steps without another part: n voxels give n parts despite
+/// rounding.
 pub const SPARE: f64 = 1e-3;
 
 /// What all rays of a view share.
@@ -24,7 +24,6 @@ pub const SPARE: f64 = 1e-3;
 pub struct Rays {
     pub grid: Grid,
     pub(crate) index_from_view: IndexFromView,
-    /// The longest part of a ray (mm).
     pub step: f64,
 }
 
@@ -35,15 +34,13 @@ impl Rays {
     }
 }
 
-/// Sixteen rays of a square of pixels. Each chord within the volume and the wanted depths is cut into equal
-/// parts no longer than a step, so the parts fill it.
+/// Sixteen rays of a square of pixels, each cut into equal parts no longer than a step.
 #[derive(Clone, Debug)]
 pub(crate) struct Packet {
     lines: Lines,
     part: [f64; FAN],
     /// The number of parts of each ray; 0 where it misses the volume or is not needed.
     pub count: [i32; FAN],
-    /// The length of a part (mm).
     pub thickness: [f32; FAN],
     pub longest: i32,
     bounds: Bounds,
@@ -210,11 +207,9 @@ impl Packet {
 pub(crate) struct RaySpan {
     /// Where they begin (voxels).
     pub start: Places,
-    /// Extent over the whole segment (voxels).
     pub way: Places,
     /// Where they end, as a share of the segment; at most 0 if a ray has ended before.
     pub end: [f32; FAN],
-    /// The length of the whole segment (mm).
     pub length: [f32; FAN],
 }
 

@@ -22,13 +22,10 @@ pub(crate) const NO_CHORD: [f64; 2] = [NONE as f64, -(NONE as f64)];
 /// Continuous index as an affine map of view coordinates.
 #[derive(Clone, Copy, Debug)]
 pub struct IndexFromView {
-    /// The index of the origin of view space.
     pub origin: DVec3,
-    /// Index per mm to the right.
+    /// Index per mm to the right, upwards, and away from the viewer.
     pub x: DVec3,
-    /// Index per mm upwards.
     pub y: DVec3,
-    /// Index per mm away from the viewer.
     pub z: DVec3,
 }
 
@@ -60,7 +57,6 @@ pub struct RayGrid {
 }
 
 impl RayGrid {
-    /// A ray for every pixel.
     pub fn fine(camera: &Camera) -> Self {
         let s = camera.pixel_spacing();
         Self { size: camera.size(), first: [camera.view_x(0), camera.view_y(0)], next: [s, -s] }
@@ -77,19 +73,16 @@ impl RayGrid {
 /// Sixteen rays: index at depth 0, direction, and the wanted depths.
 #[derive(Clone, Debug)]
 pub struct Lines {
-    /// Continuous index at depth 0.
     pub foot: [[f64; FAN]; 3],
     /// Change of the index per mm of depth.
     pub toward: [[f64; FAN]; 3],
     /// The first depth (mm); above `far` if there is no ray.
     pub near: [f64; FAN],
-    /// The last depth (mm).
     pub far: [f64; FAN],
 }
 
 impl Lines {
-    /// The rays of a raster through sixteen pixels, by their columns and rows, each between the two depths of
-    /// `chord` (mm). Pixels beyond the image have no ray.
+    /// The rays through sixteen pixels (columns, rows) between the two depths of `chord` (mm).
     #[inline(always)]
     pub(crate) fn of_pixels(
         to: &IndexFromView,

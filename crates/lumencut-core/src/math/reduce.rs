@@ -1,10 +1,9 @@
-//! The reduction of the values along rays. The shader follows each ray alone; the CPU follows sixteen
-//! together (`stages/along_rays.rs`).
+//! The reduction of the values along rays. Shaders follow rays singly, the CPU sixteen
+//! (`stages/along_rays.rs`).
 
 use super::blocks::HUGE;
 use crate::settings::SlabMode;
 
-/// How the values along a ray become one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reduction {
     /// The mean, weighted by length along the ray.

@@ -6,13 +6,11 @@ use super::ray::{Line, RaySpan, STEPS};
 use super::sampling::{Around, Grid, SampledRun};
 use crate::volume::Voxel;
 
-/// A volume of any voxel type on a chosen instruction set, so that ray code compiles once rather than per
-/// type.
+/// A volume of any voxel type on a chosen instruction set, so that ray code compiles only once.
 pub(crate) trait Sampler: Sync {
     fn along(&self, base: [i32; 3], line: &Line) -> [[f32; FAN]; STEPS];
     fn around(&self, base: [i32; 3], neighbours: &Around) -> [[f32; FAN]; 6];
-    /// Raises the largest values of `sign` · volume along a stretch of rays; those above the limit count as
-    /// the limit.
+    /// Raises the largest values of `sign` · volume along rays, clamped to the limit.
     fn widen(&self, base: [i32; 3], stretch: &RaySpan, sign_and_limit: [f32; 2], best: &mut [f32; FAN]);
     fn sum_up(&self, base: [i32; 3], stretch: &RaySpan, sums: &mut [[f64; FAN]; 2]);
 }

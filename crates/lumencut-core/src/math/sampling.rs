@@ -8,20 +8,18 @@ use crate::volume::{Real, Volume, Voxel};
 /// A bound on the rounding of positions (voxels).
 pub const PLACE_ROUNDING: f64 = 1e-3;
 
-/// The grid of a volume, prepared to find the voxels around a continuous index.
 #[derive(Clone, Copy, Debug)]
 pub struct Grid {
     last: [f64; 3],
-    /// The last index that has a neighbour above it, and the distance in elements to that neighbour; both 0
-    /// along an axis with one voxel.
+    /// The last index with a neighbour above it, and the step to it in elements; both 0 for one voxel.
     low: [usize; 3],
     step: [usize; 3],
     strides: [usize; 3],
     wide: bool,
 }
 
-/// Continuous indices of sixteen positions, axis by axis, relative to a voxel nearby so that `f32` resolves a
-/// millionth of a voxel.
+/// Sixteen continuous indices, axis by axis, relative to a voxel nearby: `f32` resolves a millionth of a
+/// voxel.
 pub type Places = [[f32; FAN]; 3];
 
 /// Positions to sample: sixteen at each of some steps.
@@ -70,7 +68,6 @@ impl Grid {
         }
     }
 
-    /// The last index along (i, j, k).
     pub fn last(&self) -> [f64; 3] {
         self.last
     }
@@ -80,15 +77,13 @@ impl Grid {
         self.low.map(|n| n as i32)
     }
 
-    /// The value at continuous index `p`: NaN more than half a voxel beyond the outermost centres, the
-    /// outermost voxel's value within that half voxel.
+    /// The value at continuous index `p`: the outermost voxel's up to half a voxel outside, NaN beyond.
     #[inline]
     pub fn trilinear<T: Voxel>(&self, voxels: &[T], p: DVec3) -> f32 {
         self.interpolated(voxels, p, Voxel::real)
     }
 
-    /// [`Grid::trilinear`] in single precision for every voxel type: equal numbers in voxels of two types
-    /// give equal values to the bit.
+    /// [`Grid::trilinear`] in single precision: equal numbers of two voxel types give equal bits.
     #[inline]
     pub fn trilinear_single<T: Voxel>(&self, voxels: &[T], p: DVec3) -> f32 {
         self.interpolated(voxels, p, |voxel| voxel.real().to_f32())
@@ -166,9 +161,8 @@ impl Grid {
         value
     }
 
-    /// The volume at N times sixteen positions relative to the voxel `base`, extended by the outermost
-    /// voxels. Loads and arithmetic alternate over all positions: the arithmetic vectorises, and many loads
-    /// are in flight.
+    /// The volume at N · 16 positions relative to `base`, extended by the outermost voxels. Alternating loads
+    /// and arithmetic vectorises the latter and keeps many loads in flight.
     #[inline(always)]
     pub fn sample<T: Voxel, const N: usize>(
         &self,
@@ -216,7 +210,6 @@ impl Grid {
         })
     }
 
-    /// Whether the voxels lie too far apart for offsets of 32 bits.
     pub fn is_wide(&self) -> bool {
         self.wide
     }
@@ -236,8 +229,7 @@ impl Grid {
         let [si, sj, sk] = self.step;
         let steps = [0, sj, sk, sj + sk];
         let mut rows = [[[T::pair(T::default(), T::default()); FAN]; N]; 4];
-        // Adjacent neighbours: one load fetches both. No pair begins after `last`; clamping costs less than a
-        // bounds check.
+        // One load fetches both neighbours. Clamping to `last` costs less than a bounds check.
         if si == 1
             && let Some(last) = voxels.len().checked_sub(2)
         {
@@ -263,7 +255,6 @@ impl Grid {
     }
 }
 
-/// The distance of a voxel in elements.
 pub trait Offset: Copy + Default {
     fn stride(grid: &Grid, axis: usize) -> Self;
     fn plus(self, steps: i32, stride: Self) -> Self;

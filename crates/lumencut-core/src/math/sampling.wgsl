@@ -19,9 +19,8 @@ struct GridParameters {
     unit: f32,
     per_unit: f32,
     padding: vec2f,
-    // The index in the middle of the image at the reference depth, and its change per column to the right,
-    // per row upwards and per mm of depth: parts of few digits, whose products and sums are exact, and the
-    // rests.
+    // The index in the middle of the image at the reference depth, and its change per column, row and mm of
+    // depth: parts of few digits with exact products and sums, and the rests.
     origin: vec4f,
     origin_rest: vec4f,
     x: vec4f,

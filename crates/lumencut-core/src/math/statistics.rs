@@ -7,8 +7,7 @@ pub fn median(values: &mut [f64]) -> Option<f64> {
     Some(if last % 2 == 0 { below } else { (below + above) / 2.0 })
 }
 
-/// The quantile at share `part`, interpolated linearly between neighbours; `None` of no values. It reorders
-/// the values.
+/// The quantile at share `part`, interpolated linearly; `None` of no values. It reorders the values.
 pub fn quantile(values: &mut [f64], part: f64) -> Option<f64> {
     let last = values.len().checked_sub(1)?;
     let place = last as f64 * part;
@@ -19,8 +18,7 @@ pub fn quantile(values: &mut [f64], part: f64) -> Option<f64> {
     Some(if weight < 0.5 { low + difference * weight } else { high - difference * (1.0 - weight) })
 }
 
-/// The start of the second of two groups of rising values, split so that their means differ most (Otsu 1979);
-/// `None` if all values are equal.
+/// The start of the second of two groups of rising values by Otsu (1979); `None` if all are equal.
 pub fn two_groups(rising: &[f64]) -> Option<usize> {
     let first = *rising.first()?;
     let all: f64 = rising.iter().map(|value| value - first).sum();

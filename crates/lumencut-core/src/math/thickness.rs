@@ -1,5 +1,4 @@
-//! Opacity of another thickness: 1 − (1 − α)^h, over lanes and without the system's logarithm, so that every
-//! platform gives the same bits.
+//! Opacity of another thickness: 1 − (1 − α)^h, without the system's logarithm: equal bits on every platform.
 
 use super::lanes::{FAN, larger, smaller};
 
@@ -35,8 +34,7 @@ fn log2_of_one_minus(a: f32) -> f32 {
 /// 1 − 2^y for y ≤ 0, to a few units in the last place, also for small y.
 #[inline(always)]
 fn one_minus_power_of_two(y: f32) -> f32 {
-    // y = n + r with |r| ≤ ½; 2^y − 1 = 2^n·(2^r − 1) + (2^n − 1). From 1.5·2²³ on, a float's last bit counts
-    // ones.
+    // y = n + r with |r| ≤ ½; 2^y − 1 = 2^n·(2^r − 1) + (2^n − 1). From 1.5·2²³ on, the last bit counts ones.
     const ONES: f32 = 12_582_912.0;
     let y = larger(y, -125.0);
     let shifted = y + ONES;

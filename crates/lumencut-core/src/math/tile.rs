@@ -22,8 +22,7 @@ pub(crate) const PLACE_OF_LANE: [(usize, usize); PIXELS] = {
     places
 };
 
-/// The lanes of the tile whose first column is `column`, from its `rows` of `width` pixels; lanes beyond the
-/// image repeat its last column and row.
+/// The lanes of the tile at `column` of these `rows`; lanes beyond the image repeat its last column and row.
 #[inline(always)]
 pub(crate) fn gather(rows: &[f32], width: usize, column: usize) -> [f32; PIXELS] {
     let last_row = rows.len() / width - 1;
@@ -42,8 +41,7 @@ pub(crate) fn gather(rows: &[f32], width: usize, column: usize) -> [f32; PIXELS]
     lanes
 }
 
-/// Writes the lanes of the tile whose first column is `column` into its `rows` of `width` pixels, without the
-/// lanes beyond the image.
+/// Writes the lanes of the tile at `column` into its `rows`, without those beyond the image.
 #[inline(always)]
 pub(crate) fn scatter<T: Copy>(lanes: &[T; PIXELS], rows: &mut [T], width: usize, column: usize) {
     for (n, run) in lanes.as_chunks::<PART_SIDE>().0.iter().enumerate() {
@@ -58,7 +56,6 @@ pub(crate) fn scatter<T: Copy>(lanes: &[T; PIXELS], rows: &mut [T], width: usize
     }
 }
 
-/// A box in the view plane (mm).
 #[derive(Clone, Copy, Debug)]
 pub struct Area {
     pub center: [f32; 2],

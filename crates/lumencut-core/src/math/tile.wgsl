@@ -9,8 +9,8 @@ const MAX_ACROSS = 2u;
 const MAX_ROWS = 8u;
 const MAX_QUADS = 16u;
 const QUAD = 4u;
-// The tiles of a workgroup, in short rows, so that threads in step have tiles close together. One dimension:
-// software adapters run in step along the first one only, and need it wider than their vectors.
+// Short rows of tiles keep threads in step close together. Software adapters run in step along the first
+// dimension only, which must exceed their vectors.
 const TILES = 64u;
 const TILES_ACROSS = 4u;
 

@@ -1,5 +1,4 @@
-//! The one ray loop of the context: segment by segment, all rays of a tile together, skipping what changes
-//! nothing.
+//! The one ray loop of the context: all rays of a tile together, skipping segments that change nothing.
 
 use super::accumulate::{Blend, Rgba, Samples};
 use super::blocks::{Blocks, Range};
@@ -36,8 +35,7 @@ impl<'a> RayPacket<'a> {
     }
 }
 
-/// Gathers the samples of adjacent rays. They advance together: memory that one ray fetches serves its
-/// neighbours.
+/// Adjacent rays advance together: memory that one ray fetches serves its neighbours.
 #[inline(always)]
 pub(crate) fn trace(passage: &Passage, packets: &mut [RayPacket]) {
     let mut longest = 0;

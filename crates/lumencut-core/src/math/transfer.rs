@@ -41,7 +41,6 @@ impl Rise {
     }
 }
 
-/// A transfer function prepared for sixteen intensities at once.
 #[derive(Clone, Debug)]
 pub struct Colors {
     color: [f32; 3],
@@ -63,7 +62,6 @@ impl Colors {
         }
     }
 
-    /// Colour and opacity before the first rise.
     pub fn first(&self) -> ([f32; 3], f32) {
         (self.color, self.opacity)
     }

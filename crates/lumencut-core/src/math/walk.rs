@@ -1,5 +1,4 @@
-//! The walk through a hierarchy for one tile of pixels: near nodes first, cut off by the tile's worst key so
-//! far.
+//! The walk through a hierarchy for one tile: near nodes first, cut off by the tile's worst key so far.
 
 use super::candidates::candidates;
 use super::cost::Rule;
@@ -131,8 +130,8 @@ pub(crate) fn lowest_keys<const LUMEN_FIRST: bool>(
     }
 }
 
-/// Lowers the squared distance of every pixel of the tile to that of the nearest segment. `nearest` is any
-/// point of the segments, such as the one nearest to the previous tile, and becomes this tile's.
+/// Lowers squared distances to those of the nearest segments. `nearest` starts as any point of the segments,
+/// such as the previous tile's nearest, and becomes this tile's.
 #[inline(always)]
 pub(crate) fn smallest_distances(
     hierarchy: &Hierarchy,

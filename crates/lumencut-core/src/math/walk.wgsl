@@ -46,8 +46,8 @@ fn next_bundle(tile: Tile, level: u32, first: Node, limit: f32) -> Node {
     return node;
 }
 
-// Offers the pieces of a bundle that can win and returns the limit beyond which nothing wins any more.
-// Candidates are found first, so that threads in step evaluate them together.
+// Returns the limit beyond which nothing wins any more. Candidates are found first, so that threads in step
+// evaluate them together.
 fn offer_bundle(tile: Tile, bundle: u32, limit: f32) -> f32 {
     var candidates = 0u;
     for (var s = 0u; s < FAN; s++) {

@@ -45,16 +45,15 @@ fn lower_beyond(tile: &Tile, beyond: &mut [f32; PIXELS], bundle: &Bundle, s: usi
     }
 }
 
-/// Offset of the nearest disc from a pixel's foot per mm of distance from the line, if the radius changes by
-/// `taper` mm per mm.
+/// Offset of the nearest disc from a pixel's foot per mm from the line, for a `taper` in mm per mm.
 #[inline(always)]
 fn lean(taper: f32) -> f32 {
     let rest = larger(1.0 - taper * taper, 1.0 / (MOST_LEAN * MOST_LEAN));
     smaller(larger(taper / rest.sqrt(), -MOST_LEAN), MOST_LEAN)
 }
 
-/// Lowers the distance (mm, negative within) of every pixel of the tile from the wall of its nearest vessel,
-/// or chosen vessel. The search ends beyond `range.far`, and once all pixels are within `range.near`.
+/// Lowers the distances (mm, negative within) to the nearest wall, of chosen vessels if `OF_FIRST`. The
+/// search ends beyond `range.far`, and once all pixels are within `range.near`.
 #[inline(always)]
 pub(crate) fn nearest_walls<const OF_FIRST: bool>(
     hierarchy: &Hierarchy,

@@ -96,19 +96,15 @@ pub struct LookPass<'a> {
     pub volume: &'a SharedVolume<'a>,
     pub settings: &'a Settings,
     pub geometry: &'a Geometry,
-    /// The vessel of each pixel; empty if unknown.
     pub vessel: &'a [i32],
-    /// Where the surface leaps; empty if unknown.
     pub leap: &'a [u32],
-    /// How much of the surface and of its silhouettes is shown; empty if all of both is.
     pub focus: &'a [Shares],
-    /// The images that the frame shall have.
     pub wanted: ImageSet,
 }
 
 impl LookPass<'_> {
-    /// Runs a stage that shows the volume; other stages do nothing here. Fails with
-    /// [`crate::error::ErrorKind::Settings`] for a slab or a step that does not fit the volume.
+    /// Runs a stage that shows the volume. Fails with `Settings` for a slab or step that does not fit the
+    /// volume.
     pub fn run(&self, stage: Stage, images: &mut Images) -> Result<()> {
         match stage {
             Stage::Surface => self.surface(images),

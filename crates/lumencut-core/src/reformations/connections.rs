@@ -84,8 +84,7 @@ impl Connections {
         })
     }
 
-    /// All that may lie within the threshold of a part of a vessel between two arc lengths (mm), as vessels
-    /// with arc lengths from and to.
+    /// What may lie within the threshold of a part of a vessel: vessels with arc lengths from and to (mm).
     pub fn stretches(&self, vessel: u32, [low, high]: [f64; 2]) -> Vec<(u32, [f64; 2])> {
         let mut stretches = vec![(vessel, [low - self.threshold, high + self.threshold])];
         for meeting in self.meetings_of(vessel) {
@@ -127,8 +126,7 @@ impl Connections {
         Cow::Borrowed(known.get_or_init(|| reached))
     }
 
-    /// The junctions within the threshold of one of them, and their distances along the tree (mm): Dijkstra's
-    /// algorithm.
+    /// Junctions within the threshold of one, and their distances along the tree (mm): Dijkstra's algorithm.
     fn shortest_ways(&self, start: u32) -> Vec<(u32, f64)> {
         let mut known: HashMap<u32, f64> = HashMap::from([(start, 0.0)]);
         // The bits of non-negative floats have their order; the heap pops the largest first.

@@ -43,8 +43,7 @@ pub enum CprMode {
     Projected,
     /// The surface of parallel lines unrolled, so that lengths on it are true.
     Stretched,
-    /// Rows by arc length, the vessel straight in the middle, lines across it in the rotation-minimising
-    /// frame.
+    /// Rows by arc length, the vessel straight in the middle, in the rotation-minimising frame.
     Straightened,
 }
 
@@ -110,8 +109,7 @@ impl Cpr {
         Ok(Self { mode, view, path, surface, straightened, width, pixel_spacing, size })
     }
 
-    /// The same vessel seen from another angle (radians). The frames of a straightened vessel are reused.
-    /// Fails as [`Cpr::new`].
+    /// The same vessel from another angle (radians), reusing its frames. Fails as [`Cpr::new`].
     pub fn rotated(&self, angle: f64) -> Result<Self> {
         let view = View { angle, ..self.view };
         view.checked_angle()?;

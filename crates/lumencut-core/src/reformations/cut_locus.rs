@@ -1,13 +1,11 @@
-//! The cut locus of a vessel: the distance up to which each of its points is the nearest one. Beyond lies
-//! what belongs to another part of it.
+//! The cut locus of a vessel: beyond it, points are nearer to another part of the vessel.
 
 use glam::DVec3;
 
 use super::segments::Segments;
 use crate::math::centerline_path::CenterlinePath;
 
-/// A point belongs to another part of the vessel if that is nearer by more than this share. Images tilt a
-/// little at rounded corners and where a bent vessel changes its depth, which moves the nearest point.
+/// Required relative difference of distances: rounded corners and changing depth tilt images a little.
 pub(super) const NEARER: f64 = 0.05;
 
 pub(super) struct CutLocus<'a> {

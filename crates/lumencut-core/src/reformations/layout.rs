@@ -1,5 +1,4 @@
-//! The common interface of reformations that lay vessels out as an image: a world position for each pixel,
-//! and maps in both directions.
+//! The interface of reformations that lay vessels out as an image.
 
 use glam::{DVec2, DVec3, Vec3};
 use rayon::prelude::*;
@@ -20,16 +19,13 @@ pub trait Layout: Send + Sync {
     /// The side of a pixel (mm).
     fn pixel_spacing(&self) -> f64;
 
-    /// The position of each pixel, and the direction in which a slab is thick there. A position that is not
-    /// finite shows nothing.
+    /// World position and slab direction of each pixel; a position that is not finite shows nothing.
     fn curved(&self, stop: Stop) -> Result<Curved>;
 
-    /// The arc length of the vessel (mm): one per row if rows run along one vessel, else one per pixel, NaN
-    /// where nothing is shown.
+    /// Arc length (mm): one per row if rows run along one vessel, else per pixel; NaN where nothing is shown.
     fn arc_length(&self, stop: Stop) -> Result<Vec<f64>>;
 
-    /// Whether each pixel is folded, row by row: unreliable because the image runs backwards there or shows
-    /// the same elsewhere.
+    /// Pixels that are unreliable because the image runs backwards or shows the same elsewhere.
     fn folded(&self, stop: Stop) -> Result<Vec<bool>>;
 
     /// The world point at an image position.
@@ -80,8 +76,7 @@ pub(super) fn whole_pixels(length: f64, pixel_spacing: f64) -> f64 {
     (length / pixel_spacing + WHOLE).floor()
 }
 
-/// The size of an image with these numbers of columns and rows. Fails with [`ErrorKind::Camera`], about
-/// `subject`, for too many of them.
+/// Fails with [`ErrorKind::Camera`], about `subject`, for too many columns or rows.
 pub(super) fn checked_size(subject: &str, size: [f64; 2]) -> Result<[usize; 2]> {
     let [width, height] = size;
     if width.max(height) > MAX_SIZE as f64 || width * height > MAX_PIXELS as f64 {

@@ -56,9 +56,8 @@ pub struct LumenMap {
 }
 
 impl LumenMap {
-    /// The map of the vessel with this path and this wall, in the straightened space of `view`, whose angle
-    /// applies. Fails with [`ErrorKind::Camera`] for an invalid view, spacing, angle or overlap, or too many
-    /// pixels.
+    /// The map of a vessel with this path and wall in the straightened space of `view`. Fails with
+    /// [`ErrorKind::Camera`] for an invalid view, spacing, angle or overlap, or too many pixels.
     pub fn new(
         path: Arc<CenterlinePath>,
         view: &View,
@@ -114,8 +113,7 @@ impl LumenMap {
         self.each(false, stop, |at, around| self.wall.is_open(at, around))
     }
 
-    /// Brightness of the wall at each pixel, lit from the middle of the vessel: 1 where it is met at right
-    /// angles. Its slope is that between the pixels on both sides.
+    /// Brightness of the wall lit from the middle of the vessel: 1 where it is met at right angles.
     pub fn shades(&self, stop: Stop) -> Result<Vec<f32>> {
         let numbers = (0..self.size()[1] + 2).into_par_iter();
         let rows = numbers
@@ -133,8 +131,7 @@ impl LumenMap {
         })
     }
 
-    /// Points of the wall and the directions to them, one column more on both sides; row 0 lies before the
-    /// first row of the image.
+    /// Points of the wall and their directions, one column more on both sides; row 0 lies before the image.
     fn wall_row(&self, number: usize) -> (Vec<DVec3>, Vec<DVec3>) {
         let at = (number as f64 - 1.0) * self.parameters.pixel_spacing;
         let (middle, frame) = (self.path.at(at), self.straightened.frame(at));
@@ -148,8 +145,7 @@ impl LumenMap {
         columns.map(ray).unzip()
     }
 
-    /// The column of a direction around the vessel (radians), with fractions, centre of the first column at
-    /// 0.
+    /// The column of a direction around the vessel (radians), with fractions.
     pub fn column(&self, around: f64) -> f64 {
         let share = ((around - self.parameters.angle) / TAU + 0.5).rem_euclid(1.0);
         share * self.columns[0] as f64 - 0.5 + self.columns[1] as f64

@@ -1,5 +1,4 @@
-//! Reformations: other methods than the cut surface to find the position of each pixel. `look` shows what is
-//! there ([`crate::pipeline`]).
+//! Reformations: other methods to find the position of each pixel; [`crate::pipeline`] shows what is there.
 
 mod connections;
 pub mod cpr;

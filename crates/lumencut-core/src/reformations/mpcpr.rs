@@ -103,9 +103,8 @@ impl Lines {
         row
     }
 
-    /// Adds the part of the segment from `slot` in the row at `y`. A segment owns its start and its inside,
-    /// the last one of a vessel also its end, so each crossing counts once. If both ends lie in the row, all
-    /// of it does.
+    /// Adds the crossing of the segment from `slot`. A segment owns its start and inside, the last one of a
+    /// vessel also its end, so each crossing counts once.
     fn cross(&self, slot: usize, y: f64, row: &mut Row) {
         let (a, b) = (self.points[slot], self.points[slot + 1]);
         if a.vessel != b.vessel {

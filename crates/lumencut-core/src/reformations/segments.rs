@@ -40,8 +40,7 @@ impl Segments {
         Self { ends, levels }
     }
 
-    /// The squared distance (mm²) between a segment and a point; equal for two segments that share the
-    /// nearest end.
+    /// Squared distance (mm²) of a segment and a point; equal for two segments that share the nearest end.
     pub(super) fn squared_distance(&self, segment: usize, point: DVec3) -> f64 {
         let [start, end] = self.ends[segment];
         let along = end - start;

@@ -53,8 +53,7 @@ pub struct SpiralParameters {
     pub angle: f64,
 }
 
-/// A vessel whose sections are wound up: rows by arc length, columns along two spirals that meet in the
-/// middle.
+/// A vessel with sections wound up: rows by arc length, columns along two spirals from the middle.
 #[derive(Clone)]
 pub struct Spiral {
     straightened: Straightened,
@@ -65,9 +64,8 @@ pub struct Spiral {
 }
 
 impl Spiral {
-    /// The spiral CPR of the vessel with this path, seen as in [`Straightened`]. Fails with
-    /// [`ErrorKind::Camera`] for an invalid view, angle or length, or too many pixels: the error names a
-    /// pitch that fits.
+    /// Seen as in [`Straightened`]. Fails with [`ErrorKind::Camera`] for an invalid view, angle or length, or
+    /// too many pixels: the error names a pitch that fits.
     pub fn new(path: Arc<CenterlinePath>, view: &View, parameters: SpiralParameters) -> Result<Self> {
         let SpiralParameters { pitch, radius, pixel_spacing, angle, .. } = parameters;
         for (subject, value) in [
@@ -151,8 +149,7 @@ impl SpiralParameters {
         [place * side, -forward.normalize().perp()]
     }
 
-    /// The pixels from the middle at which a position in a section is shown: on the nearest winding, of two
-    /// the inner one.
+    /// Pixels from the middle at which a position is shown: on the nearest winding, of two the inner one.
     fn pixels_of(&self, place: DVec2) -> f64 {
         let around = place.to_angle() - self.angle;
         let turns = (place.length() / self.rate() - around) / PI;

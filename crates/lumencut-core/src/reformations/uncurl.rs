@@ -1,7 +1,5 @@
-//! Uncurl: one vessel and its surroundings between the camera's view (the tangential CPR) and the
-//! straightened CPR.
-//!
-//! Idea and formulas are ours (docs/method/reformations.md).
+//! Uncurl: a vessel between the camera's view (tangential CPR) and the straightened CPR. Idea and formulas
+//! are ours (docs/method/reformations.md).
 
 mod bent;
 mod feet;

@@ -58,8 +58,8 @@ pub struct UntangledParameters {
     pub pixel_spacing: f64,
     /// Replaces unknown radii (mm).
     pub unknown_radius: f64,
-    /// A point near the end of the vessel from which the tree grows (mm, LPS). Parts without it grow from the
-    /// free end of the largest mean radius over 10 mm.
+    /// A point near the end where the tree grows from (mm, LPS). Parts without it grow from the free end of
+    /// the largest mean radius over 10 mm.
     pub root: Option<DVec3>,
 }
 
@@ -192,8 +192,7 @@ impl Untangled {
         self.extent
     }
 
-    /// The id of the vessel at an image position (column, row), and the arc length (mm); `None` where nothing
-    /// is shown.
+    /// The vessel id and arc length (mm) at an image position (column, row), if any.
     pub fn vessel_at(&self, pixel: DVec2) -> Option<(usize, f64)> {
         let place = self.sheet.place(self.seen(pixel))?;
         Some((self.laid_out[self.sheet.piece(&place)].vessel, self.sheet.arc_length(&place)))
@@ -209,8 +208,7 @@ impl Untangled {
         &self.laid_out
     }
 
-    /// The end of each vessel in the image (column, row), by id: in the first part of a vessel that grows
-    /// backwards, else in the last one.
+    /// The end of each vessel in the image (column, row), by id.
     pub fn ends(&self) -> Vec<DVec2> {
         let mut ends = vec![DVec2::NAN; self.vessels];
         for LaidOut { vessel, pixels, is_reversed, .. } in self.laid_out.iter() {
@@ -234,8 +232,8 @@ impl Untangled {
         rotations
     }
 
-    /// The radius around a branching point within which vessels may overlap (mm), if the widest hull there
-    /// has radius `hull` (mm): vessels that part begin as one.
+    /// Radius around a branching point within which vessels may overlap (mm), if its widest hull is `hull`
+    /// mm.
     pub fn may_overlap_within(&self, hull: f64) -> f64 {
         self.near * hull + BEYOND_NEAR
     }

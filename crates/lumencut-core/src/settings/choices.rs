@@ -14,8 +14,7 @@ pub struct Choices {
 }
 
 impl Choices {
-    /// Sets a setting by its name in the table. Fails with [`ErrorKind::Settings`] for an unknown setting, a
-    /// value of another kind, or an invalid name.
+    /// Fails with [`ErrorKind::Settings`] for an unknown setting, another kind of value, or an invalid name.
     pub fn set(&mut self, name: &str, value: Value) -> Result<()> {
         if ContextChoices::ROWS.iter().any(|setting| setting.name == name) {
             self.context.set(name, value)
@@ -38,8 +37,7 @@ impl Choices {
 }
 
 impl Settings {
-    /// Checks every setting against its range. Fails with [`ErrorKind::Settings`] naming the first setting
-    /// outside its range.
+    /// Fails with [`ErrorKind::Settings`] naming the first setting outside its range.
     pub fn check(&self) -> Result<()> {
         self.check_rows()?;
         self.check_chosen()?;

@@ -6,9 +6,8 @@ use super::table::Settings;
 use crate::error::{Error, ErrorKind, Result};
 
 impl Settings {
-    /// These settings for a tree of `count` vessels. If some are chosen, silhouettes are drawn; if all are,
-    /// the result is as if none were chosen. Fails with [`ErrorKind::Settings`] for the id of a missing
-    /// vessel.
+    /// These settings for `count` vessels: silhouettes if some are chosen, no choice if all are. Fails with
+    /// [`ErrorKind::Settings`] for the id of a missing vessel.
     pub(crate) fn for_vessels(&self, count: usize) -> Result<Cow<'_, Self>> {
         let chosen = &self.focus_vessels;
         if let Some(id) = chosen.iter().find(|id| **id >= count) {

@@ -79,8 +79,8 @@ pub enum ContextMode {
 }
 
 impl ContextMode {
-    /// The default start of rays around the focus. Opacities hide what lies behind a cut surface, but the
-    /// largest, smallest or mean value of half a ray leaps where the cut surface does.
+    /// Opacities hide what lies behind a cut surface, but a largest, smallest or mean value leaps where the
+    /// cut surface does.
     pub fn default_from(self) -> ContextFrom {
         if self.is_sampled() { ContextFrom::Cut } else { ContextFrom::Whole }
     }

@@ -10,8 +10,8 @@ const FADE: Limits = Limits::new(0.0, 1e6, "mm");
 /// The cut surface around the vessels amid the context.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Focus {
-    /// Distance beyond the nearest wall, in the view plane, up to which all of the cut surface is shown (mm).
-    /// Below 0 lumens fade too.
+    /// Distance beyond the nearest wall (mm, in the view plane) with all of the cut surface; below 0 lumens
+    /// fade.
     pub margin: f64,
     /// Distance over which the cut surface then fades into the context (mm); 0 is a hard edge.
     pub fade: f64,

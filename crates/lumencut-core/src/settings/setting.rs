@@ -47,9 +47,8 @@ impl Setting {
     }
 }
 
-/// Declares a structure of settings, one row each: `name: type = default`, the range and unit of a number,
-/// and the meaning of an open value. Users read the comment before a row: its first paragraph on the command
-/// line, all of it in documents.
+/// Declares settings, one row each: `name: type = default`, range and unit, meaning of an open value. The
+/// comment before a row is the user's text: its first paragraph on the command line, all of it in documents.
 macro_rules! settings {
     (
         $(#[$attribute:meta])*

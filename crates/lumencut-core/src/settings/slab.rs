@@ -32,8 +32,7 @@ pub struct Slab {
 }
 
 impl Slab {
-    /// Checks the thickness. Fails with [`crate::error::ErrorKind::Settings`] for a thickness outside its
-    /// range.
+    /// Fails with [`crate::error::ErrorKind::Settings`] for a thickness outside its range.
     pub fn check(&self) -> Result<()> {
         THICKNESS.check("slab thickness", self.thickness)
     }

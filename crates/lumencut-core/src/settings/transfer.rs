@@ -29,8 +29,7 @@ pub struct TransferFunction {
 }
 
 impl TransferFunction {
-    /// Checks the number of points, their order, and their numbers. Fails with [`ErrorKind::Settings`] for
-    /// the first invalid point.
+    /// Fails with [`ErrorKind::Settings`] for the first invalid point.
     pub fn check(&self) -> Result<()> {
         let points = &self.points;
         if points.is_empty() || points.len() > MAX_POINTS {

@@ -22,8 +22,7 @@ impl Default for Window {
 }
 
 impl Window {
-    /// Checks level and width of the window called `name`. Fails with [`crate::error::ErrorKind::Settings`]
-    /// for a number outside its range.
+    /// Checks the window called `name`. Fails with [`crate::error::ErrorKind::Settings`].
     pub fn check(&self, name: &str) -> Result<()> {
         Limits::INTENSITY.check(&format!("{name} level"), self.level)?;
         WIDTH.check(&format!("{name} width"), self.width)
@@ -40,8 +39,7 @@ pub struct Opacity {
 }
 
 impl Opacity {
-    /// Checks both intensities. Fails with [`crate::error::ErrorKind::Settings`] for an intensity outside its
-    /// range.
+    /// Fails with [`crate::error::ErrorKind::Settings`] for an intensity outside its range.
     pub fn check(&self) -> Result<()> {
         Limits::INTENSITY.check("opacity start", self.transparent)?;
         Limits::INTENSITY.check("opacity end", self.opaque)

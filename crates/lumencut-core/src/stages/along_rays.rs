@@ -17,13 +17,10 @@ use crate::with_voxels;
 /// A reduction of the values along the rays of an image.
 #[derive(Clone, Copy)]
 pub struct AlongRays<'a> {
-    /// Columns and rows of the image.
     pub size: [usize; 2],
-    /// The volume.
     pub volume: &'a Volume<'a>,
     /// Blocks to skip; `None` reads everything, with the same result.
     pub blocks: Option<&'a Blocks>,
-    /// The reduction.
     pub reduction: Reduction,
     /// The value from which on a larger (smaller) one makes no difference.
     pub limit: f32,
@@ -38,9 +35,7 @@ pub(crate) trait RaySource: Sync {
 /// The parallel rays of a view, each between the two depths that `chord` returns for its pixel (mm).
 pub struct ViewRays<F> {
     pub to: IndexFromView,
-    /// The raster of the rays.
     pub rays: RayGrid,
-    /// The first and the last depth of a pixel's ray.
     pub chord: F,
 }
 

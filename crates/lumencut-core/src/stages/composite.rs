@@ -23,7 +23,6 @@ pub struct Layers<'a> {
     pub context: Option<&'a [[f32; 4]]>,
 }
 
-/// The parameters of the stage: the colours of one picture, 0 to 1.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
 pub struct CompositeParameters {
@@ -92,8 +91,7 @@ impl CompositeParameters {
         }
     }
 
-    /// The shown share of the grey surface with the silhouette's colour, over the context, over the
-    /// background, premultiplied. Without a value there is no surface.
+    /// The shown share of the grey surface and the silhouette's colour over context and background.
     #[inline(always)]
     fn pixel(&self, value: f32, strength: f32, [share, lines]: Shares, context: [f32; 4]) -> [f32; 4] {
         let nothing = value.is_nan();
@@ -126,8 +124,8 @@ fn straight(pixel: [f32; 4], behind: [f32; 4]) -> [u8; 4] {
     packed.to_le_bytes()
 }
 
-/// The nearest integer to a value of at most a little over 255. From 2²³ on, a float's last bit counts ones:
-/// the sum's low byte is the number, without the checks of a conversion.
+/// The nearest integer to a value of at most a little over 255. From 2²³ on, a float's last bit counts ones,
+/// so the sum's low byte is the number: no conversion checks.
 #[inline(always)]
 fn byte(value: f32) -> u32 {
     (smaller(value, 255.0) + 8_388_608.0).to_bits() & 0xFF

@@ -48,8 +48,7 @@ impl Default for DepthFilterParameters {
     }
 }
 
-/// Writes the smoothed `image`: the whole of it, extended by its border pixels, or within the zones of
-/// `vessel` if given.
+/// Writes the smoothed `image`, extended by its border pixels, or within the zones of `vessel` if given.
 pub fn depth_filter(
     work: &Work,
     parameters: &DepthFilterParameters,

@@ -56,8 +56,7 @@ impl FocusParameters {
         Some(parameters)
     }
 
-    /// The distances from the wall (mm) between which some of the shares change; `None` if they are 1
-    /// everywhere.
+    /// The distances from the wall (mm) between which shares change; `None` if they are 1 everywhere.
     fn between(&self, which: &[usize]) -> Option<[f32; 2]> {
         let fading = which.iter().filter(|n| self.per_fade[**n] > 0.0);
         // A little more than where the share becomes 0.
@@ -91,9 +90,8 @@ pub type Shares = [f32; 2];
 const SURFACE: usize = 0;
 const LINES: usize = 1;
 
-/// Writes how much of the cut surface and of its silhouettes each pixel shows. In tiles of pixels where
-/// `leap` rules out lines, the share of silhouettes is arbitrary within 0 to 1; with an empty `leap` it is
-/// exact everywhere.
+/// Writes the shares of cut surface and silhouettes. In tiles where `leap` rules out lines, the latter is
+/// arbitrary; with an empty `leap` it is exact everywhere.
 pub fn focus(
     work: &Work,
     surface: &CutSurface,

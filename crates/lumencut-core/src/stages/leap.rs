@@ -17,7 +17,6 @@ pub const SMALLEST_LEAP: f32 = 2.0;
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
 pub struct LeapParameters {
-    /// The side of a pixel (mm).
     pub pixel_spacing: f32,
 }
 
@@ -147,8 +146,7 @@ impl Strip {
         }
     }
 
-    /// The bits, of either axis, of a leap from each of these pixels to one of the others at `step` (view x
-    /// and y, mm).
+    /// The bits, of either axis, of leaps to other pixels at `step` (view x and y, mm).
     #[inline(always)]
     fn leaps_to(&self, others: &Self, step: [f32; 2]) -> [u32; FAN] {
         let mut leaps = [0; FAN];
@@ -165,8 +163,8 @@ impl Strip {
         leaps
     }
 
-    /// Whether a change of depth over a step differs from what the slope of pixel `l` predicts; `ends_first`:
-    /// a chosen vessel ends there.
+    /// Whether a change of depth differs from the slope at pixel `l`; `ends_first`: a chosen vessel ends
+    /// there.
     #[inline(always)]
     fn is_off(&self, l: usize, change: f32, step: [f32; 2], ends_first: bool) -> bool {
         let expected = self.slope[0][l] * step[0] + self.slope[1][l] * step[1];

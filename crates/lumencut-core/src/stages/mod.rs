@@ -34,19 +34,16 @@ use crate::stop::{Stop, go_on};
 
 /// What every stage of one view shares.
 #[derive(Clone, Copy)]
+#[doc(hidden)]
 pub struct Work<'a> {
-    /// The width and height of the view in pixels.
     pub size: [usize; 2],
     /// The instruction set of the kernels; the result does not depend on it.
     pub isa: Isa,
-    /// Whether to stop.
     pub stop: Stop<'a>,
-    /// Receives the progress of the view.
     pub progress: Option<&'a Progress>,
 }
 
 impl Work<'_> {
-    /// The number of pixels.
     pub fn pixels(&self) -> usize {
         self.size[0] * self.size[1]
     }

@@ -1,5 +1,4 @@
-//! Silhouettes: lines at the leaps of the cut surface; or, as in the paper (section 3.3.5), where it is
-//! steep, strongest between influence zones.
+//! Silhouettes: lines at the leaps of the cut surface, or at steep depth as in the paper (section 3.3.5).
 
 use bytemuck::{Pod, Zeroable};
 use rayon::prelude::*;
@@ -40,8 +39,8 @@ pub struct SilhouetteParameters {
 }
 
 impl SilhouetteParameters {
-    /// The parameters of a view: a smooth surface looks the same at every zoom, and the width of a line in mm
-    /// is constant within the limits in pixels.
+    /// A smooth surface looks the same at every zoom; lines have a constant width in mm, within limits in
+    /// pixels.
     pub fn new(settings: &Settings, camera: &Camera) -> Self {
         let slope = settings.silhouette_slope;
         let line_width = (LINE_WIDTH / camera.pixel_spacing()).clamp(NARROWEST_LINE, WIDEST_LINE);

@@ -130,8 +130,8 @@ fn is_other_side(here: vec2i) -> bool {
     return is_beside;
 }
 
-// How much of a pixel `seen` outside all lumens the lines of the leaps of another pixel cover: by its
-// distance to the nearest leap on whose line's side it lies.
+// Cover of pixel `seen`, outside all lumens, by another pixel's lines: by distance to the nearest leap on its
+// line's side.
 fn cover_beside_lumen(owner: vec2i, seen: vec2i) -> f32 {
     let bits = bits_at(owner);
     var cover = 0.0;

@@ -18,7 +18,6 @@ use crate::settings::Slab;
 use crate::volume::{Volume, Voxel};
 use crate::with_voxels;
 
-/// The parameters of the stage, as the shader reads them.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
 pub struct SurfaceParameters {
@@ -26,15 +25,13 @@ pub struct SurfaceParameters {
     pub half: f32,
     /// What is shown of it: the code of a [`Reduction`].
     pub mode: u32,
-    /// Minimum number of parts of a view ray per mm: one for each voxel along the axis where it meets most of
-    /// them.
+    /// Minimum parts per mm of a view ray: one per voxel along its main axis.
     pub per_step: f32,
     pub padding: u32,
 }
 
 impl SurfaceParameters {
-    /// The parameters for a slab, or for the cut surface alone, in a view whose rays go from voxel to voxel
-    /// in `voxel` mm.
+    /// The parameters for a slab or the thin cut surface in a view with `voxel` mm between voxels.
     pub fn new(slab: Option<Slab>, voxel: f64) -> Self {
         let mode = slab.map_or(Reduction::Mean, |slab| Reduction::of(slab.mode)).code();
         let half = slab.map_or(0.0, |slab| slab.thickness / 2.0) as f32;

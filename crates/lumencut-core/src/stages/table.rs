@@ -1,5 +1,5 @@
-//! The table of the stages: their names, the images that they read and write, and which of them a view needs.
-//! Timings, the fallback of single stages to the CPU, tests and benches use it.
+//! The table of the stages: names, images read and written, and conditions. Timings, fallbacks, tests and
+//! benches use it.
 
 use crate::error::{Error, ErrorKind, Result};
 use crate::geometry::Geometry;
@@ -119,8 +119,7 @@ impl ImageSet {
     }
 }
 
-/// The stages of a view. The name of a stage is that of its file, its function, its shader, its entry in the
-/// timings and its heading in docs/method.
+/// The stages of a view. File, function, shader, timings and heading in docs/method have the same name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stage {
     /// Levels of detail of the tree, computed once per tree.
@@ -141,8 +140,7 @@ pub enum Stage {
     Surface,
     /// Lines where the cut surface leaps.
     Silhouette,
-    /// Ranges of values of the volume, computed once per volume. (On the CPU its time includes finding where
-    /// rays start: if none does, no blocks are made.)
+    /// Ranges of values of the volume, computed once per volume; on the CPU timed with the starts of rays.
     Blocks,
     /// Rays through the volume.
     Context,
@@ -213,8 +211,7 @@ impl Stage {
         }
     }
 
-    /// The images that it writes, one after the other and for every pixel, if something needs them. A stage
-    /// without images prepares for others.
+    /// The images that it writes, in order, if something needs them; a stage without images prepares.
     pub const fn writes(self) -> &'static [Image] {
         match self {
             Self::Levels | Self::Projection | Self::Blocks => &[],
@@ -230,8 +227,7 @@ impl Stage {
         }
     }
 
-    /// The stages that find the cut surface of a view, in their order, if the frame shall have the images
-    /// `wanted`.
+    /// The stages that find the cut surface of a view with the images `wanted`, in their order.
     pub fn of_cut_surface(settings: &Settings, wanted: ImageSet) -> Vec<Self> {
         let own = settings.level_choice == LevelChoice::Own;
         let draws_leaps = settings.silhouettes && settings.silhouette_rule == SilhouetteRule::Leap;

@@ -1,5 +1,4 @@
-//! Projected CPR: the vessel as seen. Row and column of a pixel are its height and its position across the
-//! view; its depth is that of the vessel's point in the same row that is nearest along the row.
+//! Projected CPR: the vessel as seen. A pixel has the depth of the vessel's point nearest along its row.
 
 use std::sync::Arc;
 

@@ -1,5 +1,5 @@
-//! The angle about a vessel from which each of its sections is seen: constant, or following the narrow or the
-//! wide side of the lumen, so that an eccentric stenosis shows (our method).
+//! The angle from which each section of a vessel is seen: constant, or following the narrow or wide side of
+//! the lumen, so that an eccentric stenosis shows (our method).
 
 use std::f64::consts::PI;
 
@@ -14,8 +14,7 @@ const DIRECTIONS: usize = 48;
 /// Distance of the angles along the vessel (mm); neighbours differ by one direction at most.
 const STEP: f64 = 0.5;
 
-/// Cost of a change by one direction (mm of diameter): keeps the picture steady where all directions are
-/// alike.
+/// Cost of a change by one direction (mm of diameter): keeps the picture steady if all are alike.
 const CHANGE: f64 = 0.15;
 
 /// Standard deviations (mm) of the Gaussians that smooth the diameters and the angle along the vessel.
@@ -55,8 +54,8 @@ impl Roll {
         Ok(Self { at, angle })
     }
 
-    /// The roll whose diameters of a wall, through the middle of the vessel, have the smallest or largest
-    /// sum, by dynamic programming. The vessel is `length` mm long.
+    /// The roll that minimises or maximises the sum of the wall's diameters along a vessel of `length` mm, by
+    /// dynamic programming.
     pub fn following(wall: &Wall, length: f64, side: Side) -> Self {
         let count = (length / STEP).ceil().max(1.0) as usize;
         let at: Vec<f64> = (0..=count).map(|n| length * n as f64 / count as f64).collect();
@@ -89,8 +88,7 @@ impl Roll {
     }
 }
 
-/// The directions of the cheapest path through all positions, counted on through whole turns. Of equally
-/// cheap paths the one that stays wins, then the one from the smaller direction.
+/// The cheapest path of directions, unwrapped. Ties go to the one that stays, then to the smaller direction.
 fn cheapest(cost: &[Vec<f64>]) -> Vec<i32> {
     let places = cost[0].len();
     let mut best: Vec<f64> = cost.iter().map(|column| column[0]).collect();
@@ -119,8 +117,7 @@ fn cheapest(cost: &[Vec<f64>]) -> Vec<i32> {
     way.iter().map(|step| step - turns).collect()
 }
 
-/// Values at even distances along a length (mm), smoothed by a Gaussian and extended constantly beyond the
-/// ends.
+/// Values at even distances along a length (mm), smoothed by a Gaussian, constant beyond the ends.
 fn smoothed(values: &[f64], length: f64, deviation: f64) -> Vec<f64> {
     let step = length / (values.len() - 1) as f64;
     let reach = (3.0 * deviation / step).ceil() as isize;

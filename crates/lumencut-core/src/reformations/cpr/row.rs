@@ -44,8 +44,8 @@ pub(super) struct Row {
 }
 
 impl Row {
-    /// The world point at `x`: on the line through the vessel's point that is nearest along the row; of
-    /// several, the one nearest to the viewer.
+    /// The world point at `x` on the line through the nearest vessel point along the row, of several the
+    /// front one.
     pub(super) fn place(&self, x: f64) -> DVec3 {
         let mut best = self.runs[0].nearest_anchor(x);
         for run in &self.runs[1..] {

@@ -64,8 +64,7 @@ impl Sections {
         self.marks.len() - 1
     }
 
-    /// The sections that hold a point, at least one: before and after the vessel the sections continue
-    /// straight.
+    /// The sections that hold a point, at least one: they continue straight beyond the vessel.
     pub(super) fn through(&self, point: DVec3) -> Vec<Section> {
         let mut found = Vec::new();
         let [first, last] = [self.marks[0], self.marks[self.intervals()]];
@@ -122,8 +121,8 @@ impl Sections {
         self.section(station, at, point)
     }
 
-    /// Whether a line surely meets no section of an interval where the picture shows it, from one angle if
-    /// there is one for all. Sections lie beyond those at the ends of an interval by at most the margin.
+    /// Whether a line surely meets no section of an interval in the picture from `angle`, or from any.
+    /// Sections exceed those at the ends of an interval by at most the margin.
     pub(super) fn is_apart(&self, n: usize, line: [DVec3; 2], angle: Option<[f64; 2]>) -> bool {
         let ends = [self.marks[n], self.marks[n + 1]];
         let length = ends[1].at - ends[0].at;
@@ -138,8 +137,8 @@ impl Sections {
         same(ends.map(|mark| mark.frame.tangent)) || angle.is_some_and(|angle| same(ahead(angle)))
     }
 
-    /// Whether an interval holds the section at `at`, and surely no other one through a point `aside` mm from
-    /// its centre: if the image moves by `moves` per mm of the vessel, it reverses nowhere in the interval.
+    /// Whether an interval holds the section at `at` and surely no other one through a point `aside` mm off:
+    /// the image, which moves by `moves` per mm, never reverses there.
     pub(super) fn holds_no_other(&self, n: usize, at: f64, aside: f64, moves: f64) -> bool {
         let [from, to] = [self.marks[n].at, self.marks[n + 1].at];
         let rate = self.frames.station(from).turn.length();
@@ -179,8 +178,7 @@ impl Mark {
         Section { at: self.at + along, offset: here.offset - self.frame.tangent * along, ..here }
     }
 
-    /// The side of a plane through the centre here on which a line lies with a margin: 1, -1, or 0 for
-    /// neither.
+    /// Side of a plane through the centre on which a line lies with a margin: 1, -1, or 0 for neither.
     fn side(&self, line: [DVec3; 2], normal: DVec3, margin: f64) -> i8 {
         let [one, other] = line.map(|end| (end - self.point).dot(normal));
         if one.min(other) > margin { 1 } else { -i8::from(one.max(other) < -margin) }

@@ -1,5 +1,4 @@
-//! Straightened CPR: rows by arc length, the vessel straight in the middle, lines across it in the
-//! rotation-minimising frame.
+//! Straightened CPR: rows by arc length, lines across in the rotation-minimising frame.
 
 use std::sync::Arc;
 
@@ -15,8 +14,7 @@ use crate::math::centerline_path::CenterlinePath;
 use crate::math::frames::{Frames, MovingFrame};
 use crate::math::same_place::ON_PICTURE;
 
-/// The space around a straightened vessel, extended straight beyond its ends: x across the picture to the
-/// right, y into it, z along the vessel, all in mm.
+/// Space around a straightened vessel, extended straight: x to the right, y into the picture, z along (mm).
 #[derive(Clone)]
 pub struct Straightened {
     sections: Arc<Sections>,
@@ -103,8 +101,8 @@ impl Straightened {
         self.sections.frames.at(at).turned(self.angle.at(at))
     }
 
-    /// How far a point at an offset across and ahead (mm) moves along the vessel per mm of it: 1 on a
-    /// straight run, 0 where neighbouring sections meet.
+    /// How far a point at an offset (mm) moves per mm of the vessel: 1 on a straight run, 0 where sections
+    /// meet.
     pub fn advance(&self, at: f64, offset: DVec2) -> f64 {
         let Sections { path, frames, .. } = &*self.sections;
         let station = frames.station(at);

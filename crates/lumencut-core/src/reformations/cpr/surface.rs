@@ -15,8 +15,7 @@ pub(super) trait Surface: Send + Sync {
     fn folded(&self, y: f64, x: &[f64]) -> Vec<bool>;
 }
 
-/// Whether a point belongs to the first of two image positions (distance from the vessel, distance down; mm):
-/// to the one nearer to the vessel, and of equally near ones to the upper one.
+/// Whether a point belongs to the first of two positions (mm aside, mm down): the nearer, then the upper one.
 pub(super) fn comes_first([aside, y]: [f64; 2], [other_aside, other_y]: [f64; 2]) -> bool {
     let nearer = other_aside - aside;
     if nearer.abs() > ON_PICTURE { nearer > 0.0 } else { y + ON_PICTURE < other_y }

@@ -28,8 +28,7 @@ pub(super) struct Axes {
 pub(super) const PARALLEL: f64 = 0.05;
 
 impl View {
-    /// The view at angle 0: along the patient's +y axis, from the front, made perpendicular to up; from below
-    /// if up runs along that axis, as axial slices are shown.
+    /// The view at angle 0: along +y, perpendicular to up; from below if up runs along y, as axial slices.
     pub(super) fn unturned(&self) -> Result<Axes> {
         let up = unit("up of the CPR", self.up)?;
         let along = up.y.abs() * PARALLEL > up.x.hypot(up.z);

@@ -1,5 +1,4 @@
-//! The piece of one vessel nearest to each pixel in the image, at any depth: CR of one vessel without a
-//! threshold.
+//! The piece of one vessel nearest to each pixel in the image: CR of one vessel without a threshold.
 
 use rayon::prelude::*;
 

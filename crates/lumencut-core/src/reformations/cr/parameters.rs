@@ -10,8 +10,7 @@ const MOST_PIXELS: f64 = 1e6;
 pub struct CrParameters {
     /// Distance beyond its radius within which a vessel displaces what lies behind it (pixels).
     pub radius_offset: f64,
-    /// Distance along the tree up to which two points belong to one stretch, within which the one nearer in
-    /// the image is shown (pixels).
+    /// Distance along the tree (pixels) within which points form a stretch that shows its nearest one.
     pub arc_threshold: f64,
 }
 
@@ -23,8 +22,7 @@ impl Default for CrParameters {
 }
 
 impl CrParameters {
-    /// Fails with [`ErrorKind::Settings`] for a threshold that is negative, not finite or larger than a
-    /// million pixels.
+    /// Fails with [`ErrorKind::Settings`] for a threshold that is not from 0 to a million pixels.
     pub fn check(&self) -> Result<()> {
         for (name, value) in [("radius_offset", self.radius_offset), ("arc_threshold", self.arc_threshold)] {
             if !(0.0..=MOST_PIXELS).contains(&value) {

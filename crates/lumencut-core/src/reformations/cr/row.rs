@@ -39,8 +39,7 @@ impl Kernel for CrRow<'_> {
     }
 }
 
-/// What pixel `l` of a tile shows: the nearest piece in the image, unless a piece of another stretch lies
-/// before it.
+/// The nearest piece in the image at pixel `l`, unless a piece of another stretch lies before it.
 #[inline(always)]
 fn shown(view: &CrView, search: &mut StretchSearch, tile: &Tile, pieces: [u32; 2], l: usize) -> Seen {
     let ([nearest, foremost], [x, y]) = (pieces, [tile.x[l], tile.y[l]]);

@@ -11,8 +11,8 @@ use crate::math::tile::{Area, Tile};
 /// Number of chains whose surroundings a search caches.
 const MOST_KEPT: usize = 256;
 
-/// Searches the piece nearest to a pixel in the image among those within the threshold of a point along the
-/// tree. Points on one chain have nearly the same pieces around them, and so do the pixels of a tile.
+/// Finds the piece nearest to a pixel within the threshold along the tree. Points on one chain have nearly
+/// the same pieces around them, and so do the pixels of a tile.
 pub(super) struct StretchSearch<'a> {
     view: &'a CrView<'a>,
     /// For a chain, the ranges of chains within the threshold of a point on it.
@@ -30,8 +30,7 @@ impl<'a> StretchSearch<'a> {
         self.in_tile.clear();
     }
 
-    /// The piece nearest to the pixel at (x, y) in the stretch around `front`, one of its pieces; the first
-    /// of equally near ones.
+    /// The piece nearest to (x, y) in the stretch around `front`; the first of equally near ones.
     #[inline(never)]
     pub(super) fn nearest_piece(&mut self, tile: &Tile, front: Seen, [x, y]: [f32; 2]) -> Seen {
         let view = self.view;

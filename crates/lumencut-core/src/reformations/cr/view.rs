@@ -1,5 +1,4 @@
-//! The pieces of a tree in one view for CR: the nearest in the image, and the foremost whose disc holds a
-//! pixel.
+//! The pieces of a tree in one view for CR: the nearest one, and the foremost whose disc holds a pixel.
 
 use super::chains::Chains;
 use super::parameters::CrParameters;
@@ -22,8 +21,7 @@ pub(super) struct CrView<'a> {
     /// Their pieces without depth and radius: the smallest key is the smallest distance.
     plane: Hierarchy,
     pub(crate) plane_rule: Rule,
-    /// Their pieces with the radii of the discs: the smallest key is the foremost one whose disc holds the
-    /// pixel.
+    /// Their pieces with disc radii: the smallest key is the foremost disc that holds the pixel.
     discs: Hierarchy,
     disc_rule: Rule,
     pub chains: Chains,

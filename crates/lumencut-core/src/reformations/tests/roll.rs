@@ -1,7 +1,6 @@
 use super::*;
 
-/// The wall of an ellipse with half axes of 6 and 3 mm, whose longer axis has turned by this angle at an arc
-/// length.
+/// A wall of an ellipse with half axes of 6 and 3 mm; the longer axis turns along the vessel.
 fn ellipse(length: f64, turned: impl Fn(f64) -> f64) -> Wall {
     let at: Vec<f64> = (0..=(2.0 * length) as usize).map(|n| n as f64 / 2.0).collect();
     let polar = |t: f64| 18.0 / (9.0 * t.cos().powi(2) + 36.0 * t.sin().powi(2)).sqrt();

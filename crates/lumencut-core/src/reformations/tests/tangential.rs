@@ -38,8 +38,7 @@ fn it_is_cr_of_one_vessel_without_a_threshold() {
 
 #[test]
 fn a_straight_tube_is_as_wide_as_it_is_from_every_side() {
-    // The chord of a tube across its projection is its diameter: points at the wall are its radius from the
-    // axis.
+    // The chord of a tube across its projection is its diameter.
     let axis = DVec3::new(0.3, 0.5, -0.8).normalize();
     let vessel = Vessel::new(vec![axis * -60.0, axis * 60.0], None).unwrap();
     for direction in [DVec3::Y, DVec3::X, DVec3::new(0.6, -0.3, 0.2)] {

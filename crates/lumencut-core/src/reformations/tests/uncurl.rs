@@ -100,8 +100,7 @@ fn lengths_stay_true_and_the_middle_of_the_chord_moves_evenly() {
 
 #[test]
 fn a_helix_stays_a_helix_of_the_same_torsion() {
-    // With curvature κ and torsion τ, radius = κ / (κ² + τ²) and a whole turn has a length of 2π / √(κ² +
-    // τ²).
+    // With curvature κ and torsion τ: radius = κ / (κ² + τ²), and a turn is 2π / √(κ² + τ²) long.
     let (radius, pitch) = (12.0, 60.0);
     let rise = pitch / TAU;
     let square = radius * radius + rise * rise;
@@ -199,8 +198,7 @@ fn what_cannot_be_uncurled_is_refused() {
 
 #[test]
 fn a_vessel_turns_little_from_one_picture_to_the_next() {
-    // An arch that rises, like the aorta, and leaves its plane: its first segment runs against the straight
-    // vessel.
+    // An arch like the aorta that leaves its plane; its first segment opposes the straight vessel.
     let point =
         |t: f64| DVec3::new(8.0 * t.sin() * t, 30.0 * t.cos(), 20.0 * t.sin() - 25.0 * (t / PI).powi(2));
     let arch: Vec<_> = (0..=200).map(|n| point(1.2 * PI * f64::from(n) / 200.0)).collect();

@@ -155,8 +155,7 @@ fn sectors_move_by_the_least_sum_of_squares() {
     assert!((narrow[0] - 0.3).abs() < 1e-12 && (narrow[1] + 0.2).abs() < 1e-12);
 }
 
-/// The vessel at whose end the paths to two vessels of a random tree part: vessel n has the children 2n + 1
-/// and 2n + 2.
+/// The last vessel common to the paths to two vessels; vessel n has the children 2n + 1 and 2n + 2.
 fn common([mut first, mut second]: [usize; 2]) -> usize {
     while first != second {
         let later = if first > second { &mut first } else { &mut second };
@@ -165,8 +164,7 @@ fn common([mut first, mut second]: [usize; 2]) -> usize {
     first
 }
 
-/// Asserts that the hulls of two vessels of a random tree overlap only near the point where the paths to them
-/// part.
+/// Asserts that hulls of two vessels overlap only near the point where the paths to them part.
 fn assert_apart(made: &Untangled, tree: &VesselTree, pair: [usize; 2]) {
     let radius = |vessel: usize| tree.vessels()[vessel].radius_or_zero(0) + 2.0;
     let parting = common(pair);

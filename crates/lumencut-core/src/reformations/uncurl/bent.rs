@@ -1,5 +1,4 @@
-//! A vessel that is partly straightened: its points, and the map from its surroundings to those of the true
-//! vessel.
+//! A partly straightened vessel: its points, and the map from its surroundings to the true ones.
 
 use glam::{DQuat, DVec3};
 
@@ -106,8 +105,7 @@ fn turnings(frames: &Frames, amount: f64) -> Vec<Turning> {
             let before = &stations[n - 1];
             let end = before.frame_at(station.at);
             from_bent = DQuat::from_scaled_axis(before.turn * amount * (station.at - before.at)) * from_bent;
-            // The frame's own rotation from one station to the next is rounded to the third order of the
-            // turn.
+            // The frame's own rotation between stations is rounded to the third order of the turn.
             let rest = rotation(&station.frame) * rotation(&end).inverse();
             from_bent = DQuat::from_scaled_axis(shorter(rest).to_scaled_axis() * amount) * from_bent;
         }
@@ -124,8 +122,8 @@ fn shorter(rotation: DQuat) -> DQuat {
     if rotation.w < 0.0 { -rotation } else { rotation }
 }
 
-/// Rotation of a bent vessel as a whole: its chord turns downwards by `amount`, and the vessel turns about
-/// the chord so that the straight vessel, along whose middle `frame` moves, faces the camera.
+/// The chord of a bent vessel turns downwards by `amount`; the vessel turns about it so that the straight
+/// vessel, along whose middle `frame` moves, faces the camera.
 fn placed([own, bent]: [&[DVec3]; 2], frame: &MovingFrame, camera: &Camera, amount: f64) -> DQuat {
     let chord =
         |points: &[DVec3]| (points[points.len() - 1] - points[0]).try_normalize().unwrap_or(frame.tangent);
@@ -138,8 +136,7 @@ fn placed([own, bent]: [&[DVec3]; 2], frame: &MovingFrame, camera: &Camera, amou
     DQuat::from_axis_angle(target, about * amount) * to_target
 }
 
-/// The rotation vector (radians) of the smallest turn between two directions. Opposite directions turn in the
-/// image.
+/// The smallest rotation vector (radians) between two directions; opposite ones turn in the image.
 fn turn(from: DVec3, to: DVec3, camera: &Camera) -> DVec3 {
     let axis = from.cross(to);
     let angle = axis.length().atan2(from.dot(to));

@@ -1,5 +1,4 @@
-//! How pieces of vessels grow from a root: which piece follows which, which close a cycle, and which are
-//! connected.
+//! How pieces of vessels grow from a root: their order, the cycles they close, and connected parts.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -89,8 +88,7 @@ impl Growth {
             for &(piece, end) in &graph.ends[node] {
                 let other = pieces[piece].nodes[1 - end];
                 if led[other].is_none() {
-                    // A piece waits at most once: from its other end it leads back. One that loses is
-                    // corrected below.
+                    // A piece waits at most once: its other end leads back. A loser is corrected below.
                     let length = f64::from_bits(bits) + pieces[piece].length();
                     self.is_reversed[piece] = end == 1;
                     waiting.push(Reverse((length.to_bits(), Some(piece), other)));
@@ -120,8 +118,7 @@ impl Growth {
         }
     }
 
-    /// Adds a piece whose two ends are already reached: it begins at its end `near`, reached first, and ends
-    /// free next to its other junction.
+    /// Adds a piece whose two ends are reached: it begins at end `near`, reached first, and ends free.
     fn close(
         &mut self,
         part: &mut Part,

@@ -48,8 +48,7 @@ pub(super) fn discs(number: usize, piece: &Piece, places: &[DVec2], margin: f64)
         .collect()
 }
 
-/// The discs whose centres lie at least `distance` from the origin, and one more where a piece crosses that
-/// distance.
+/// The discs at least `distance` from the origin, and one more where a piece crosses that distance.
 pub(super) fn beyond(discs: &[Disc], distance: f64) -> Vec<Disc> {
     let is_beyond = |disc: &Disc| disc.center.length() >= distance;
     let mut kept = Vec::new();
@@ -115,16 +114,14 @@ impl Hull {
         });
     }
 
-    /// Whether discs of this hull, one piece, overlap farther apart along it than twice the sum of their
-    /// radii.
+    /// Whether discs of one piece overlap farther apart along it than twice the sum of their radii.
     pub(super) fn overlaps_itself(&self) -> bool {
         let is_far =
             |disc: &Disc, other: &Disc| (disc.at - other.at).abs() > 2.0 * (disc.radius + other.radius);
         self.pairs(self, 0.0, &mut |disc, other| is_far(disc, other))
     }
 
-    /// Visits pairs of overlapping discs, those of the other hull turned, until `is_last` holds; returns
-    /// whether it did.
+    /// Visits overlapping discs, the other hull turned, until `is_last` holds; returns whether it did.
     fn pairs(&self, other: &Self, angle: f64, is_last: &mut impl FnMut(&Disc, &Disc) -> bool) -> bool {
         let turn = DVec2::from_angle(angle);
         for (m, group) in other.groups.iter().enumerate() {

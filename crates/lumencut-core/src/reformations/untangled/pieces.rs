@@ -53,8 +53,7 @@ impl Piece {
     }
 }
 
-/// The pieces of all vessels, in the order of vessels and along them, and the number of junctions.
-/// `unknown_radius` replaces unknown radii. Fails with [`ErrorKind::VesselTree`] for a vessel without length.
+/// The pieces in the order of vessels and along them, and the number of junctions.
 pub(super) fn pieces_of(tree: &VesselTree, unknown_radius: f64) -> Result<(Vec<Piece>, usize)> {
     let first_and_last = |vessel: &Vessel| [vessel.points()[0], vessel.points()[vessel.points().len() - 1]];
     let ends = Ends::of(tree.vessels().iter().flat_map(first_and_last));
@@ -75,8 +74,7 @@ pub(super) fn pieces_of(tree: &VesselTree, unknown_radius: f64) -> Result<(Vec<P
     Ok((pieces, ends.count as usize))
 }
 
-/// The points where a vessel is cut, including its ends, with the junction at each. Lengths between them are
-/// positive.
+/// The points where a vessel is cut, ends included, and their junctions; lengths between are positive.
 fn cuts(vessel: &Vessel, ends: &Ends) -> Vec<(usize, usize)> {
     let (points, at) = (vessel.points(), vessel.arc_length());
     let last = points.len() - 1;

@@ -28,8 +28,7 @@ pub(super) struct Station {
     pub at: f64,
 }
 
-/// A position on a sheet: a segment, the share of it before the position, and the offset to its right (mm).
-/// Beyond free ends the share leaves 0 to 1.
+/// A position on a sheet: segment, share of it (outside 0 to 1 beyond free ends), offset to the right (mm).
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Place {
     pub segment: usize,
@@ -46,8 +45,7 @@ pub(super) struct Sheet {
     /// The segments in the image and in the world.
     seen: Segments,
     world: Segments,
-    /// The width of the sheet on each side (mm), and the largest distance of its points from vessels in the
-    /// world.
+    /// Width of the sheet on each side (mm), and largest distance of its points from vessels.
     width: f64,
     reach: f64,
 }
@@ -117,8 +115,7 @@ impl Sheet {
         best.0
     }
 
-    /// The position on the sheet at a point of the image nearest to a segment; at corners it may be on the
-    /// next segment.
+    /// The sheet position nearest to an image point on a segment, or at corners on the next one.
     pub(super) fn on_segment(&self, mut segment: usize, seen: DVec2) -> Place {
         let mut place = self.across_segment(segment, seen);
         for _ in 0..STEPS {
@@ -202,8 +199,7 @@ impl Sheet {
         a.place.lerp(b.place, place.share) + a.normal.lerp(b.normal, share) * place.aside
     }
 
-    /// Whether the sheet runs backwards at a position, or another part of the tree is nearer to what it
-    /// shows.
+    /// Whether the sheet runs backwards, or another part of the tree is nearer to what it shows.
     pub(super) fn is_folded(&self, place: &Place) -> bool {
         let [a, b] = self.ends(place.segment);
         let along = b.point - a.point;
@@ -217,8 +213,7 @@ impl Sheet {
         nearer > 0.0 && self.world.any_within(self.point(place), nearer)
     }
 
-    /// The position of a world point: of those shown, the one nearest to the sheet, then to its vessel, then
-    /// the first.
+    /// Of the shown positions of a world point: the nearest to the sheet, then to its vessel, then the first.
     pub(super) fn place_of(&self, point: DVec3) -> Option<Place> {
         let mut best: Option<(Place, [f64; 2])> = None;
         for segment in self.world.within(point, self.reach) {
@@ -289,8 +284,7 @@ fn perpendicular(along: DVec3, across: DVec3) -> DVec3 {
     along - across * (along.dot(across) / across.length_squared())
 }
 
-/// The stations of all pieces in the image (mm): each piece begins where its predecessor ends, turned with
-/// it.
+/// The stations in the image (mm): each piece begins where its predecessor ends, turned with it.
 pub(super) fn placed(
     pieces: &[Piece],
     growth: &Growth,

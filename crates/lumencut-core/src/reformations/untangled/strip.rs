@@ -7,8 +7,7 @@ use glam::{DVec2, DVec3};
 use super::pieces::Piece;
 use crate::camera::Camera;
 
-/// Below this sine of the angle between a vessel and the view, its direction does not define the line across
-/// it.
+/// Below this sine of the angle to the view, a vessel's direction does not define the line across it.
 const END_ON: f64 = 0.1;
 
 /// Smoothing of lines across a vessel along it (mm).
@@ -54,8 +53,7 @@ impl Strip {
         Self { theta, across }
     }
 
-    /// The stations in the image (mm) from where the piece begins to grow, with a share `stiffness` of its
-    /// bends.
+    /// The stations (mm) from where the piece begins to grow, with a share `stiffness` of its bends.
     pub(super) fn bent(&self, piece: &Piece, is_reversed: bool, stiffness: f64) -> Vec<DVec2> {
         let last = self.theta.len() - 1;
         let first = if is_reversed { self.theta[last] } else { self.theta[0] };
@@ -111,8 +109,7 @@ fn unwrapped(directions: &[DVec2]) -> Vec<f64> {
     angles
 }
 
-/// Values of the segments between stations, weighted by length and smoothed along the vessel by a Gaussian of
-/// `sigma` mm.
+/// Values of segments, weighted by length and smoothed along the vessel by a Gaussian of `sigma` mm.
 fn smooth(at: &[f64], values: &[DVec3], sigma: f64) -> Vec<DVec3> {
     if sigma <= 0.0 {
         return values.to_vec();

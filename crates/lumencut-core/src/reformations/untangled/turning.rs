@@ -13,8 +13,8 @@ use super::strip::Strip;
 use crate::error::{Error, Result};
 use crate::stop::{Stop, go_on};
 
-/// Distance around a branching point within which branches may overlap, tried in this order: radii of their
-/// hulls there plus `BEYOND_NEAR` mm.
+/// Hull radii around a branching point, plus `BEYOND_NEAR` mm, within which branches may overlap, in the
+/// order tried.
 const NEAR: [f64; 5] = [1.5, 2.5, 4.0, 7.0, 12.0];
 pub(super) const BEYOND_NEAR: f64 = 2.0;
 
@@ -125,8 +125,7 @@ fn forward_of(places: &[DVec2], is_reversed: bool) -> DVec2 {
     step.normalize_or(DVec2::NEG_Y)
 }
 
-/// Turns the units of pieces that begin at one point, after a piece that ends there in a direction, and
-/// returns them.
+/// Turns apart the units that begin at one point, after a piece ending there, and returns them.
 fn turn_apart(
     turning: &mut Turning,
     units: &mut [Vec<Disc>],

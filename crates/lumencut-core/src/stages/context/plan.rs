@@ -31,8 +31,7 @@ fn default_step(volume: &Volume, settings: &Context) -> f64 {
     volume.smallest_side() * if settings.preview { 1.0 } else { 0.5 }
 }
 
-/// The longest distance between samples (mm). Fails with [`ErrorKind::Settings`] for one so small that rays
-/// would have more than 65,536 samples.
+/// The longest distance between samples (mm). Fails with `Settings` for rays of more than 65,536 samples.
 pub fn step(volume: &Volume, settings: &Context) -> Result<f64> {
     let longest = volume.longest_way();
     let step = settings.step.unwrap_or_else(|| default_step(volume, settings).max(longest / MOST_SAMPLES));

@@ -2,12 +2,11 @@
 
 use crate::math::ray::{NONE, WHOLE};
 
-/// A start in front of the volume while the pixels of a square are compared: later than behind every cut
-/// surface, sooner than nowhere.
+/// A start in front of the volume in comparisons: after all cut surfaces, before nowhere.
 pub const IN_FRONT: f32 = NONE / 2.0;
 
-/// The start of each square of four pixels: the nearest behind a cut surface, so that none of them shows what
-/// lies before its own; else in front of the volume, if one of them starts there.
+/// The start of each square of four pixels: the nearest behind a cut surface, so that no pixel shows what
+/// lies before its own; else in front of the volume, if any.
 pub(super) fn coarse_starts(start: &[f32], [width, height]: [usize; 2]) -> Vec<f32> {
     let (columns, rows) = (width.div_ceil(2), height.div_ceil(2));
     let mut coarse = vec![NONE; columns * rows];

@@ -64,8 +64,7 @@ impl<'a> LeapLines<'a> {
         })
     }
 
-    /// How much of a pixel of a lumen the lines cover: only straight across from a leap to another lumen,
-    /// where the pixel's own lumen ends.
+    /// Lines cover a lumen only straight across from a leap to another lumen, where it ends.
     fn cover_of_lumen(&self, here: Place) -> f32 {
         let ends = |at: Place, step| {
             let beyond = ahead(at, step);
@@ -82,8 +81,8 @@ impl<'a> LeapLines<'a> {
         cover
     }
 
-    /// How much of a pixel outside all lumens the lines cover: by its distance to the nearest leap on whose
-    /// line's side it lies; nothing if the pixel itself is the other side of a leap.
+    /// Lines cover the outside by the distance to the nearest leap on their side, unless the pixel is the
+    /// other side of a leap.
     fn cover_beside_lumen(&self, here: Place) -> f32 {
         let mut leaps = STEPS.into_iter().filter(|step| self.border(here, *step).is_leap).peekable();
         if leaps.peek().is_some() && !leaps.any(|step| self.shows_line(here, step)) {
@@ -115,8 +114,8 @@ impl<'a> LeapLines<'a> {
         }
     }
 
-    /// Whether a pixel shows the line of the leap to a neighbour: it lies there, or it would lie where
-    /// nothing is shown and there is no lumen here.
+    /// A pixel shows a leap's line that lies in it, or whose own pixel shows nothing while this one is no
+    /// lumen.
     fn shows_line(&self, here: Place, step: Place) -> bool {
         let may_lie_here = !(self.is_lumen(here) || self.is_shown(ahead(here, step)));
         self.is_shown(here) && (self.border(here, step).has_line || may_lie_here)
