@@ -16,9 +16,8 @@ use rayon::prelude::*;
 use self::clock::Clock;
 pub use self::details::SurfaceDetails;
 pub use self::images::Images;
-pub(crate) use self::pass::CutSurfacePass;
 use self::pass::Lines;
-pub use self::pass::LookPass;
+pub use self::pass::{CutSurfacePass, LookPass};
 use crate::camera::Camera;
 use crate::error::{Error, ErrorKind, Result};
 use crate::frame::{Frame, clear_outside};
@@ -224,7 +223,7 @@ impl CpuRenderer {
     }
 
     /// The input of the cut-surface stages, once the levels are projected.
-    pub(crate) fn pass<'a>(&'a self, request: &Request<'a>) -> CutSurfacePass<'a> {
+    pub fn pass<'a>(&'a self, request: &Request<'a>) -> CutSurfacePass<'a> {
         let &Request { camera, settings, images, stop, progress } = request;
         let (levels, projected) = (&self.levels[..=settings.levels], &self.projected[..=settings.levels]);
         CutSurfacePass {

@@ -7,7 +7,7 @@ use super::thickness::of_thickness;
 use super::transfer::Colors;
 
 /// Accumulated opacity from which on only brighter samples matter: less than half a grey value remains.
-pub(crate) const OPAQUE: f32 = 1.0 - 1.0 / 1024.0;
+pub const OPAQUE: f32 = 1.0 - 1.0 / 1024.0;
 
 /// Premultiplied colours and opacity of sixteen pixels, channel by channel, 0 to 1.
 pub(crate) type Rgba = [[f32; FAN]; 4];

@@ -8,9 +8,9 @@ use super::sampling::{Grid, Offset};
 use crate::volume::{Real, Voxel};
 
 /// Longer than every stretch, as a share of it.
-pub(crate) const NO_MEETING: f32 = 1e9;
+pub const NO_MEETING: f32 = 1e9;
 /// A ray that moves less than this along an axis runs along its planes (voxels).
-pub(crate) const ALONG_PLANE: f32 = 1e-9;
+pub const ALONG_PLANE: f32 = 1e-9;
 
 pub(crate) trait Fold<R> {
     /// Whether cells with corners up to `top` can change anything; `length` is as in [`Fold::take`].

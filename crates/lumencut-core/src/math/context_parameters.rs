@@ -77,8 +77,8 @@ pub struct BlockPlaces {
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
 pub struct ContextParameters {
-    pub(crate) window: Ramp,
-    pub(crate) opacity: Ramp,
+    pub window: Ramp,
+    pub opacity: Ramp,
     /// Minimum number of parts of a ray per mm.
     pub per_step: f32,
     /// How far behind a transparent cut surface rays start (mm).
@@ -154,7 +154,7 @@ impl ContextParameters {
 /// The part of [`ContextParameters`] that decides where rays start.
 #[derive(Clone, Copy, Debug)]
 pub struct StartParameters {
-    pub(crate) opacity: Ramp,
+    pub opacity: Ramp,
     pub behind: f32,
     pub from_cut: bool,
 }

@@ -5,7 +5,7 @@ use super::lanes::larger;
 use crate::volume::Real;
 
 /// Smaller divisors count as 0.
-pub(crate) const TINY: f32 = 1e-30;
+pub const TINY: f32 = 1e-30;
 
 /// The values at the corners of the cells of N rays, i fastest, then j, then k.
 pub(crate) type Corners<R, const N: usize> = [[R; N]; 8];

@@ -2,7 +2,7 @@
 //! Rotation Minimizing Frames, ACM Transactions on Graphics 27(1), 2008, doi:10.1145/1330511.1330513).
 //!
 //! A segment has its own direction in its middle. About each inner point the direction turns along a great
-//! circle at an even rate, over half of the shorter segment on both sides and at most [`CORNER`]. So the
+//! circle at an even rate, over half of the shorter segment on both sides and at most `CORNER`. So the
 //! tangent never jumps, and straight runs are crossed at right angles.
 
 use glam::{DQuat, DVec3};

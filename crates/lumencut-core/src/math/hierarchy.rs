@@ -15,7 +15,7 @@ use super::tile::{Area, Tile};
 pub const NO_SLOT: u32 = u32::MAX;
 
 /// Sixteen nodes of one height: the box in the view plane, nearest depth, largest radius (mm), most tiers
-/// ([`Rule::key`]).
+/// (`Rule::key`).
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
 pub struct Boxes {

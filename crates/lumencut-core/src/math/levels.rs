@@ -25,7 +25,7 @@ pub struct LevelPlace {
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
 pub struct CutSurfaceParameters {
-    /// λ, the cost of a millimetre beyond the wall; this and the next four are those of [`Rule`].
+    /// λ, the cost of a millimetre beyond the wall; this and the next four are those of `Rule`.
     pub weight: f32,
     pub margin: f32,
     pub lift: f32,

@@ -7,14 +7,14 @@ use super::sampler::Sampler;
 use super::sampling::{Around, Places};
 
 /// The share of its colour that a surface keeps edge on.
-pub(crate) const AMBIENT: f32 = 0.4;
+pub const AMBIENT: f32 = 0.4;
 /// The additional share of a surface that faces the viewer.
-pub(crate) const DIFFUSE: f32 = 0.6;
+pub const DIFFUSE: f32 = 0.6;
 /// White mirrored straight towards the viewer; it falls off with the sixteenth power of the cosine.
-pub(crate) const SPECULAR: f32 = 0.2;
+pub const SPECULAR: f32 = 0.2;
 /// Changes are clamped to this so that they can be squared.
-pub(crate) const STEEPEST: f32 = 1e12;
-pub(crate) const UNSHADED: [f32; 2] = [1.0, 0.0];
+pub const STEEPEST: f32 = 1e12;
+pub const UNSHADED: [f32; 2] = [1.0, 0.0];
 
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Shading {

@@ -1,11 +1,13 @@
 //! The arithmetic that the stages share. Hidden modules are public only for `lumencut-gpu` and the tests.
 
-pub(crate) mod accumulate;
+#[doc(hidden)]
+pub mod accumulate;
 pub mod arc_length;
 #[doc(hidden)]
 pub mod blocks;
 pub(crate) mod candidates;
-pub(crate) mod cell_walk;
+#[doc(hidden)]
+pub mod cell_walk;
 pub mod centerline_path;
 pub mod centerline_smoothing;
 #[doc(hidden)]
@@ -13,7 +15,8 @@ pub mod chosen_slots;
 #[doc(hidden)]
 pub mod context_parameters;
 pub(crate) mod cost;
-pub(crate) mod cubic;
+#[doc(hidden)]
+pub mod cubic;
 pub(crate) mod decision;
 pub mod frames;
 #[doc(hidden)]
@@ -24,10 +27,12 @@ pub mod lanes;
 pub mod leaps;
 #[doc(hidden)]
 pub mod levels;
-pub(crate) mod light;
+#[doc(hidden)]
+pub mod light;
 pub(crate) mod nearest;
 pub(crate) mod own_pieces;
-pub(crate) mod pieces;
+#[doc(hidden)]
+pub mod pieces;
 pub(crate) mod place_map;
 #[doc(hidden)]
 pub mod projection;
@@ -42,11 +47,14 @@ pub(crate) mod sampler;
 #[doc(hidden)]
 pub mod sampling;
 pub mod statistics;
-pub(crate) mod thickness;
+#[doc(hidden)]
+pub mod thickness;
 pub(crate) mod tile;
 pub(crate) mod trace;
 #[doc(hidden)]
 pub mod transfer;
 pub(crate) mod walk;
-pub(crate) mod walls;
-pub(crate) mod window;
+#[doc(hidden)]
+pub mod walls;
+#[doc(hidden)]
+pub mod window;

@@ -159,7 +159,7 @@ impl<const N: usize> Pixels<'_, N> {
 }
 
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Stripe {
+pub struct Stripe {
     start: [f32; 2],
     end: [f32; 2],
     edge: [f32; 2],
@@ -168,7 +168,7 @@ pub(crate) struct Stripe {
 }
 
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Foot {
+pub struct Foot {
     pub covered: bool,
     /// Share along the stripe, 0 to 1 if it is covered.
     pub t: f32,
@@ -183,7 +183,7 @@ impl Stripe {
     }
 
     #[inline(always)]
-    pub(crate) fn foot(&self, x: f32, y: f32) -> Foot {
+    pub fn foot(&self, x: f32, y: f32) -> Foot {
         let [ex, ey] = self.edge;
         let (ux, uy) = (x - self.start[0], y - self.start[1]);
         let after_start = ux * ex + uy * ey;
@@ -198,7 +198,7 @@ impl Stripe {
 }
 
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Wedge {
+pub struct Wedge {
     pub point: [f32; 2],
     /// f: the edge before the point, zero where it is missing.
     pub before: [f32; 2],
@@ -209,7 +209,7 @@ pub(crate) struct Wedge {
 impl Wedge {
     /// Whether it covers the pixel at (x, y), and the distance from the point (mm).
     #[inline(always)]
-    pub(crate) fn cover(&self, x: f32, y: f32) -> (bool, f32) {
+    pub fn cover(&self, x: f32, y: f32) -> (bool, f32) {
         let (ux, uy) = (x - self.point[0], y - self.point[1]);
         let beyond_before = ux * self.before[0] + uy * self.before[1];
         let after_start = ux * self.edge[0] + uy * self.edge[1];

@@ -91,13 +91,13 @@ impl Projected {
     }
 
     #[inline(always)]
-    pub(crate) fn stripe(&self, next: &Self) -> Stripe {
+    pub fn stripe(&self, next: &Self) -> Stripe {
         let [start, end] = [self, next].map(|p| [p.point[0], p.point[1]]);
         Stripe::new(start, end, self.edge, self.inverse_length)
     }
 
     #[inline(always)]
-    pub(crate) fn wedge(&self) -> Wedge {
+    pub fn wedge(&self) -> Wedge {
         Wedge { point: [self.point[0], self.point[1]], before: self.before, edge: self.edge }
     }
 

@@ -2,7 +2,7 @@
 
 use super::lanes::{FAN, larger, smaller};
 
-pub(crate) const ROOT_HALF: u32 = 0x3F35_04F3;
+pub const ROOT_HALF: u32 = 0x3F35_04F3;
 
 /// The opacity of `thickness` ≥ 0 mm of something with `opacity` per mm.
 #[inline(always)]

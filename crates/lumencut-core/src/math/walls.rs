@@ -22,7 +22,7 @@ pub(crate) struct WallRange {
 }
 
 /// The largest [`lean`]: beyond it one end of the segment is nearest for every pixel.
-pub(crate) const MOST_LEAN: f32 = 1e6;
+pub const MOST_LEAN: f32 = 1e6;
 
 /// Lowers each pixel's distance (mm) from the wall, negative within, to that of the segment of slot `s`.
 ///

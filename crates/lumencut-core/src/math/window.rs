@@ -8,7 +8,7 @@ use crate::settings::{Opacity, Window};
 /// Linear map of intensity to [0, 1] by one multiplication and one addition.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
-pub(crate) struct Ramp {
+pub struct Ramp {
     pub scale: f32,
     pub offset: f32,
 }

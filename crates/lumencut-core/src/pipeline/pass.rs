@@ -22,7 +22,8 @@ use crate::stages::{Image, ImageSet, Stage, Work};
 use crate::stop::{filled, resize};
 
 /// What the stages that find the cut surface share.
-pub(crate) struct CutSurfacePass<'a> {
+#[doc(hidden)]
+pub struct CutSurfacePass<'a> {
     pub work: Work<'a>,
     pub surface: CutSurface<'a>,
     /// Whether the stage `depth` writes the sheet.
@@ -33,7 +34,7 @@ pub(crate) struct CutSurfacePass<'a> {
 
 impl CutSurfacePass<'_> {
     /// Runs a stage that finds the cut surface; other stages do nothing here.
-    pub(crate) fn run(&self, stage: Stage, images: &mut Images) -> Result<()> {
+    pub fn run(&self, stage: Stage, images: &mut Images) -> Result<()> {
         let (work, pixels) = (&self.work, self.work.pixels());
         match stage {
             Stage::Distance => {

@@ -28,7 +28,7 @@ pub struct AlongRays<'a> {
     pub step: f64,
 }
 
-pub(crate) trait RaySource: Sync {
+pub trait RaySource: Sync {
     fn lines(&self, pixels: &[Option<[usize; 2]>; FAN]) -> Lines;
 }
 
@@ -46,12 +46,7 @@ impl<F: Fn(usize) -> [f64; 2] + Sync> RaySource for ViewRays<F> {
 }
 
 /// Writes the value of each ray; NaN where it meets no value.
-pub(crate) fn along_rays(
-    work: &Work,
-    along: &AlongRays,
-    source: &dyn RaySource,
-    values: &mut [f32],
-) -> Result<()> {
+pub fn along_rays(work: &Work, along: &AlongRays, source: &dyn RaySource, values: &mut [f32]) -> Result<()> {
     let (grid, isa, width) = (Grid::new(along.volume), work.isa, along.size[0]);
     with_voxels!(along.volume.voxels(), voxels => {
         let sampler: &dyn Sampler = &TypedSampler { grid, voxels, isa };

@@ -30,8 +30,8 @@ pub struct CompositeParameters {
     pub line: [f32; 3],
     /// Factor on the colours of the context.
     pub context: f32,
-    pub(crate) grey: Ramp,
-    pub(crate) opacity: Ramp,
+    pub grey: Ramp,
+    pub opacity: Ramp,
 }
 
 /// Writes the RGBA picture, with straight alpha, of the layers over the background.
