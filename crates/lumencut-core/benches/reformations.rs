@@ -21,10 +21,10 @@ type Find<'a> = &'a dyn Fn(&LeveledTree, &Request) -> Result<Frame>;
 fn times(volume: &SharedVolume, tree: &LeveledTree, request: &Request, find: Find) -> [String; 2] {
     let renderer = CpuRenderer::default();
     let found = || find(tree, request).expect("a frame");
-    let told = |times: lumencut_scenes::timing::Times| format!("{:.2} ({:.2})", times.median, times.minimum);
+    let cell = |times: lumencut_scenes::timing::Times| format!("{:.2} ({:.2})", times.median, times.minimum);
     let places = time(RUNS, || drop(found()));
     let picture = time(RUNS, || drop(renderer.look(volume, found(), request).expect("a picture")));
-    [told(places), told(picture)]
+    [cell(places), cell(picture)]
 }
 
 fn compare(name: &str, phantom: &Phantom) -> Result<()> {
@@ -39,8 +39,8 @@ fn compare(name: &str, phantom: &Phantom) -> Result<()> {
     let cut = Request { images: with_leaps, ..request };
     let csr = time(RUNS, || drop(renderer.render(&surface, &cut).expect("a cut surface")));
     let whole = time(RUNS, || drop(renderer.render(&scene, &request).expect("a picture")));
-    let told = |times: lumencut_scenes::timing::Times| format!("{:.2} ({:.2})", times.median, times.minimum);
-    row([name.to_owned(), "CSR".to_owned(), told(csr), told(whole)]);
+    let cell = |times: lumencut_scenes::timing::Times| format!("{:.2} ({:.2})", times.median, times.minimum);
+    row([name.to_owned(), "CSR".to_owned(), cell(csr), cell(whole)]);
     let [places, picture] = times(volume, tree, &request, &mpcpr);
     row([name.to_owned(), "mpCPR".to_owned(), places, picture]);
     for (radius_offset, arc_threshold) in [(0.0, 150.0), (50.0, 150.0), (150.0, 300.0)] {

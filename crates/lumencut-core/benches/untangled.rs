@@ -59,14 +59,14 @@ fn main() -> Result<()> {
         let both = time(RUNS, || drop(made(spacing).and_then(|made| made.curved(NEVER)).expect("places")));
         let layout = made(spacing)?;
         let [width, height] = layout.size();
-        let told = |times: [f64; 2]| format!("{:.1} ({:.1})", times[0], times[1]);
+        let cell = |times: [f64; 2]| format!("{:.1} ({:.1})", times[0], times[1]);
         row([
             count.to_string(),
             format!("{width} × {height}"),
             layout.overlaps().len().to_string(),
-            told([laid_out.median, laid_out.minimum]),
-            told([both.median - laid_out.median, both.minimum - laid_out.minimum]),
-            told([both.median, both.minimum]),
+            cell([laid_out.median, laid_out.minimum]),
+            cell([both.median - laid_out.median, both.minimum - laid_out.minimum]),
+            cell([both.median, both.minimum]),
         ]);
     }
     Ok(())

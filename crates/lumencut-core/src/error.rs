@@ -43,7 +43,7 @@ impl ErrorKind {
 
 /// Where an error shows in the volume.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Place {
+pub struct ErrorPosition {
     /// Position (mm, LPS).
     pub point: DVec3,
     /// The value of the volume there; NaN outside the volume.
@@ -82,7 +82,7 @@ pub struct Error {
     /// A mend besides the advice, which hosts word and offer themselves.
     pub mended_by: Option<Mend>,
     /// Position in the volume: the weakest point of a path without lumen, or the point outside the lumen.
-    pub place: Option<Box<Place>>,
+    pub place: Option<Box<ErrorPosition>>,
     /// The clicked points it is about.
     pub clicked: Option<Box<Clicked>>,
 }
@@ -131,7 +131,7 @@ impl Error {
     /// Adds the position (mm, LPS) where the error shows, and the value of the volume there.
     #[must_use]
     pub fn at(mut self, point: DVec3, value: f64) -> Self {
-        self.place = Some(Box::new(Place { point, value }));
+        self.place = Some(Box::new(ErrorPosition { point, value }));
         self
     }
 

@@ -93,7 +93,7 @@ impl<'a> SharedVolume<'a> {
 }
 
 /// Number of `centerline_smoothing` values with cached levels, so that two renderers can alternate.
-const KEPT: usize = 2;
+const CACHED_SMOOTHINGS: usize = 2;
 
 /// A tree with its levels of detail, computed once for all renderers.
 #[derive(Debug)]
@@ -137,7 +137,7 @@ impl LeveledTree {
         // Ties go to the known ones, the last argument, which others may hold already.
         let most = [made, known.as_ref()].into_iter().flatten().max_by_key(|levels| levels.len()).cloned()?;
         kept.insert(0, (smoothing, Arc::clone(&most)));
-        kept.truncate(KEPT);
+        kept.truncate(CACHED_SMOOTHINGS);
         Some(most)
     }
 }

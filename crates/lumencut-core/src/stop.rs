@@ -9,7 +9,7 @@ pub type Stop<'a> = &'a (dyn Fn() -> bool + Sync);
 pub const NEVER: Stop<'static> = &|| false;
 
 /// Entries written between two checks for stop.
-const PART: usize = 1 << 20;
+const ENTRIES_PER_CHECK: usize = 1 << 20;
 
 /// Fails once the caller asks to stop.
 pub fn go_on(stop: Stop) -> Result<()> {
@@ -22,7 +22,7 @@ pub fn resize<T: Clone>(list: &mut Vec<T>, count: usize, value: T, stop: Stop) -
     list.reserve_exact(count - list.len());
     while list.len() < count {
         go_on(stop)?;
-        list.resize(count.min(list.len() + PART), value.clone());
+        list.resize(count.min(list.len() + ENTRIES_PER_CHECK), value.clone());
     }
     Ok(())
 }
@@ -43,7 +43,7 @@ mod tests {
 
     #[test]
     fn a_list_is_filled_in_parts_until_the_caller_asks_to_stop() {
-        let count = 3 * PART + 5;
+        let count = 3 * ENTRIES_PER_CHECK + 5;
         let asked = AtomicUsize::new(0);
         let never = || asked.fetch_add(1, Ordering::Relaxed) > count;
         let mut list = filled(count, 7_u8, &never).unwrap();

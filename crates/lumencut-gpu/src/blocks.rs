@@ -2,7 +2,7 @@
 
 use lumencut_core::error::Result;
 use lumencut_core::math::blocks::{Blocks, Range};
-use lumencut_core::math::context_parameters::BlockPlaces;
+use lumencut_core::math::context_parameters::BlockLayout;
 use wgpu::Buffer;
 
 use crate::device::Device;
@@ -10,7 +10,7 @@ use crate::device::Device;
 #[derive(Debug)]
 pub(crate) struct DeviceBlocks {
     pub ranges: Buffer,
-    pub places: BlockPlaces,
+    pub places: BlockLayout,
 }
 
 impl DeviceBlocks {
@@ -20,7 +20,7 @@ impl DeviceBlocks {
         let all: Vec<_> = blocks.levels().collect();
         let finest = first_that_fits(&all, room as usize / size_of::<[f32; 2]>());
         let mut ranges: Vec<[f32; 2]> = Vec::with_capacity(length(&all[finest..]));
-        let mut places = BlockPlaces { finest: finest as u32, ..BlockPlaces::default() };
+        let mut places = BlockLayout { finest: finest as u32, ..BlockLayout::default() };
         for ((size, level), place) in all[finest..].iter().zip(&mut places.levels) {
             let [i, j, k] = size.map(|n| n as u32);
             *place = [i, j, k, ranges.len() as u32];

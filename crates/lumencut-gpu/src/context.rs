@@ -56,7 +56,7 @@ pub(crate) struct ContextStage {
     stages: Vec<(Permutation, Stage)>,
     parameters: Buffer,
     /// The parameters last written.
-    told: Vec<u8>,
+    written: Vec<u8>,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -78,7 +78,7 @@ impl ContextStage {
             starts: Default::default(),
             stages: Vec::new(),
             parameters: device.uniform::<ContextParameters>("context parameters"),
-            told: Vec::new(),
+            written: Vec::new(),
         }
     }
 
@@ -97,9 +97,9 @@ impl ContextStage {
             _ => IndexFromView::new(volume, camera).voxel(),
         };
         let parameters = ContextParameters::new(settings, context, &colors, step, &blocks.places);
-        if self.told != bytemuck::bytes_of(&parameters) {
+        if self.written != bytemuck::bytes_of(&parameters) {
             device.write(&self.parameters, &[parameters]);
-            self.told = bytemuck::bytes_of(&parameters).to_vec();
+            self.written = bytemuck::bytes_of(&parameters).to_vec();
         }
         Ok(())
     }

@@ -3,7 +3,7 @@
 use std::mem::offset_of;
 use std::sync::OnceLock;
 
-use lumencut_core::math::levels::{CutSurfaceParameters, LevelPlace};
+use lumencut_core::math::levels::{CutSurfaceParameters, LevelLayout};
 use lumencut_core::pipeline::Request;
 use lumencut_core::settings::{LevelChoice, MAX_LEVELS};
 use lumencut_core::stages::Stage as Table;
@@ -27,7 +27,7 @@ pub(crate) const TILES: usize = 64;
 pub(crate) const TILES_ACROSS: usize = 4;
 pub(crate) const POINT_THREADS: u32 = 64;
 /// The most workgroups along one side of a dispatch.
-const MOST_GROUPS: u32 = 65_535;
+const MAX_GROUPS: u32 = 65_535;
 
 #[derive(Debug)]
 pub(crate) struct CutSurfaceStages {
@@ -42,7 +42,7 @@ pub(crate) struct CutSurfaceStages {
     depth: [[[Option<Stage>; 2]; 2]; 2],
     parameters: Buffer,
     /// The layout of the levels last written.
-    told: Option<[LevelPlace; MAX_LEVELS + 1]>,
+    written_layout: Option<[LevelLayout; MAX_LEVELS + 1]>,
     /// The pixels of a workgroup.
     group: [usize; 2],
 }
@@ -60,7 +60,7 @@ impl CutSurfaceStages {
             focus_parameters: device.image("focus parameters", 1, size_of::<FocusParameters>()),
             depth: Default::default(),
             group: [across * QUAD * TILES_ACROSS, rows * TILES / TILES_ACROSS],
-            told: None,
+            written_layout: None,
             parameters: device.uniform::<CutSurfaceParameters>("cut surface parameters"),
         }
     }
@@ -69,10 +69,10 @@ impl CutSurfaceStages {
     pub(crate) fn look(&mut self, device: &Device, levels: &DeviceLevels, request: &Request) {
         let parameters = levels.parameters(request.camera, request.settings);
         let bytes = bytemuck::bytes_of(&parameters);
-        let is_told = self.told.as_ref() == Some(&parameters.levels);
+        let is_told = self.written_layout.as_ref() == Some(&parameters.levels);
         let count = if is_told { offset_of!(CutSurfaceParameters, levels) } else { bytes.len() };
         device.write(&self.parameters, &bytes[..count]);
-        self.told = Some(parameters.levels);
+        self.written_layout = Some(parameters.levels);
     }
 
     /// Projects the needed levels: points, wedges, boxes.
@@ -181,6 +181,6 @@ fn tile_of(device: &Device) -> [usize; 2] {
 
 /// The size of a dispatch of at least `groups` workgroups, in rows of allowed length.
 fn in_rows(groups: u32) -> [u32; 2] {
-    let across = groups.min(MOST_GROUPS);
+    let across = groups.min(MAX_GROUPS);
     [across, groups.div_ceil(across)]
 }

@@ -27,13 +27,13 @@ pub(crate) struct Images {
     pub picture: Buffer,
 }
 
-const MOST_BYTES: usize = size_of::<[f32; 4]>();
+const MAX_PIXEL_BYTES: usize = size_of::<[f32; 4]>();
 
 impl Images {
     /// Images for views of this size.
     pub(crate) fn new(device: &Device, size: [usize; 2]) -> Result<Self> {
         let pixels = size[0] * size[1];
-        let most = device.limits.max_storage_buffer_binding_size as usize / MOST_BYTES;
+        let most = device.limits.max_storage_buffer_binding_size as usize / MAX_PIXEL_BYTES;
         if pixels > most {
             let found = format!("{} × {} pixels", size[0], size[1]);
             return Err(device.too_large("size of the camera", found, &format!("{most} pixels")));
@@ -45,14 +45,14 @@ impl Images {
             unfiltered_depth: number("unfiltered depth"),
             depth: number("depth"),
             vessel: number("vessel"),
-            sheet: device.image("sheet", pixels, MOST_BYTES),
+            sheet: device.image("sheet", pixels, MAX_PIXEL_BYTES),
             leap: number("leap"),
             focus: device.image("focus", pixels, 8),
             value: number("value"),
             raised: number("raised slope"),
             strength: number("strength"),
             start: number("start"),
-            gathered: device.image("gathered", pixels, MOST_BYTES),
+            gathered: device.image("gathered", pixels, MAX_PIXEL_BYTES),
             context: number("context"),
             picture: number("picture"),
         })

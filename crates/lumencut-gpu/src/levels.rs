@@ -7,7 +7,7 @@ use lumencut_core::error::Result;
 use lumencut_core::math::chosen_slots::chosen_slots;
 use lumencut_core::math::hierarchy::{Hierarchy, NO_SLOT};
 use lumencut_core::math::lanes::{ABSENT, FAN, FAR};
-use lumencut_core::math::levels::{CutSurfaceParameters, LevelPlace};
+use lumencut_core::math::levels::{CutSurfaceParameters, LevelLayout};
 use lumencut_core::math::projection::Level;
 use lumencut_core::settings::{MAX_LEVELS, Settings};
 use wgpu::Buffer;
@@ -122,7 +122,7 @@ pub(crate) struct DeviceLevels {
     /// Number of spans and of points, cumulated over levels.
     spans_up_to: Vec<u32>,
     points_up_to: Vec<u32>,
-    places: [LevelPlace; MAX_LEVELS + 1],
+    places: [LevelLayout; MAX_LEVELS + 1],
     /// The origin of points (mm, LPS), and the largest distance of a point from it.
     origin: DVec3,
     reach: f64,
@@ -224,7 +224,7 @@ fn middle(points: &[DVec3]) -> DVec3 {
 struct Arrays {
     spans_up_to: Vec<u32>,
     points_up_to: Vec<u32>,
-    places: [LevelPlace; MAX_LEVELS + 1],
+    places: [LevelLayout; MAX_LEVELS + 1],
     spans: Vec<Span>,
     points: Vec<Point>,
     alongs: Vec<Along>,
@@ -262,11 +262,11 @@ impl Arrays {
             self.alongs.extend((first..=last).map(along));
         }
         self.vessel_of_slot.extend(&level.vessel_of_slot);
-        let mut place = LevelPlace {
+        let mut place = LevelLayout {
             first_slot,
             first_bundle: self.bundles as u32,
             bundle_count: level.bundle_count() as u32,
-            ..LevelPlace::default()
+            ..LevelLayout::default()
         };
         for (height, boxes) in Hierarchy::new(level.bundle_count()).heights.iter().enumerate() {
             place.heights[height] = self.boxes as u32;

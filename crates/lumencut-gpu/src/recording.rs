@@ -12,7 +12,7 @@ use wgpu::{BindingResource, Buffer, BufferUsages, CommandEncoder, MapMode};
 use crate::device::Device;
 use crate::stage::Stage;
 
-const MOST_STAGES: u32 = 64;
+const MAX_STAGES: u32 = 64;
 
 pub(crate) struct Recording<'a> {
     pub device: &'a Device,
@@ -52,7 +52,7 @@ impl<'a> Recording<'a> {
             device.device.create_query_set(&wgpu::QuerySetDescriptor {
                 label: Some("clock"),
                 ty: wgpu::QueryType::Timestamp,
-                count: 2 * MOST_STAGES,
+                count: 2 * MAX_STAGES,
             })
         });
         let encoder = device.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());

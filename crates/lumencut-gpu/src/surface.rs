@@ -16,10 +16,10 @@ use crate::stage::Stage;
 use crate::view::groups;
 use crate::volume::DeviceVolume;
 
-/// `CurvedPlace` of `stages/surface.wgsl`: a pixel of a curved geometry in the volume.
+/// `CurvedPixel` of `stages/surface.wgsl`: a pixel of a curved geometry in the volume.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
-pub(crate) struct CurvedPlace {
+pub(crate) struct CurvedPixel {
     /// The whole part of its continuous index.
     pub whole: [f32; 4],
     /// The remainder.
@@ -28,7 +28,7 @@ pub(crate) struct CurvedPlace {
     pub per_mm: [f32; 4],
 }
 
-impl CurvedPlace {
+impl CurvedPixel {
     /// An index outside every volume.
     const NOWHERE: Self = Self { whole: [-1e6, -1e6, -1e6, 0.0], part: [0.0; 4], per_mm: [0.0; 4] };
 
@@ -71,7 +71,7 @@ impl Surface {
         Self {
             stages: Default::default(),
             parameters: device.uniform::<SurfaceParameters>("surface parameters"),
-            nowhere: device.upload("nowhere", &[CurvedPlace::NOWHERE]),
+            nowhere: device.upload("nowhere", &[CurvedPixel::NOWHERE]),
         }
     }
 
@@ -114,10 +114,10 @@ impl Surface {
 }
 
 fn send(device: &Device, curved: &Curved, volume: &Volume) -> Result<Buffer> {
-    let most = device.limits.max_storage_buffer_binding_size as usize / size_of::<CurvedPlace>();
+    let most = device.limits.max_storage_buffer_binding_size as usize / size_of::<CurvedPixel>();
     if curved.position().len() > most {
         let found = format!("{} pixels with places of their own", curved.position().len());
         return Err(device.too_large("curved geometry", found, &format!("{most} pixels")));
     }
-    Ok(device.upload("curved places", &CurvedPlace::of(curved, volume)))
+    Ok(device.upload("curved places", &CurvedPixel::of(curved, volume)))
 }

@@ -20,7 +20,7 @@ use crate::device::Device;
 use crate::view::{power_above, split};
 
 /// Larger floats count as missing.
-const LARGEST: f32 = 1e30;
+const LARGEST_FLOAT: f32 = 1e30;
 /// The most bytes that are gathered before they are sent.
 const SLAB_BYTES: usize = 64 << 20;
 /// The digits of an `f32`.
@@ -228,7 +228,7 @@ fn send(device: &Device, texture: &Texture, texel: Texel, volume: &Volume, stop:
             other => with_voxels!(other, voxels => gather(volume, voxels, first, bytes, |v| {
                 let value = v.real().to_f32();
                 // NaN also fails the comparison.
-                if value.abs() <= LARGEST { value } else { HUGE }
+                if value.abs() <= LARGEST_FLOAT { value } else { HUGE }
             })),
         }
         let mut copy = texture.as_image_copy();

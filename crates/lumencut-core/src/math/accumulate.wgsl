@@ -27,7 +27,7 @@ fn ignores(gathered: Gathered, range: vec2f) -> bool {
         && (gathered.opacity >= OPAQUE || is_transparent(range));
 }
 
-fn gather(gathered: ptr<function, Gathered>, value: f32, place: Place, thickness: f32) {
+fn gather(gathered: ptr<function, Gathered>, value: f32, place: GridPosition, thickness: f32) {
     let intensity = ramp_at(parameters.window, value);
     let push = max(intensity - (*gathered).most, 0.0) * parameters.push;
     let is_seen = push > 0.0 || (*gathered).opacity < OPAQUE;

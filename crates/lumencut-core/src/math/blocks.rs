@@ -14,7 +14,7 @@ pub const SIDE_BITS: u32 = 2;
 pub const SIDE: usize = 1 << SIDE_BITS;
 
 /// More blocks than this along an axis are looked up at a coarser level.
-const MOST_ASKED: i32 = 3;
+const MAX_LOOKUPS: i32 = 3;
 
 /// A bound on the rounding of trilinear interpolation, relative to the larger end of a range.
 const ROUNDING: f32 = 1e-6;
@@ -100,7 +100,7 @@ impl Blocks {
         let side = SIDE as i32;
         let (mut first, mut last) = (first.map(|c| c / side), last.map(|c| c / side));
         let mut level = 0;
-        while (0..3).any(|a| last[a] - first[a] >= MOST_ASKED) {
+        while (0..3).any(|a| last[a] - first[a] >= MAX_LOOKUPS) {
             (first, last) = (first.map(|b| b / 2), last.map(|b| b / 2));
             level += 1;
         }

@@ -29,6 +29,6 @@ fn samples_left(level: u32, cell: Cell, way: vec3f) -> i32 {
     let up = select(vec3f(beyond - cell.voxel) - cell.share, vec3f(FARTHEST), beyond > grid.low);
     let down = select(vec3f(cell.voxel - first) + cell.share, vec3f(FARTHEST), first == vec3i());
     let room = select(down, up, way > vec3f());
-    let steps = (min(room, vec3f(FARTHEST)) - PLACE_ROUNDING) / max(abs(way), vec3f(1.0 / FARTHEST));
+    let steps = (min(room, vec3f(FARTHEST)) - POSITION_ROUNDING) / max(abs(way), vec3f(1.0 / FARTHEST));
     return i32(clamp(min(min(steps.x, steps.y), steps.z), 0.0, FARTHEST));
 }

@@ -159,7 +159,7 @@ impl Walkers {
 }
 
 /// This many cells of each ray are found before the voxels of the first are read.
-const AHEAD: usize = 2;
+const CELLS_AHEAD: usize = 2;
 
 #[derive(Clone, Copy)]
 struct Passed {
@@ -175,12 +175,12 @@ impl<T: Voxel, F: Fold<T::Real>> CellWalk<'_, T, F> {
         let voxels = &self.voxels[self.grid.offset_of(self.base)..];
         let nowhere = Passed { cell: [[0.0; FAN]; 3], enter: [0.0; FAN], leave: [0.0; FAN] };
         loop {
-            let (mut passed, mut offset) = ([nowhere; AHEAD], [[O::default(); FAN]; AHEAD]);
-            for n in 0..AHEAD {
+            let (mut passed, mut offset) = ([nowhere; CELLS_AHEAD], [[O::default(); FAN]; CELLS_AHEAD]);
+            for n in 0..CELLS_AHEAD {
                 passed[n] = self.go_on(&mut walkers, &mut offset[n]);
             }
             let rows = self.grid.rows(voxels, &offset);
-            for n in 0..AHEAD {
+            for n in 0..CELLS_AHEAD {
                 self.pass(&passed[n], [&rows[0][n], &rows[1][n], &rows[2][n], &rows[3][n]]);
             }
             let mut goes_on = 0;

@@ -23,7 +23,7 @@ fn corners_at(voxel: vec3i, sign: f32) -> Corners {
 }
 
 // Follows a ray over `way` voxels: finds values above `so_far`, or sums all with `wants_mean`.
-fn walk_cells(start: Place, way: vec3f, sign: f32, limit: f32, wants_mean: bool, so_far: f32) -> Found {
+fn walk_cells(start: GridPosition, way: vec3f, sign: f32, limit: f32, wants_mean: bool, so_far: f32) -> Found {
     let carry = floor(start.part);
     let first = start.whole + carry;
     let place = start.part - carry;

@@ -8,7 +8,7 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
-use crate::math::place_map::PlaceMap;
+use crate::math::position_map::PositionMap;
 use crate::math::same_place::VESSEL_END;
 use crate::vessel_tree::{MAX_COORDINATE, Vessel, VesselTree};
 
@@ -16,7 +16,7 @@ use crate::vessel_tree::{MAX_COORDINATE, Vessel, VesselTree};
 const LAYERS: usize = 16;
 
 /// Where the Gaussian is cut off (σ).
-const CUT_OFF: f64 = 4.0;
+const CUT_OFF_SIGMAS: f64 = 4.0;
 
 /// `tree` with centerlines smoothed by a Gaussian whose σ at each point is `radii` times the radius there.
 ///
@@ -31,7 +31,7 @@ pub fn smooth_centerlines(tree: &VesselTree, radii: f64) -> VesselTree {
     VesselTree::from_checked(smoothed.collect())
 }
 
-fn smooth(vessel: &Vessel, radii: f64, ends: &PlaceMap<()>, layers: &[Layer]) -> Vessel {
+fn smooth(vessel: &Vessel, radii: f64, ends: &PositionMap<()>, layers: &[Layer]) -> Vessel {
     let Some(radius) = vessel.radius() else { return vessel.clone() };
     let (points, last) = (vessel.points(), vessel.points().len() - 1);
     let mut smoothed = points.to_vec();
@@ -59,7 +59,7 @@ struct Layer {
 
 /// The Gaussian as a sum of boxes with integral 1 and variance 1.
 fn gaussian() -> [Layer; LAYERS] {
-    let step = CUT_OFF / LAYERS as f64;
+    let step = CUT_OFF_SIGMAS / LAYERS as f64;
     // The density in the middle of each step; beyond the last one it is 0.
     let density = |k: usize| if k < LAYERS { (-0.5 * ((k as f64 + 0.5) * step).powi(2)).exp() } else { 0.0 };
     let layers: [Layer; LAYERS] =
@@ -157,8 +157,8 @@ fn folded(s: f64, length: f64) -> f64 {
     s.min(turn - s)
 }
 
-fn ends_of(tree: &VesselTree) -> PlaceMap<()> {
-    let mut ends = PlaceMap::new(VESSEL_END);
+fn ends_of(tree: &VesselTree) -> PositionMap<()> {
+    let mut ends = PositionMap::new(VESSEL_END);
     for points in tree.vessels().iter().map(Vessel::points) {
         for end in [points[0], points[points.len() - 1]] {
             ends.add(end, &());

@@ -8,10 +8,10 @@ use super::window::Ramp;
 use crate::settings::{Context, ContextFrom, ContextMode, MAX_POINTS, Settings};
 
 /// The most rises and gaps between the control points of a transfer function.
-const MOST_RISES: usize = MAX_POINTS - 1;
-const MOST_GAPS: usize = MAX_POINTS / 2 + 1;
+const MAX_RISES: usize = MAX_POINTS - 1;
+const MAX_GAPS: usize = MAX_POINTS / 2 + 1;
 /// The most sizes of blocks; with them the largest block holds a volume of any size.
-pub(crate) const MOST_BLOCK_LEVELS: usize = 16;
+pub(crate) const MAX_BLOCK_LEVELS: usize = 16;
 
 /// Change over two voxels that is half shaded (share of the window): above the noise, below all borders.
 const HALF_SHADED: f64 = 0.1;
@@ -65,12 +65,12 @@ pub struct RiseParameters {
 /// The layout of a volume's blocks in one GPU buffer, the smallest first.
 #[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
 #[repr(C)]
-pub struct BlockPlaces {
+pub struct BlockLayout {
     pub level_count: u32,
     /// log2 of the ratio of the smallest blocks there to the volume's smallest.
     pub finest: u32,
     /// Blocks along each axis and the index of the first one's range, per size.
-    pub levels: [[u32; 4]; MOST_BLOCK_LEVELS],
+    pub levels: [[u32; 4]; MAX_BLOCK_LEVELS],
 }
 
 /// What the rays of a context need besides the view and the volume's grid.
@@ -100,10 +100,10 @@ pub struct ContextParameters {
     pub gap_count: u32,
     pub level_count: u32,
     pub finest: u32,
-    pub rises: [RiseParameters; MOST_RISES],
+    pub rises: [RiseParameters; MAX_RISES],
     /// The ranges of intensity without opacity: from the first to the second number.
-    pub gaps: [[f32; 4]; MOST_GAPS],
-    pub levels: [[u32; 4]; MOST_BLOCK_LEVELS],
+    pub gaps: [[f32; 4]; MAX_GAPS],
+    pub levels: [[u32; 4]; MAX_BLOCK_LEVELS],
 }
 
 impl ContextParameters {
@@ -112,7 +112,7 @@ impl ContextParameters {
         context: &Context,
         colors: &Colors,
         step: f64,
-        blocks: &BlockPlaces,
+        blocks: &BlockLayout,
     ) -> Self {
         let window = Ramp::grey(context.window);
         let gamma = match context.mode {

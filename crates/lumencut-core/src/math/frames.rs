@@ -2,7 +2,7 @@
 //! Rotation Minimizing Frames, ACM Transactions on Graphics 27(1), 2008, doi:10.1145/1330511.1330513).
 //!
 //! A segment has its own direction in its middle. About each inner point the direction turns along a great
-//! circle at an even rate, over half of the shorter segment on both sides and at most `CORNER`. So the
+//! circle at an even rate, over half of the shorter segment on both sides and at most `MAX_CORNER_MM`. So the
 //! tangent never jumps, and straight runs are crossed at right angles.
 
 use glam::{DQuat, DVec3};
@@ -10,7 +10,7 @@ use glam::{DQuat, DVec3};
 use super::centerline_path::CenterlinePath;
 
 /// The longest rounding of a corner before and after a point (mm).
-pub(crate) const CORNER: f64 = 5.0;
+pub(crate) const MAX_CORNER_MM: f64 = 5.0;
 
 /// Two directions that differ by less than this sine are equal.
 const SAME_DIRECTION: f64 = 1e-12;
@@ -82,7 +82,7 @@ impl Frames {
                 continue;
             }
             let [before, at, after] = [-1, 0, 1].map(|n| path.arc_length()[i.wrapping_add_signed(n)]);
-            let reach = CORNER.min((at - before).min(after - at) / 2.0);
+            let reach = MAX_CORNER_MM.min((at - before).min(after - at) / 2.0);
             let frame = stations[stations.len() - 1].frame;
             let [start, end] = [at - reach, at + reach];
             stations.push(Station { at: start, frame, turn: turn(frame, to) / (end - start) });

@@ -22,7 +22,7 @@ pub const ABSENT: f32 = 3e30;
 /// Where slots without a point lie (mm): beyond every scene, with a finite square.
 pub const FAR: f32 = 1e9;
 /// A key that no piece beats: the pixel takes no part.
-pub const SETTLED: f32 = -1e30;
+pub const EXCLUDED: f32 = -1e30;
 
 /// The larger of two numbers, the second if the first is NaN: one instruction, where `f32::max` needs three.
 #[inline(always)]

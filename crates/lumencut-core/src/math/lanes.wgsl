@@ -4,7 +4,7 @@ const FAN = 16u;
 const UNSET: f32 = 1e30;
 const ABSENT: f32 = 3e30;
 const FAR: f32 = 1e9;
-const SETTLED: f32 = -1e30;
+const EXCLUDED: f32 = -1e30;
 const NO_SLOT = 0xffffffffu;
 // Beyond every value of a volume; stands for a missing value.
 const HUGE: f32 = 3e38;

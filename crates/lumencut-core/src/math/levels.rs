@@ -13,7 +13,7 @@ pub(crate) const MAX_HEIGHTS: usize = 8;
 /// The position of a level in the GPU buffers; the CPU has separate buffers per level.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
 #[repr(C)]
-pub struct LevelPlace {
+pub struct LevelLayout {
     pub first_slot: u32,
     pub first_bundle: u32,
     pub bundle_count: u32,
@@ -44,7 +44,7 @@ pub struct CutSurfaceParameters {
     /// rounding.
     pub origin_coarse: [f32; 4],
     pub origin_fine: [f32; 4],
-    pub levels: [LevelPlace; MAX_LEVELS + 1],
+    pub levels: [LevelLayout; MAX_LEVELS + 1],
 }
 
 impl CutSurfaceParameters {

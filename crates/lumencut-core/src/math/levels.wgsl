@@ -4,7 +4,7 @@
 
 const MAX_LEVELS = 15u;
 
-struct LevelPlace {
+struct LevelLayout {
     first_slot: u32,
     first_bundle: u32,
     bundle_count: u32,
@@ -49,7 +49,7 @@ struct CutSurfaceParameters {
     padding: vec2u,
     origin_coarse: vec4f,
     origin_fine: vec4f,
-    levels: array<LevelPlace, MAX_LEVELS + 1u>,
+    levels: array<LevelLayout, MAX_LEVELS + 1u>,
 }
 
 @group(0) @binding(1) var<uniform> parameters: CutSurfaceParameters;

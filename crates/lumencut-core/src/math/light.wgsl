@@ -14,11 +14,11 @@ struct Light {
 
 const UNSHADED = Light(1.0, 0.0);
 
-fn value_beside(place: Place, by: vec3f) -> f32 {
-    return value_in(cell_of(Place(place.whole + by, place.part)));
+fn value_beside(place: GridPosition, by: vec3f) -> f32 {
+    return value_in(cell_of(GridPosition(place.whole + by, place.part)));
 }
 
-fn shade(place: Place) -> Light {
+fn shade(place: GridPosition) -> Light {
     var change: vec3f;
     for (var a = 0; a < 3; a++) {
         let side = vec3f(vec3i(a) == vec3i(0, 1, 2));

@@ -33,7 +33,7 @@ pub(crate) mod nearest;
 pub(crate) mod own_pieces;
 #[doc(hidden)]
 pub mod pieces;
-pub(crate) mod place_map;
+pub(crate) mod position_map;
 #[doc(hidden)]
 pub mod projection;
 #[doc(hidden)]

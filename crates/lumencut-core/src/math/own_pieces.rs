@@ -3,7 +3,7 @@
 use super::candidates::Cover;
 use super::cost::Rule;
 use super::decision::Part;
-use super::lanes::{PART_PIXELS, SETTLED, UNSET, larger, largest};
+use super::lanes::{EXCLUDED, PART_PIXELS, UNSET, larger, largest};
 use super::pieces::Foot;
 use super::projection::{Level, Projected};
 
@@ -33,7 +33,7 @@ impl NearestPieces {
         let zero = [0.0; PART_PIXELS];
         let mut apart = zero;
         for l in 0..PART_PIXELS {
-            apart[l] = if weight[l] > 0.0 { UNSET } else { SETTLED };
+            apart[l] = if weight[l] > 0.0 { UNSET } else { EXCLUDED };
         }
         Self { apart, along: zero, cost: zero, piece: [u32::MAX; PART_PIXELS], z: zero, slope: [zero; 2] }
     }
@@ -58,11 +58,11 @@ impl NearestPieces {
     /// The arc lengths (mm) between which a piece can still be nearer to a member, plus a bound on rounding.
     #[inline(always)]
     fn reach(&self, part: &Part, is_member: &[bool; PART_PIXELS]) -> [f32; 2] {
-        let (mut low, mut high) = ([SETTLED; PART_PIXELS], [SETTLED; PART_PIXELS]);
+        let (mut low, mut high) = ([EXCLUDED; PART_PIXELS], [EXCLUDED; PART_PIXELS]);
         for l in 0..PART_PIXELS {
             let (s, apart) = (part.arc_length[l], self.apart[l]);
-            low[l] = if is_member[l] { apart - s } else { SETTLED };
-            high[l] = if is_member[l] { apart + s } else { SETTLED };
+            low[l] = if is_member[l] { apart - s } else { EXCLUDED };
+            high[l] = if is_member[l] { apart + s } else { EXCLUDED };
         }
         let (low, high) = (largest(&low), largest(&high));
         let slack = 1e-6 * larger(low.abs(), high.abs());

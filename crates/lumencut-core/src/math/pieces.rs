@@ -9,7 +9,7 @@
 //! at p₁ does unless (q − p₁)·e₁ > 0, and so on.
 
 use super::cost::Rule;
-use super::lanes::{ABSENT, FAN, FAR, PART_PIXELS, PIXELS, SETTLED, UNSET, smaller};
+use super::lanes::{ABSENT, EXCLUDED, FAN, FAR, PART_PIXELS, PIXELS, UNSET, smaller};
 use super::tile::Tile;
 
 #[derive(Clone, Copy, Debug)]
@@ -79,9 +79,9 @@ pub(crate) struct Envelope {
 impl Envelope {
     #[inline(always)]
     pub(crate) fn new(weight: &[f32; PIXELS]) -> Self {
-        let mut key = [SETTLED; PIXELS];
+        let mut key = [EXCLUDED; PIXELS];
         for l in 0..PIXELS {
-            key[l] = if weight[l] > 0.0 { UNSET } else { SETTLED };
+            key[l] = if weight[l] > 0.0 { UNSET } else { EXCLUDED };
         }
         Self { key, z: [0.0; PIXELS], piece: [u32::MAX; PIXELS] }
     }

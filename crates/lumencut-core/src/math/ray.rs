@@ -4,7 +4,7 @@ use super::blocks::{Blocks, Range};
 use super::lanes::FAN;
 use super::ray_lines::{IndexFromView, Lines};
 pub use super::ray_lines::{NEVER, NONE, WHOLE};
-use super::sampling::{Grid, PLACE_ROUNDING, Places, SampledRun};
+use super::sampling::{Grid, POSITION_ROUNDING, Places, SampledRun};
 use crate::camera::Camera;
 use crate::volume::Volume;
 
@@ -13,7 +13,7 @@ pub(crate) const PACKET: [usize; 2] = [4, 4];
 pub const STEPS: usize = 8;
 
 /// The most samples along a ray and across a slab.
-pub const MOST_SAMPLES: f64 = 65_536.0;
+pub const MAX_SAMPLES: f64 = 65_536.0;
 
 /// Share of a step that a chord may exceed whole steps without another part: n voxels give n parts despite
 /// rounding.
@@ -74,14 +74,14 @@ impl Packet {
             packet.thickness[l] = part[l] as f32;
             packet.longest = packet.longest.max(count[l]);
         }
-        packet.settle_idle();
+        packet.fill_idle_lanes();
         packet.bound();
         packet
     }
 
     /// Copies a ray that sees something over those that see nothing, so that they widen no bounds.
     #[inline(always)]
-    fn settle_idle(&mut self) {
+    fn fill_idle_lanes(&mut self) {
         let mut busy = 0;
         for l in 0..FAN {
             busy = if self.count[l] > 0 { l } else { busy };
@@ -146,8 +146,8 @@ impl Packet {
                 less = if way < less { way } else { less };
                 more = if way > more { way } else { more };
             }
-            low[a] = ((foot[a][0] + less - PLACE_ROUNDING) as i32).clamp(0, last_cell[a]);
-            high[a] = ((foot[a][1] + more + PLACE_ROUNDING) as i32).clamp(0, last_cell[a]);
+            low[a] = ((foot[a][0] + less - POSITION_ROUNDING) as i32).clamp(0, last_cell[a]);
+            high[a] = ((foot[a][1] + more + POSITION_ROUNDING) as i32).clamp(0, last_cell[a]);
         }
         let range = match blocks {
             Some(blocks) => blocks.range(low, high),

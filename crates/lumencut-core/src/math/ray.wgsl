@@ -59,10 +59,10 @@ fn deeper(depth: Depth, by: f32) -> Depth {
     return Depth(depth.coarse + coarse(rest), rest - coarse(rest));
 }
 
-fn place_at(foot: Foot, depth: Depth) -> Place {
+fn place_at(foot: Foot, depth: Depth) -> GridPosition {
     let way = depth.coarse * grid.z.xyz;
     let rest = foot.rest + depth.coarse * grid.z_rest.xyz + depth.rest * (grid.z.xyz + grid.z_rest.xyz);
-    return Place(floor(foot.index) + floor(way), fract(foot.index) + fract(way) + rest);
+    return GridPosition(floor(foot.index) + floor(way), fract(foot.index) + fract(way) + rest);
 }
 
 fn latest(one: vec3f, rest: vec3f, start: Depth) -> Depth {
@@ -110,6 +110,6 @@ fn cut(foot: Foot, start: Depth, end: Depth, per_step: f32) -> Ray {
     return Ray(foot, near, chord / f32(count), count);
 }
 
-fn sample_place(ray: Ray, n: i32) -> Place {
+fn sample_place(ray: Ray, n: i32) -> GridPosition {
     return place_at(ray.foot, deeper(ray.near, ray.part * (f32(n) + 0.5)));
 }

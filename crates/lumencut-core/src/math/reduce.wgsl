@@ -8,7 +8,7 @@ const STRETCH: i32 = 8;
 // Stretches per partial sum: sums of few numbers keep their digits.
 const FEW: i32 = 16;
 
-fn part_place(ray: Ray, n: i32) -> Place {
+fn part_place(ray: Ray, n: i32) -> GridPosition {
     return place_at(ray.foot, deeper(ray.near, ray.part * f32(n)));
 }
 

@@ -6,7 +6,7 @@ use super::lanes::{FAN, larger, smaller};
 use crate::volume::{Real, Volume, Voxel};
 
 /// A bound on the rounding of positions (voxels).
-pub const PLACE_ROUNDING: f64 = 1e-3;
+pub const POSITION_ROUNDING: f64 = 1e-3;
 
 #[derive(Clone, Copy, Debug)]
 pub struct Grid {

@@ -4,7 +4,7 @@
 // Whether the voxels are the bits of floats; else they are integers.
 override FLOAT_VOXELS: bool = false;
 
-const PLACE_ROUNDING: f32 = 1e-3;
+const POSITION_ROUNDING: f32 = 1e-3;
 
 // The volume's grid in the view. The fourth component of vectors is padding.
 struct GridParameters {
@@ -40,7 +40,7 @@ struct GridParameters {
 @group(0) @binding(3) var voxels: texture_3d<i32>;
 
 // A continuous index: an integer and a summand, so that fractions keep their digits.
-struct Place {
+struct GridPosition {
     whole: vec3f,
     part: vec3f,
 }
@@ -56,13 +56,13 @@ struct Corners {
     far: vec4f,
 }
 
-fn is_outside(place: Place) -> bool {
+fn is_outside(place: GridPosition) -> bool {
     let above_first = place.whole + 0.5 + place.part;
     let above_last = place.whole - grid.last - 0.5 + place.part;
     return any(above_first < vec3f()) || any(above_last > vec3f());
 }
 
-fn cell_of(place: Place) -> Cell {
+fn cell_of(place: GridPosition) -> Cell {
     let carry = floor(place.part);
     let whole = place.whole + carry;
     let low = vec3f(grid.low);

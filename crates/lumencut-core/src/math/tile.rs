@@ -12,7 +12,7 @@ pub(crate) const fn lane(r: usize, c: usize) -> usize {
     part * PART_PIXELS + r % PART_SIDE * PART_SIDE + c % PART_SIDE
 }
 
-pub(crate) const PLACE_OF_LANE: [(usize, usize); PIXELS] = {
+pub(crate) const PIXEL_OF_LANE: [(usize, usize); PIXELS] = {
     let mut places = [(0, 0); PIXELS];
     let mut n = 0;
     while n < PIXELS {
@@ -28,7 +28,7 @@ pub(crate) fn gather(rows: &[f32], width: usize, column: usize) -> [f32; PIXELS]
     let last_row = rows.len() / width - 1;
     let mut lanes = [0.0; PIXELS];
     for (n, run) in lanes.as_chunks_mut::<PART_SIDE>().0.iter_mut().enumerate() {
-        let (r, c) = PLACE_OF_LANE[n * PART_SIDE];
+        let (r, c) = PIXEL_OF_LANE[n * PART_SIDE];
         let row = &rows[r.min(last_row) * width..][..width];
         if let Some(whole) = row.get(column + c..).and_then(|rest| rest.first_chunk()) {
             *run = *whole;
@@ -45,7 +45,7 @@ pub(crate) fn gather(rows: &[f32], width: usize, column: usize) -> [f32; PIXELS]
 #[inline(always)]
 pub(crate) fn scatter<T: Copy>(lanes: &[T; PIXELS], rows: &mut [T], width: usize, column: usize) {
     for (n, run) in lanes.as_chunks::<PART_SIDE>().0.iter().enumerate() {
-        let (r, c) = PLACE_OF_LANE[n * PART_SIDE];
+        let (r, c) = PIXEL_OF_LANE[n * PART_SIDE];
         let Some(row) = rows.get_mut(r * width..(r + 1) * width) else { continue };
         let Some(rest) = row.get_mut(column + c..) else { continue };
         if let Some(whole) = rest.first_chunk_mut() {
@@ -88,7 +88,7 @@ impl Tile {
         }
         let (mut x, mut y) = ([0.0; PIXELS], [0.0; PIXELS]);
         for l in 0..PIXELS {
-            let (r, c) = PLACE_OF_LANE[l];
+            let (r, c) = PIXEL_OF_LANE[l];
             (x[l], y[l]) = (columns[c], rows[r]);
         }
         let area = around(&columns, &rows);

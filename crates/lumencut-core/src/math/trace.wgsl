@@ -20,7 +20,7 @@ fn trace(ray: Ray) -> vec4f {
         let place = sample_place(ray, n);
         let count = min(RUN, ray.count - n);
         for (var m = 0; m < count; m++) {
-            take(&gathered, Place(place.whole, place.part + f32(m) * way), ray.part);
+            take(&gathered, GridPosition(place.whole, place.part + f32(m) * way), ray.part);
         }
         n += RUN;
         if ignores(gathered, ALL) {
@@ -47,7 +47,7 @@ fn skip(ray: Ray, way: vec3f, gathered: Gathered, first: i32, level: ptr<functio
     return n;
 }
 
-fn take(gathered: ptr<function, Gathered>, place: Place, thickness: f32) {
+fn take(gathered: ptr<function, Gathered>, place: GridPosition, thickness: f32) {
     let value = value_in(cell_of(place));
     if value < HUGE {
         gather(gathered, value, place, thickness);

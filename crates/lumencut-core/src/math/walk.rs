@@ -3,7 +3,9 @@
 use super::candidates::candidates;
 use super::cost::Rule;
 use super::hierarchy::{Boxes, Hierarchy};
-use super::lanes::{COLUMNS, FAN, PART_PIXELS, PARTS, PIXELS, ROWS, SETTLED, UNSET, larger, largest, places};
+use super::lanes::{
+    COLUMNS, EXCLUDED, FAN, PART_PIXELS, PARTS, PIXELS, ROWS, UNSET, larger, largest, places,
+};
 use super::nearest::{NearestPoint, lower_distance};
 use super::pieces::Envelope;
 use super::tile::{Tile, lane};
@@ -100,9 +102,9 @@ pub(crate) fn lowest_keys<const LUMEN_FIRST: bool>(
     let mut limit = rule.limit(UNSET);
     let mut limits = [limit; PARTS];
     let root = hierarchy.heights.len() as u32;
-    stack.waiting[0] = (SETTLED, root, 0);
+    stack.waiting[0] = (EXCLUDED, root, 0);
     for s in 0..seeds.count {
-        stack.waiting[s + 1] = (SETTLED, 0, seeds.bundles[s]);
+        stack.waiting[s + 1] = (EXCLUDED, 0, seeds.bundles[s]);
     }
     stack.length = seeds.count + 1;
     while let Some((bound, height, node)) = stack.pop() {
@@ -113,7 +115,7 @@ pub(crate) fn lowest_keys<const LUMEN_FIRST: bool>(
             let boxes: &Boxes = &hierarchy.heights[height as usize - 1][node as usize];
             let bounds = boxes.key_bounds::<LUMEN_FIRST>(tile, rule);
             stack.push_nodes(tile, &bounds, limit, [height - 1, node * FAN as u32]);
-        } else if bound <= SETTLED || !seeds.contains(node) {
+        } else if bound <= EXCLUDED || !seeds.contains(node) {
             let bundle = &hierarchy.bundles[node as usize];
             let found = candidates::<LUMEN_FIRST>(tile, bundle, rule, &limits);
             for pair in places(found.stripes) {

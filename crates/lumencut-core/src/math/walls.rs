@@ -22,7 +22,7 @@ pub(crate) struct WallRange {
 }
 
 /// The largest [`lean`]: beyond it one end of the segment is nearest for every pixel.
-pub const MOST_LEAN: f32 = 1e6;
+pub const MAX_LEAN: f32 = 1e6;
 
 /// Lowers each pixel's distance (mm) from the wall, negative within, to that of the segment of slot `s`.
 ///
@@ -48,8 +48,8 @@ fn lower_beyond(tile: &Tile, beyond: &mut [f32; PIXELS], bundle: &Bundle, s: usi
 /// Offset of the nearest disc from a pixel's foot per mm from the line, for a `taper` in mm per mm.
 #[inline(always)]
 fn lean(taper: f32) -> f32 {
-    let rest = larger(1.0 - taper * taper, 1.0 / (MOST_LEAN * MOST_LEAN));
-    smaller(larger(taper / rest.sqrt(), -MOST_LEAN), MOST_LEAN)
+    let rest = larger(1.0 - taper * taper, 1.0 / (MAX_LEAN * MAX_LEAN));
+    smaller(larger(taper / rest.sqrt(), -MAX_LEAN), MAX_LEAN)
 }
 
 /// Lowers the distances (mm, negative within) to the nearest wall, of chosen vessels if `OF_FIRST`. The

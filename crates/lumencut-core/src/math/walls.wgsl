@@ -2,14 +2,14 @@
 // import math/hierarchy
 // import math/nearest
 
-const MOST_LEAN: f32 = 1e6;
+const MAX_LEAN: f32 = 1e6;
 
 // The distance (mm) of each pixel of the tile from the wall so far, negative within.
 var<private> beyond: array<vec4f, MAX_QUADS>;
 
 fn lean(taper: f32) -> f32 {
-    let rest = max(1.0 - taper * taper, 1.0 / (MOST_LEAN * MOST_LEAN));
-    return clamp(taper / sqrt(rest), -MOST_LEAN, MOST_LEAN);
+    let rest = max(1.0 - taper * taper, 1.0 / (MAX_LEAN * MAX_LEAN));
+    return clamp(taper / sqrt(rest), -MAX_LEAN, MAX_LEAN);
 }
 
 fn lower_beyond(slot: Slot) {

@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use glam::DVec3;
 
-use crate::math::place_map::PlaceMap;
+use crate::math::position_map::PositionMap;
 use crate::math::projection::Level;
 use crate::math::same_place::VESSEL_END;
 
@@ -27,7 +27,7 @@ struct Reached {
 }
 
 /// The most reachable meetings cached over all junctions; the rest is recomputed on each use.
-const MOST_KEPT: usize = 1 << 24;
+const MAX_CACHED: usize = 1 << 24;
 
 /// Where the vessels of a tree meet: wherever one of them ends at a point of another.
 #[derive(Debug)]
@@ -120,7 +120,7 @@ impl Connections {
             reached.extend(there.map(|meeting| Reached { meeting: *meeting, distance: distance as f32 }));
         }
         reached.sort_unstable_by_key(|at| at.meeting);
-        if self.kept.fetch_add(reached.len(), Ordering::Relaxed) + reached.len() > MOST_KEPT {
+        if self.kept.fetch_add(reached.len(), Ordering::Relaxed) + reached.len() > MAX_CACHED {
             return Cow::Owned(reached);
         }
         Cow::Borrowed(known.get_or_init(|| reached))
@@ -154,13 +154,13 @@ impl Connections {
 
 /// The ends of all vessels; ends at the same position are one junction.
 pub(super) struct Ends {
-    places: PlaceMap<u32>,
+    places: PositionMap<u32>,
     pub count: u32,
 }
 
 impl Ends {
     pub(super) fn of(places: impl Iterator<Item = DVec3>) -> Self {
-        let mut ends = Self { places: PlaceMap::new(VESSEL_END), count: 0 };
+        let mut ends = Self { places: PositionMap::new(VESSEL_END), count: 0 };
         places.for_each(|end| ends.add(end));
         ends
     }

@@ -34,7 +34,7 @@ use crate::named::Named;
 use crate::stop::Stop;
 
 /// The default margin on each side of the vessel (mm).
-const MARGIN: f64 = 25.0;
+const DEFAULT_MARGIN_MM: f64 = 25.0;
 
 /// How the lines across a vessel are laid out as an image.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -102,7 +102,7 @@ impl Cpr {
             (None, CprMode::Stretched) => Arc::new(Stretched::new(Arc::clone(&path), view.turned()?)?),
             (None, _) => Arc::new(Projected::new(Arc::clone(&path), view.turned()?, pixel_spacing)?),
         };
-        let half = width.map_or(surface.reach() + MARGIN, |width| width / 2.0);
+        let half = width.map_or(surface.reach() + DEFAULT_MARGIN_MM, |width| width / 2.0);
         let pixels = |length: f64| whole_pixels(length, pixel_spacing);
         let size =
             checked_size("size of the CPR", [2.0 * pixels(half) + 1.0, pixels(surface.height()) + 1.0])?;

@@ -6,7 +6,7 @@ use super::segments::Segments;
 use crate::math::centerline_path::CenterlinePath;
 
 /// Required relative difference of distances: rounded corners and changing depth tilt images a little.
-pub(super) const NEARER: f64 = 0.05;
+pub(super) const MIN_DISTANCE_EXCESS: f64 = 0.05;
 
 pub(super) struct CutLocus<'a> {
     path: &'a CenterlinePath,
@@ -21,6 +21,6 @@ impl<'a> CutLocus<'a> {
 
     /// Whether a point shown next to the vessel at an arc length (mm) lies beyond the cut locus.
     pub(super) fn is_beyond(&self, point: DVec3, at: f64) -> bool {
-        self.segments.any_within(point, point.distance(self.path.at(at)) * (1.0 - NEARER))
+        self.segments.any_within(point, point.distance(self.path.at(at)) * (1.0 - MIN_DISTANCE_EXCESS))
     }
 }

@@ -14,7 +14,7 @@ use crate::stages::{Stage, Work};
 pub const NO_VESSEL: i32 = -1;
 
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Place {
+pub(super) struct PixelContent {
     pub depth: f32,
     pub vessel: i32,
     /// Slopes and radius, as the stage `leap` reads them.
@@ -23,7 +23,7 @@ pub(super) struct Place {
     pub is_folded: bool,
 }
 
-impl Place {
+impl PixelContent {
     /// Nothing: beyond every volume, and no depth leaps to it.
     pub(super) const NOTHING: Self =
         Self { depth: FAR, vessel: NO_VESSEL, sheet: [0.0, 0.0, -ABSENT, 0.0], is_folded: false };
@@ -38,7 +38,7 @@ pub(super) struct Found {
 
 impl Found {
     pub(super) fn nothing(pixels: usize) -> Self {
-        let Place { depth, vessel, sheet, is_folded } = Place::NOTHING;
+        let PixelContent { depth, vessel, sheet, is_folded } = PixelContent::NOTHING;
         Self {
             depth: vec![depth; pixels],
             vessel: vec![vessel; pixels],

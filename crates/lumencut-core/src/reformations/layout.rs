@@ -70,10 +70,10 @@ pub(super) fn curved_by_rows(
 }
 
 /// Tolerance for a length that is a whole number of pixels.
-const WHOLE: f64 = 1e-9;
+const WHOLE_PIXEL_TOLERANCE: f64 = 1e-9;
 
 pub(super) fn whole_pixels(length: f64, pixel_spacing: f64) -> f64 {
-    (length / pixel_spacing + WHOLE).floor()
+    (length / pixel_spacing + WHOLE_PIXEL_TOLERANCE).floor()
 }
 
 /// Fails with [`ErrorKind::Camera`], about `subject`, for too many columns or rows.

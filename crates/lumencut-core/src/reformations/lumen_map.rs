@@ -26,7 +26,7 @@ const PIXEL_SPACING: Limits = Limits::new(1e-6, 1e4, "mm");
 const OVERLAP: Limits = Limits::new(0.0, 3.0, "rad");
 
 /// Brightness of a wall seen edge on, and the gain of one seen face on.
-const SHADES: [f64; 2] = [0.3, 0.7];
+const EDGE_AND_FACE_BRIGHTNESS: [f64; 2] = [0.3, 0.7];
 
 /// How a lumen map is laid out.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -124,7 +124,8 @@ impl LumenMap {
             let along = after.0[i + 1] - before.0[i + 1];
             let across = here.0[i + 2] - here.0[i];
             let normal = along.cross(across).normalize_or_zero();
-            (SHADES[0] + SHADES[1] * normal.dot(here.1[i + 1]).abs()) as f32
+            (EDGE_AND_FACE_BRIGHTNESS[0] + EDGE_AND_FACE_BRIGHTNESS[1] * normal.dot(here.1[i + 1]).abs())
+                as f32
         };
         by_rows(self.size(), 0.0, stop, |j, row| {
             row.iter_mut().enumerate().for_each(|(i, pixel)| *pixel = shade(j, i));

@@ -7,7 +7,7 @@
 
 use rayon::prelude::*;
 
-use super::found::{Found, Place, expect_lengths, work};
+use super::found::{Found, PixelContent, expect_lengths, work};
 use crate::camera::Camera;
 use crate::error::Result;
 use crate::frame::Frame;
@@ -17,10 +17,10 @@ use crate::scene::LeveledTree;
 use crate::stages::depth::Sheet;
 
 /// Number of points in a row that share one range of view y.
-const BLOCK: usize = 64;
+const POINTS_PER_BLOCK: usize = 64;
 
 /// The slope (mm per mm) is clamped to this: it is unbounded where a vessel runs along a row.
-const STEEPEST: f64 = 1e9;
+const MAX_SLOPE: f64 = 1e9;
 
 /// The position of every pixel of a view by mpCPR. The setting `centerline_smoothing` applies, and
 /// `unknown_radius` if silhouettes ask for lumen; there are neither levels of detail nor a depth filter.
@@ -84,10 +84,10 @@ impl Lines {
             .collect();
         let range = |start: usize| {
             // The last segment of a block ends at the first point of the next one.
-            let ends = points[start..points.len().min(start + BLOCK + 1)].iter();
+            let ends = points[start..points.len().min(start + POINTS_PER_BLOCK + 1)].iter();
             ends.fold([f64::MAX, f64::MIN], |[low, high], p| [low.min(p.y), high.max(p.y)])
         };
-        let blocks = (0..points.len()).step_by(BLOCK).map(range).collect();
+        let blocks = (0..points.len()).step_by(POINTS_PER_BLOCK).map(range).collect();
         Self { points, blocks }
     }
 
@@ -95,7 +95,7 @@ impl Lines {
         let mut row = Row::default();
         for (n, &[low, high]) in self.blocks.iter().enumerate() {
             if low <= y && y <= high {
-                let starts = n * BLOCK..(self.points.len() - 1).min((n + 1) * BLOCK);
+                let starts = n * POINTS_PER_BLOCK..(self.points.len() - 1).min((n + 1) * POINTS_PER_BLOCK);
                 starts.for_each(|slot| self.cross(slot, y, &mut row));
             }
         }
@@ -146,7 +146,7 @@ impl Crossing {
             z: a.z + t * dz,
             vessel: a.vessel,
             slot,
-            slope: (dz / dy).clamp(-STEEPEST, STEEPEST),
+            slope: (dz / dy).clamp(-MAX_SLOPE, MAX_SLOPE),
             radius: a.radius + t * (b.radius - a.radius),
             lean: dy.hypot(dz) / dx.hypot(dy).hypot(dz),
             is_folded: false,
@@ -158,11 +158,11 @@ impl Crossing {
         (self.z, self.vessel, self.slot) < (other.z, other.vessel, other.slot)
     }
 
-    fn place(&self, x: f64) -> Place {
+    fn place(&self, x: f64) -> PixelContent {
         let is_lumen = (x - self.x).abs() * self.lean <= self.radius;
         let radius = if is_lumen { self.radius } else { -self.radius };
         let sheet: Sheet = [0.0, self.slope as f32, radius as f32, 0.0];
-        Place { depth: self.z as f32, vessel: self.vessel, sheet, is_folded: self.is_folded }
+        PixelContent { depth: self.z as f32, vessel: self.vessel, sheet, is_folded: self.is_folded }
     }
 }
 
@@ -218,7 +218,7 @@ impl Row {
     }
 
     /// What the pixel at view `x` shows, if any vessel is in the row; pixels come from left to right.
-    fn nearest_place(&mut self, x: f64) -> Option<Place> {
+    fn nearest_place(&mut self, x: f64) -> Option<PixelContent> {
         while self.crossings.get(self.next).is_some_and(|crossing| crossing.x < x) {
             self.next += 1;
         }

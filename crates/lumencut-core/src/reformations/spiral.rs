@@ -23,7 +23,7 @@ use crate::stop::Stop;
 const LENGTH: Limits = Limits::new(1e-6, 1e4, "mm");
 
 /// Newton iterations for the angle of a length, more than needed.
-const STEPS: usize = 12;
+const NEWTON_STEPS: usize = 12;
 
 /// How the samples of a row lie on its spirals.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -119,7 +119,7 @@ impl SpiralParameters {
     /// The angle at this length, by Newton's method, which starts beyond it and descends.
     fn angle_of(&self, length: f64) -> f64 {
         let rate = self.rate();
-        (0..STEPS).fold((2.0 * length / rate).sqrt(), |angle, _| {
+        (0..NEWTON_STEPS).fold((2.0 * length / rate).sqrt(), |angle, _| {
             angle - (self.length(angle) - length) / (rate * angle.hypot(1.0))
         })
     }

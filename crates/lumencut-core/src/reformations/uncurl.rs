@@ -20,7 +20,7 @@ use crate::math::same_place::ON_PICTURE;
 use crate::stop::{Stop, filled};
 
 /// The most bisections in the search for a foot, to below the resolution of a number.
-const HALVINGS: usize = 60;
+const BISECTIONS: usize = 60;
 
 /// One vessel, partly straightened, in the pixels of a camera.
 #[derive(Clone, Debug)]
@@ -92,7 +92,7 @@ impl Uncurl {
         &self,
         nothing: T,
         stop: Stop,
-        told: impl Fn(&Foot) -> T + Sync,
+        value_of: impl Fn(&Foot) -> T + Sync,
     ) -> Result<Vec<T>> {
         let [width, height] = self.camera.size();
         let foot_of = self.feet.of_pixels(stop)?;
@@ -100,7 +100,7 @@ impl Uncurl {
             for (column, pixel) in pixels.iter_mut().enumerate() {
                 let foot = foot_of(row * width + column);
                 if self.is_shown(&foot) {
-                    *pixel = told(&foot);
+                    *pixel = value_of(&foot);
                 }
             }
         })
@@ -179,7 +179,7 @@ impl Uncurl {
             if !is_ahead(from) || is_ahead(to) {
                 continue;
             }
-            for _ in 0..HALVINGS {
+            for _ in 0..BISECTIONS {
                 let middle = f64::midpoint(from, to);
                 *if is_ahead(middle) { &mut from } else { &mut to } = middle;
             }

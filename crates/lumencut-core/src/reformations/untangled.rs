@@ -21,9 +21,9 @@ use rayon::prelude::*;
 use self::growth::Growth;
 use self::pieces::{Piece, pieces_of, vessels_of};
 use self::room::{extent, roots, size_of};
-use self::sheet::{Place, Sheet, placed};
+use self::sheet::{Sheet, SheetPosition, placed};
 use self::strip::Strip;
-use self::turning::{BEYOND_NEAR, Tree, Turning, untangle};
+use self::turning::{OVERLAP_EXTRA_MM, Tree, Turning, untangle};
 use super::found::NO_VESSEL;
 use super::layout::{Layout, by_rows, curved_by_rows};
 use crate::camera::{Camera, MAX_PIXEL_SPACING};
@@ -43,7 +43,7 @@ const UNKNOWN_RADIUS: Limits = Limits::new(0.0, 1e6, "mm");
 const TILE: usize = 8;
 
 /// A pixel with no segment nearby.
-const NONE: u32 = u32::MAX;
+const NO_SEGMENT: u32 = u32::MAX;
 
 /// How a tree is laid out.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -235,7 +235,7 @@ impl Untangled {
     /// Radius around a branching point within which vessels may overlap (mm), if its widest hull is `hull`
     /// mm.
     pub fn may_overlap_within(&self, hull: f64) -> f64 {
-        self.near * hull + BEYOND_NEAR
+        self.near * hull + OVERLAP_EXTRA_MM
     }
 
     /// The vessels whose hulls still overlap others, or fold over themselves.
@@ -287,7 +287,7 @@ impl Untangled {
             return Ok(known);
         }
         let [width, height] = self.size;
-        let mut segments = filled(width * height, NONE, stop)?;
+        let mut segments = filled(width * height, NO_SEGMENT, stop)?;
         segments.par_chunks_mut(TILE * width).enumerate().try_for_each(|(n, rows)| {
             (0..width).step_by(TILE).try_for_each(|first| {
                 go_on(stop)?;
@@ -316,23 +316,23 @@ impl Untangled {
         }
     }
 
-    fn shown(&self, segments: &[u32], [i, j]: [usize; 2]) -> Option<Place> {
+    fn shown(&self, segments: &[u32], [i, j]: [usize; 2]) -> Option<SheetPosition> {
         let segment = segments[j * self.size[0] + i];
         let seen = self.seen(DVec2::new(i as f64, j as f64));
-        (segment != NONE).then(|| self.sheet.on_segment(segment as usize, seen))
+        (segment != NO_SEGMENT).then(|| self.sheet.on_segment(segment as usize, seen))
     }
 
     fn each<T: Clone + Send>(
         &self,
         nothing: T,
         stop: Stop,
-        told: impl Fn(&Place) -> T + Sync,
+        value_of: impl Fn(&SheetPosition) -> T + Sync,
     ) -> Result<Vec<T>> {
         let segments = self.segments(stop)?;
         by_rows(self.size, nothing, stop, |j, row| {
             for (i, pixel) in row.iter_mut().enumerate() {
                 if let Some(place) = self.shown(segments, [i, j]) {
-                    *pixel = told(&place);
+                    *pixel = value_of(&place);
                 }
             }
         })

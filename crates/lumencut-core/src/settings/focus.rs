@@ -4,8 +4,8 @@ use crate::error::Result;
 use crate::limits::Limits;
 
 /// Margins far below 0 leave the context alone.
-const MARGIN: Limits = Limits::new(-1e6, 1e6, "mm");
-const FADE: Limits = Limits::new(0.0, 1e6, "mm");
+const MARGIN_LIMITS: Limits = Limits::new(-1e6, 1e6, "mm");
+const FADE_LIMITS: Limits = Limits::new(0.0, 1e6, "mm");
 
 /// The cut surface around the vessels amid the context.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,8 +20,8 @@ pub struct Focus {
 impl Focus {
     /// Checks margin and fade. Fails with [`crate::error::ErrorKind::Settings`] for one outside its range.
     pub fn check(&self) -> Result<()> {
-        MARGIN.check("focus margin", self.margin)?;
-        FADE.check("focus fade", self.fade)
+        MARGIN_LIMITS.check("focus margin", self.margin)?;
+        FADE_LIMITS.check("focus fade", self.fade)
     }
 }
 

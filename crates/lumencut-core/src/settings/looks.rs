@@ -9,7 +9,7 @@ use crate::named::Named;
 /// A focus that shows the context alone.
 const NOTHING_OF_THE_CUT: Focus = Focus { margin: -1e6, fade: 0.0 };
 /// Thickness of the look with a thick slab (mm).
-const THICK: f64 = 10.0;
+const THICK_SLAB_MM: f64 = 10.0;
 
 /// Several settings under one name; all others have their defaults.
 #[derive(Clone, Copy, Debug)]
@@ -79,5 +79,5 @@ fn mip() -> Vec<(&'static str, Value)> {
 }
 
 fn slab() -> Vec<(&'static str, Value)> {
-    vec![("slab", Value::Slab(Slab { thickness: THICK, mode: SlabMode::Max }))]
+    vec![("slab", Value::Slab(Slab { thickness: THICK_SLAB_MM, mode: SlabMode::Max }))]
 }

@@ -52,8 +52,8 @@ pub fn along_rays(work: &Work, along: &AlongRays, source: &dyn RaySource, values
         let sampler: &dyn Sampler = &TypedSampler { grid, voxels, isa };
         values.par_chunks_mut(ROWS * width).enumerate().try_for_each(|(row, values)| {
             for column in (0..width).step_by(PACKET[0]) {
-                if column % TILE == 0 {
-                    work.begin(ROWS * TILE)?;
+                if column % COLUMNS_PER_CHECK == 0 {
+                    work.begin(ROWS * COLUMNS_PER_CHECK)?;
                 }
                 for first in (0..ROWS).step_by(PACKET[1]) {
                     let place = [column, first];
@@ -66,10 +66,10 @@ pub fn along_rays(work: &Work, along: &AlongRays, source: &dyn RaySource, values
 }
 
 /// Parts of a ray that are followed or skipped together.
-const PARTS: i32 = 8;
+const PARTS_TOGETHER: i32 = 8;
 
 /// Columns between two checks for stop.
-const TILE: usize = 32;
+const COLUMNS_PER_CHECK: usize = 32;
 
 struct Square<'a> {
     along: &'a AlongRays<'a>,
@@ -120,7 +120,12 @@ impl Square<'_> {
             if top(segment.range) <= smallest(&best) {
                 break;
             }
-            self.sampler.widen(segment.base, &packet.stretch(segment, PARTS), [sign, limit], &mut best);
+            self.sampler.widen(
+                segment.base,
+                &packet.stretch(segment, PARTS_TOGETHER),
+                [sign, limit],
+                &mut best,
+            );
         }
         best.map(|best| if best > -HUGE && best < HUGE { best * sign } else { f32::NAN })
     }
@@ -129,7 +134,7 @@ impl Square<'_> {
     fn mean(&self, packet: &Packet) -> [f32; FAN] {
         let mut sums = [[0.0; FAN]; 2];
         for segment in self.segments(packet) {
-            self.sampler.sum_up(segment.base, &packet.stretch(&segment, PARTS), &mut sums);
+            self.sampler.sum_up(segment.base, &packet.stretch(&segment, PARTS_TOGETHER), &mut sums);
         }
         let mut mean = [f32::NAN; FAN];
         for l in 0..FAN {
@@ -142,7 +147,7 @@ impl Square<'_> {
     fn segments<'b>(&'b self, packet: &'b Packet) -> impl Iterator<Item = Segment> + 'b {
         let blocks = if self.along.reduction == Reduction::Mean { None } else { self.along.blocks };
         (0..packet.longest)
-            .step_by(PARTS as usize)
-            .map(move |first| packet.whole_segment(&self.grid, blocks, first, PARTS))
+            .step_by(PARTS_TOGETHER as usize)
+            .map(move |first| packet.whole_segment(&self.grid, blocks, first, PARTS_TOGETHER))
     }
 }

@@ -132,7 +132,7 @@ fn byte(value: f32) -> u32 {
 }
 
 /// Number of pixels that are checked together for any context.
-const RUN: usize = 64;
+const PIXELS_TOGETHER: usize = 64;
 
 #[inline(always)]
 fn is_nothing(colors: &[[f32; 4]]) -> bool {
@@ -156,9 +156,12 @@ impl Kernel for PaintRows<'_> {
     #[inline(always)]
     fn run(self) {
         let Self { paint, value, strength, focus, context, image } = self;
-        let runs =
-            value.chunks(RUN).zip(strength.chunks(RUN)).zip(focus.chunks(RUN)).zip(context.chunks(RUN));
-        for (image, (((value, strength), focus), context)) in image.chunks_mut(RUN).zip(runs) {
+        let runs = value
+            .chunks(PIXELS_TOGETHER)
+            .zip(strength.chunks(PIXELS_TOGETHER))
+            .zip(focus.chunks(PIXELS_TOGETHER))
+            .zip(context.chunks(PIXELS_TOGETHER));
+        for (image, (((value, strength), focus), context)) in image.chunks_mut(PIXELS_TOGETHER).zip(runs) {
             let pixels = image.iter_mut().zip(value).zip(strength).zip(focus);
             if is_nothing(context) {
                 for (((image, value), strength), share) in pixels {
@@ -183,7 +186,8 @@ impl Kernel for StraightRows<'_> {
 
     #[inline(always)]
     fn run(self) {
-        for (image, colors) in self.image.chunks_mut(RUN).zip(self.colors.chunks(RUN)) {
+        for (image, colors) in self.image.chunks_mut(PIXELS_TOGETHER).zip(self.colors.chunks(PIXELS_TOGETHER))
+        {
             // Most of a picture has no context: unwritten pages cost no memory.
             if !is_nothing(colors) {
                 for (image, color) in image.iter_mut().zip(colors) {

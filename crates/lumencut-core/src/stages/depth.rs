@@ -123,12 +123,12 @@ impl Search for LowestKeySearch<'_> {
 
 /// Per pixel: the change of depth to the right and upwards (mm per mm), the vessel's radius (mm, negative
 /// outside the lumen), and the gap along the vessel between the two points that are blended (mm). The gap is
-/// [`crate::math::lanes::FAR`] between different vessels and [`FIRST`] where a chosen vessel takes
+/// [`crate::math::lanes::FAR`] between different vessels and [`CHOSEN_GAP`] where a chosen vessel takes
 /// precedence.
 pub type Sheet = [f32; 4];
 
 /// The gap in a sheet where a chosen vessel takes precedence.
-pub const FIRST: f32 = -1.0;
+pub const CHOSEN_GAP: f32 = -1.0;
 
 /// The images that the stage writes. `sheet` is empty if nothing reads it.
 #[derive(Debug)]

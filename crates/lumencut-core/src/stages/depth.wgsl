@@ -3,7 +3,7 @@
 // import math/walk
 // import math/own_pieces
 
-const FIRST: f32 = -1.0;
+const CHOSEN_GAP: f32 = -1.0;
 
 override HAS_SHEET: bool = false;
 
@@ -55,7 +55,7 @@ fn weights(q: u32, k: f32) -> vec4f {
 
 fn begin(k: f32) {
     for (var q = 0u; q < ACROSS * ROWS; q++) {
-        winner_key[q] = select(vec4f(SETTLED), vec4f(UNSET), weights(q, k) > vec4f(0.0));
+        winner_key[q] = select(vec4f(EXCLUDED), vec4f(UNSET), weights(q, k) > vec4f(0.0));
         winner_z[q] = vec4f(0.0);
         winner_piece[q] = vec4u(NO_SLOT);
     }
@@ -90,8 +90,8 @@ fn add_to_sheets(tile: Tile, level: u32) {
                     let slope = sheets[n][c].xy + weight[c] * found.slope;
                     sheets[n][c] = vec4f(slope, select(radius, -radius, is_beside), sheets[n][c].w);
                     let counted = u32(vessel) + 1u;
-                    if found.is_first && (finer_vessel[n][c] == 0u || sheets[n][c].w == FIRST) {
-                        sheets[n][c].w = FIRST;
+                    if found.is_first && (finer_vessel[n][c] == 0u || sheets[n][c].w == CHOSEN_GAP) {
+                        sheets[n][c].w = CHOSEN_GAP;
                     } else if finer_vessel[n][c] != 0u {
                         let apart = abs(found.arc_length - finer_arc_length[n][c]);
                         sheets[n][c].w = select(FAR, apart, counted == finer_vessel[n][c]);
@@ -153,7 +153,7 @@ fn blend_own(place: u32, decision: Decision, z: f32, q: vec2f) {
     vessel_image[place] = decision.vessel;
     if HAS_SHEET {
         let slope = (1.0 - weight) * fine_piece.slope + weight * coarse_piece.slope;
-        let gap = select(abs(coarse_piece.along - fine_piece.along), FIRST, decision.is_first);
+        let gap = select(abs(coarse_piece.along - fine_piece.along), CHOSEN_GAP, decision.is_first);
         sheet_image[place] = vec4f(slope, decision.sheet_radius, gap);
     }
 }

@@ -10,8 +10,8 @@ use crate::math::lanes::{Kernel, ROWS, dispatch};
 use crate::settings::Settings;
 
 /// The half-width of the Gaussian in pixels.
-const REACH: usize = 3;
-const SPAN: usize = 2 * REACH + 1;
+const HALF_WIDTH: usize = 3;
+const SPAN: usize = 2 * HALF_WIDTH + 1;
 /// The zone of pixels beyond the image, different from that of any vessel.
 const OUTSIDE: i32 = i32::MIN;
 
@@ -19,7 +19,7 @@ const OUTSIDE: i32 = i32::MIN;
 #[repr(C)]
 pub struct DepthFilterParameters {
     /// The weights of the Gaussian from the middle outwards; with both sides they sum to 1.
-    pub weights: [f32; REACH + 1],
+    pub weights: [f32; HALF_WIDTH + 1],
     /// Within zones: the largest deviation of a pair of neighbours from a straight line (mm).
     pub leap: f32,
     pub padding: f32,
@@ -30,7 +30,7 @@ impl DepthFilterParameters {
     /// The Gaussian of the paper, over the whole image.
     pub fn new() -> Self {
         let sigma = 2.0 * (2.0 * 2f64.ln()).sqrt() / std::f64::consts::PI;
-        let bell: [f64; REACH + 1] =
+        let bell: [f64; HALF_WIDTH + 1] =
             std::array::from_fn(|n| (-((n * n) as f64) / (2.0 * sigma * sigma)).exp());
         let sum = bell[0] + 2.0 * bell[1..].iter().sum::<f64>();
         Self { weights: bell.map(|w| (w / sum) as f32), leap: 0.0, ..Self::zeroed() }
@@ -78,7 +78,7 @@ struct FilterRows<'a> {
     image: &'a [f32],
     width: usize,
     first: usize,
-    weights: [f32; REACH + 1],
+    weights: [f32; HALF_WIDTH + 1],
     smoothed: &'a mut [f32],
 }
 
@@ -90,19 +90,19 @@ impl Kernel for FilterRows<'_> {
         let (width, weights) = (self.width, self.weights);
         let height = self.image.len() / width;
         let row = |j: usize| &self.image[j * width..(j + 1) * width];
-        let mut padded = vec![0.0; width + 2 * REACH];
+        let mut padded = vec![0.0; width + 2 * HALF_WIDTH];
         for (j, smoothed) in (self.first..).zip(self.smoothed.chunks_mut(width)) {
-            let middle = &mut padded[REACH..REACH + width];
+            let middle = &mut padded[HALF_WIDTH..HALF_WIDTH + width];
             set(middle, weights[0], row(j));
-            for n in 1..=REACH {
+            for n in 1..=HALF_WIDTH {
                 add(middle, weights[n], row(j.saturating_sub(n)), row((j + n).min(height - 1)));
             }
             let (first, last) = (middle[0], middle[width - 1]);
-            padded[..REACH].fill(first);
-            padded[REACH + width..].fill(last);
-            set(smoothed, weights[0], &padded[REACH..]);
-            for n in 1..=REACH {
-                add(smoothed, weights[n], &padded[REACH - n..], &padded[REACH + n..]);
+            padded[..HALF_WIDTH].fill(first);
+            padded[HALF_WIDTH + width..].fill(last);
+            set(smoothed, weights[0], &padded[HALF_WIDTH..]);
+            for n in 1..=HALF_WIDTH {
+                add(smoothed, weights[n], &padded[HALF_WIDTH - n..], &padded[HALF_WIDTH + n..]);
             }
         }
     }
@@ -142,14 +142,15 @@ impl Kernel for ZoneRows<'_> {
         let height = self.image.len() / width;
         let outside = vec![OUTSIDE; width];
         // A row padded with pixels that belong to no zone.
-        let (mut depths, mut zones) = (vec![0.0; width + 2 * REACH], vec![OUTSIDE; width + 2 * REACH]);
+        let (mut depths, mut zones) =
+            (vec![0.0; width + 2 * HALF_WIDTH], vec![OUTSIDE; width + 2 * HALF_WIDTH]);
         for (j, smoothed) in (self.first..).zip(self.smoothed.chunks_mut(width)) {
-            let row = |o: usize| (j + o).checked_sub(REACH).filter(|row| *row < height);
+            let row = |o: usize| (j + o).checked_sub(HALF_WIDTH).filter(|row| *row < height);
             let pixels = |row: usize| row * width..(row + 1) * width;
             let z = OFFSETS.map(|o| &self.image[pixels(row(o).unwrap_or(j))]);
             let zone = OFFSETS.map(|o| row(o).map_or(&outside[..], |row| &self.vessel[pixels(row)]));
-            filter_within_zones(self.parameters, z, zone, &mut depths[REACH..REACH + width]);
-            zones[REACH..REACH + width].copy_from_slice(&self.vessel[pixels(j)]);
+            filter_within_zones(self.parameters, z, zone, &mut depths[HALF_WIDTH..HALF_WIDTH + width]);
+            zones[HALF_WIDTH..HALF_WIDTH + width].copy_from_slice(&self.vessel[pixels(j)]);
             let (z, zone) = (OFFSETS.map(|o| &depths[o..]), OFFSETS.map(|o| &zones[o..]));
             filter_within_zones(self.parameters, z, zone, smoothed);
         }

@@ -16,9 +16,9 @@ use crate::math::walls::{WallRange, nearest_walls};
 use crate::settings::{Focus, Settings};
 
 /// 1 / fade of a hard edge (per mm): beyond all distances that rounding distinguishes.
-const HARD: f64 = 1e20;
+const HARD_EDGE_PER_MM: f64 = 1e20;
 /// Minimum width of a fade (pixels): a narrower one would show steps.
-const NARROWEST: f64 = 2.0;
+const MIN_FADE_PIXELS: f64 = 2.0;
 
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
@@ -49,7 +49,11 @@ impl FocusParameters {
         let others = if has_others { settings.others_strength as f32 } else { 1.0 };
         let mut parameters = Self { others, ..Self::zeroed() };
         for (n, Focus { margin, fade }) in both.into_iter().enumerate().filter_map(|(n, f)| Some((n, f?))) {
-            let per_fade = if fade > 0.0 { 1.0 / fade.max(NARROWEST * camera.pixel_spacing()) } else { HARD };
+            let per_fade = if fade > 0.0 {
+                1.0 / fade.max(MIN_FADE_PIXELS * camera.pixel_spacing())
+            } else {
+                HARD_EDGE_PER_MM
+            };
             (parameters.margin[n], parameters.per_fade[n]) = (margin as f32, per_fade as f32);
         }
         [parameters.near, parameters.far] = parameters.between(&[SURFACE, LINES])?;

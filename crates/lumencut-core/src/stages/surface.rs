@@ -70,11 +70,11 @@ fn thin(work: &Work, &SurfaceScene { geometry, volume, .. }: &SurfaceScene, valu
             Geometry::Orthographic { camera, depth } => {
                 work.expect_whole(Image::Depth, depth);
                 let index_from_view = IndexFromView::new(volume, camera);
-                fill(work, &OrthographicPlaces { camera, depth, index_from_view, voxels }, value)
+                fill(work, &OrthographicPixels { camera, depth, index_from_view, voxels }, value)
             }
             Geometry::Curved(curved) => {
                 let index_from_world = volume.index_from_world();
-                fill(work, &CurvedPlaces { curved, index_from_world, voxels }, value)
+                fill(work, &CurvedPixels { curved, index_from_world, voxels }, value)
             }
         }
     })
@@ -131,7 +131,7 @@ impl RaySource for CurvedRays<'_> {
     }
 }
 
-fn fill(work: &Work, places: &impl Places, value: &mut [f32]) -> Result<()> {
+fn fill(work: &Work, places: &impl PixelPositions, value: &mut [f32]) -> Result<()> {
     value.par_chunks_mut(work.size[0]).enumerate().try_for_each(|(row, value)| {
         work.begin(value.len())?;
         dispatch(work.isa, SurfaceRow { places, row, value });
@@ -140,12 +140,12 @@ fn fill(work: &Work, places: &impl Places, value: &mut [f32]) -> Result<()> {
 }
 
 /// Pixels of a row that are sampled together.
-const RUN: usize = 8 * FAN;
-type Run = [[f32; FAN]; RUN / FAN];
+const PIXELS_TOGETHER: usize = 8 * FAN;
+type Run = [[f32; FAN]; PIXELS_TOGETHER / FAN];
 /// Continuous indices of a run of pixels, axis by axis.
-type Indices = [[[f64; FAN]; 3]; RUN / FAN];
+type Indices = [[[f64; FAN]; 3]; PIXELS_TOGETHER / FAN];
 
-trait Places: Sync {
+trait PixelPositions: Sync {
     /// The volume at the run of pixels that begins at (`i`, `j`); entries beyond the image are arbitrary.
     fn sample(&self, i: usize, j: usize) -> Run;
 }
@@ -156,23 +156,23 @@ struct GridVoxels<'a, T> {
     voxels: &'a [T],
 }
 
-struct OrthographicPlaces<'a, T> {
+struct OrthographicPixels<'a, T> {
     camera: &'a Camera,
     depth: &'a [f32],
     index_from_view: IndexFromView,
     voxels: GridVoxels<'a, T>,
 }
 
-impl<T: Voxel> Places for OrthographicPlaces<'_, T> {
+impl<T: Voxel> PixelPositions for OrthographicPixels<'_, T> {
     #[inline(always)]
     fn sample(&self, i: usize, j: usize) -> Run {
         let (to, width) = (&self.index_from_view, self.camera.size()[0]);
-        let depths = &self.depth[j * width..][i..width.min(i + RUN)];
-        let mut depth: Run = [[0.0; FAN]; RUN / FAN];
+        let depths = &self.depth[j * width..][i..width.min(i + PIXELS_TOGETHER)];
+        let mut depth: Run = [[0.0; FAN]; PIXELS_TOGETHER / FAN];
         depth.as_flattened_mut()[..depths.len()].copy_from_slice(depths);
         let row = (to.origin + to.y * self.camera.view_y(j)).to_array();
-        let mut index: Indices = [[[0.0; FAN]; 3]; RUN / FAN];
-        for n in 0..RUN / FAN {
+        let mut index: Indices = [[[0.0; FAN]; 3]; PIXELS_TOGETHER / FAN];
+        for n in 0..PIXELS_TOGETHER / FAN {
             for a in 0..3 {
                 let (x_step, z_step) = (to.x[a], to.z[a]);
                 for l in 0..FAN {
@@ -185,18 +185,18 @@ impl<T: Voxel> Places for OrthographicPlaces<'_, T> {
     }
 }
 
-struct CurvedPlaces<'a, T> {
+struct CurvedPixels<'a, T> {
     curved: &'a Curved,
     index_from_world: DAffine3,
     voxels: GridVoxels<'a, T>,
 }
 
-impl<T: Voxel> Places for CurvedPlaces<'_, T> {
+impl<T: Voxel> PixelPositions for CurvedPixels<'_, T> {
     #[inline(always)]
     fn sample(&self, i: usize, j: usize) -> Run {
         let width = self.curved.size()[0];
-        let pixels = j * width + i..j * width + width.min(i + RUN);
-        let mut index: Indices = [[[NOWHERE; FAN]; 3]; RUN / FAN];
+        let pixels = j * width + i..j * width + width.min(i + PIXELS_TOGETHER);
+        let mut index: Indices = [[[NOWHERE; FAN]; 3]; PIXELS_TOGETHER / FAN];
         for (l, point) in self.curved.position()[pixels].iter().enumerate() {
             let place = self.index_from_world.transform_point3(*point);
             if place.is_finite() {
@@ -218,13 +218,13 @@ struct SurfaceRow<'a, P> {
     value: &'a mut [f32],
 }
 
-impl<P: Places> Kernel for SurfaceRow<'_, P> {
+impl<P: PixelPositions> Kernel for SurfaceRow<'_, P> {
     type Output = ();
 
     #[inline(always)]
     fn run(self) {
-        for (n, value) in self.value.chunks_mut(RUN).enumerate() {
-            let shown = self.places.sample(n * RUN, self.row);
+        for (n, value) in self.value.chunks_mut(PIXELS_TOGETHER).enumerate() {
+            let shown = self.places.sample(n * PIXELS_TOGETHER, self.row);
             value.copy_from_slice(&shown.as_flattened()[..value.len()]);
         }
     }

@@ -20,7 +20,7 @@ struct SurfaceParameters {
 
 // A pixel of a curved geometry in the volume: the whole numbers of its index, their summands, and the index
 // per mm along the slab direction. The fourth components are padding.
-struct CurvedPlace {
+struct CurvedPixel {
     whole: vec4f,
     part: vec4f,
     per_mm: vec4f,
@@ -30,7 +30,7 @@ struct CurvedPlace {
 @group(0) @binding(4) var<storage, read> depth: array<f32>;
 @group(0) @binding(5) var<storage, read_write> value: array<f32>;
 // Empty for a camera.
-@group(0) @binding(6) var<storage, read> places: array<CurvedPlace>;
+@group(0) @binding(6) var<storage, read> places: array<CurvedPixel>;
 
 struct Target {
     pixel: u32,
@@ -48,10 +48,10 @@ fn target_of(pixel: vec2u) -> Target {
     return seen;
 }
 
-fn place_of_target(seen: Target) -> Place {
+fn place_of_target(seen: Target) -> GridPosition {
     if CURVED {
         let own = places[seen.pixel];
-        return Place(own.whole.xyz, own.part.xyz);
+        return GridPosition(own.whole.xyz, own.part.xyz);
     }
     return place_at(seen.foot, seen.depth);
 }
@@ -66,7 +66,7 @@ fn thin(seen: Target) -> f32 {
 }
 
 // The ends of a curved pixel's slab within the volume (mm from the pixel's position).
-fn slab_within(own: CurvedPlace) -> vec2f {
+fn slab_within(own: CurvedPixel) -> vec2f {
     var ends = vec2f(-parameters.half, parameters.half);
     let above_first = own.whole.xyz + 0.5 + own.part.xyz;
     let above_last = own.whole.xyz - grid.last - 0.5 + own.part.xyz;
@@ -81,7 +81,7 @@ fn slab_within(own: CurvedPlace) -> vec2f {
     return ends;
 }
 
-fn join(shown: Found, start: Place, way: vec3f, share: f32) -> Found {
+fn join(shown: Found, start: GridPosition, way: vec3f, share: f32) -> Found {
     let sign = select(1.0, -1.0, parameters.mode == SMALLEST);
     let found = walk_cells(start, way, sign, HUGE, parameters.mode == MEAN, shown.best);
     return Found(found.best, shown.sum + share * found.sum, shown.share + share * found.share);
@@ -96,7 +96,7 @@ fn thick(seen: Target, center: f32) -> f32 {
         let length = (ends.y - ends.x) / f32(max(count, 1));
         for (var n = 0; n < count; n++) {
             let begin = ends.x + f32(n) * length;
-            let start = Place(own.whole.xyz, own.part.xyz + begin * own.per_mm.xyz);
+            let start = GridPosition(own.whole.xyz, own.part.xyz + begin * own.per_mm.xyz);
             shown = join(shown, start, length * own.per_mm.xyz, 1.0);
         }
     } else {

@@ -77,7 +77,7 @@ fn in_rust() -> BTreeMap<Name, Vec<f64>> {
     let mut all = in_rust! {
         "math/accumulate": accumulate::OPAQUE;
         "math/blocks": blocks::SIDE_BITS, Range::ALL;
-        "math/lanes": lanes::FAN, lanes::UNSET, lanes::ABSENT, lanes::FAR, lanes::SETTLED, hierarchy::NO_SLOT,
+        "math/lanes": lanes::FAN, lanes::UNSET, lanes::ABSENT, lanes::FAR, lanes::EXCLUDED, hierarchy::NO_SLOT,
             blocks::HUGE;
         "math/leaps": leaps::TO_THE_RIGHT, leaps::DOWNWARDS, leaps::LINE_TO_THE_RIGHT, leaps::LINE_DOWNWARDS,
             leaps::LUMEN;
@@ -85,13 +85,13 @@ fn in_rust() -> BTreeMap<Name, Vec<f64>> {
         "math/light": light::AMBIENT, light::DIFFUSE, light::SPECULAR, light::STEEPEST, light::UNSHADED;
         "math/projection": projection::COLLINEAR_LENGTH, cut_surface::POINT_THREADS;
         "math/ray": ray::WHOLE, ray::NONE, ray::NEVER, ray::SPARE;
-        "math/sampling": sampling::PLACE_ROUNDING;
+        "math/sampling": sampling::POSITION_ROUNDING;
         "math/thickness": thickness::ROOT_HALF, consts::LOG2_E, consts::LN_2;
         "math/tile": cut_surface::QUAD, cut_surface::TILES, cut_surface::TILES_ACROSS;
         "math/transfer": transfer::INVISIBLE;
-        "math/walls": walls::MOST_LEAN;
+        "math/walls": walls::MAX_LEAN;
         "stages/context": context::IN_FRONT;
-        "stages/depth": depth::FIRST;
+        "stages/depth": depth::CHOSEN_GAP;
         "stages/leap": leap::SMALLEST_LEAP;
         "stages/silhouette": silhouette::ZONE_BORDER, silhouette::STEEPEST;
         "math/cell_walk": cell_walk::NO_MEETING, cell_walk::ALONG_PLANE;

@@ -19,7 +19,7 @@ use crate::renderer::GpuRenderer;
 
 /// Distance of the trees behind the view's origin (mm). An uncovered pixel has depth 0 at a level, which
 /// takes its depth out of the tree's range even for a small weight of the level.
-const AWAY: f64 = 2e4;
+const TREE_DEPTH: f64 = 2e4;
 /// A bound on the rounding of such depths (mm).
 const ROUNDING: f64 = 0.05;
 
@@ -38,7 +38,7 @@ const VIEWS: [([usize; 2], f64); 7] = [
 
 fn view(direction: [f64; 3], size: [usize; 2], pixel_spacing: f64) -> Camera {
     let direction = DVec3::from_array(direction).normalize();
-    Camera::new(direction * -AWAY, direction, DVec3::Z, size, pixel_spacing).unwrap()
+    Camera::new(direction * -TREE_DEPTH, direction, DVec3::Z, size, pixel_spacing).unwrap()
 }
 
 /// The default and the paper's rules, and both with single levels wherever the distance is not 0.

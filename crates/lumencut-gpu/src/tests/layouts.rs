@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 
 use bytemuck::Zeroable;
 use lumencut_core::math::context_parameters::{ContextParameters, RiseParameters};
-use lumencut_core::math::levels::{CutSurfaceParameters, LevelPlace};
+use lumencut_core::math::levels::{CutSurfaceParameters, LevelLayout};
 use lumencut_core::shaders::SHADERS;
 use lumencut_core::stages::composite::CompositeParameters;
 use lumencut_core::stages::depth_filter::DepthFilterParameters;
@@ -17,7 +17,7 @@ use naga::{AddressSpace, Handle, Module, Type, TypeInner};
 
 use crate::levels::{Along, NodeBox, Point, Projected, Slot, Span};
 use crate::shader::assemble;
-use crate::surface::CurvedPlace;
+use crate::surface::CurvedPixel;
 use crate::view::{Axis, ViewParameters};
 use crate::volume::GridParameters;
 
@@ -64,7 +64,7 @@ fn hosts() -> Vec<(&'static str, &'static str, Layout)> {
                 levels
             }
         ),
-        host!("math/levels", LevelPlace { first_slot, first_bundle, bundle_count, height_count, heights }),
+        host!("math/levels", LevelLayout { first_slot, first_bundle, bundle_count, height_count, heights }),
         host!(
             "math/pieces",
             Slot {
@@ -144,7 +144,7 @@ fn hosts() -> Vec<(&'static str, &'static str, Layout)> {
         host!("stages/composite", CompositeParameters { background, line, context, grey, opacity }),
         host!("stages/depth_filter", DepthFilterParameters { weights, leap, padding, more_padding }),
         host!("stages/silhouette", SilhouetteParameters { per_slope, half, line_width }),
-        host!("stages/surface", CurvedPlace { whole, part, per_mm }),
+        host!("stages/surface", CurvedPixel { whole, part, per_mm }),
         host!("stages/surface", SurfaceParameters { half, mode, per_step, padding }),
     ]
 }

@@ -12,7 +12,7 @@ use lumencut_scenes::pictures::depth_of;
 use lumencut_scenes::tolerances::TIED;
 
 /// Half-width of the depth filter (pixels).
-const REACH: usize = 3;
+const FILTER_HALF_WIDTH: usize = 3;
 
 struct End {
     point: DVec3,
@@ -42,7 +42,8 @@ fn is_tied(ends: &[End], place: DVec2, vessels: [i32; 2]) -> bool {
 }
 
 fn around(p: usize, [width, height]: [usize; 2]) -> impl Iterator<Item = usize> {
-    let near = |at: usize, end: usize| at.saturating_sub(REACH)..(at + REACH + 1).min(end);
+    let near =
+        |at: usize, end: usize| at.saturating_sub(FILTER_HALF_WIDTH)..(at + FILTER_HALF_WIDTH + 1).min(end);
     near(p / width, height).flat_map(move |y| near(p % width, width).map(move |x| y * width + x))
 }
 

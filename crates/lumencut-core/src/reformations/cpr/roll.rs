@@ -12,13 +12,13 @@ use crate::reformations::Wall;
 const DIRECTIONS: usize = 48;
 
 /// Distance of the angles along the vessel (mm); neighbours differ by one direction at most.
-const STEP: f64 = 0.5;
+const STEP_MM: f64 = 0.5;
 
 /// Cost of a change by one direction (mm of diameter): keeps the picture steady if all are alike.
-const CHANGE: f64 = 0.15;
+const CHANGE_COST_MM: f64 = 0.15;
 
 /// Standard deviations (mm) of the Gaussians that smooth the diameters and the angle along the vessel.
-const SMOOTHING: [f64; 2] = [1.5, 2.0];
+const SMOOTHING_MM: [f64; 2] = [1.5, 2.0];
 
 /// Which side of the lumen a picture follows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -57,7 +57,7 @@ impl Roll {
     /// The roll that minimises or maximises the sum of the wall's diameters along a vessel of `length` mm, by
     /// dynamic programming.
     pub fn following(wall: &Wall, length: f64, side: Side) -> Self {
-        let count = (length / STEP).ceil().max(1.0) as usize;
+        let count = (length / STEP_MM).ceil().max(1.0) as usize;
         let at: Vec<f64> = (0..=count).map(|n| length * n as f64 / count as f64).collect();
         let sign = if side == Side::Narrowest { 1.0 } else { -1.0 };
         let diameter = |n: usize, k: usize| {
@@ -65,11 +65,13 @@ impl Roll {
             sign * (wall.radius(at[n], around) + wall.radius(at[n], around + PI))
         };
         let columns: Vec<Vec<f64>> = (0..DIRECTIONS)
-            .map(|k| smoothed(&(0..=count).map(|n| diameter(n, k)).collect::<Vec<_>>(), length, SMOOTHING[0]))
+            .map(|k| {
+                smoothed(&(0..=count).map(|n| diameter(n, k)).collect::<Vec<_>>(), length, SMOOTHING_MM[0])
+            })
             .collect();
         let steps = cheapest(&columns);
         let angle: Vec<f64> = steps.iter().map(|step| PI * f64::from(*step) / DIRECTIONS as f64).collect();
-        Self { angle: smoothed(&angle, length, SMOOTHING[1]), at }
+        Self { angle: smoothed(&angle, length, SMOOTHING_MM[1]), at }
     }
 
     /// The arc lengths (mm) of the angles.
@@ -97,7 +99,7 @@ fn cheapest(cost: &[Vec<f64>]) -> Vec<i32> {
         let before = best.clone();
         for k in 0..DIRECTIONS {
             let from = |step: i8| (k + DIRECTIONS).wrapping_add_signed(-isize::from(step)) % DIRECTIONS;
-            let whole = |step: i8| before[from(step)] + CHANGE * f64::from(step.abs());
+            let whole = |step: i8| before[from(step)] + CHANGE_COST_MM * f64::from(step.abs());
             let step = [0i8, 1, -1]
                 .into_iter()
                 .fold(0i8, |best, step| if whole(step) < whole(best) { step } else { best });

@@ -9,10 +9,10 @@ use crate::math::frames::{Frames, MovingFrame, Station};
 use crate::math::same_place::ON_PICTURE;
 
 /// The most bisections in the search for a section, to below the resolution of a number.
-const HALVINGS: usize = 60;
+const BISECTIONS: usize = 60;
 
 /// The largest turn of the sections within an interval (radians).
-const LARGEST_TURN: f64 = 0.1;
+const MAX_TURN_RADIANS: f64 = 0.1;
 
 /// The sections of a vessel, independent of the angle from which it is seen.
 pub(super) struct Sections {
@@ -49,7 +49,7 @@ impl Sections {
         let mut at = path.arc_length().to_vec();
         for ends in frames.stations().windows(2) {
             let [from, to] = [ends[0].at, ends[1].at];
-            let parts = (ends[0].turn.length() * (to - from) / LARGEST_TURN).ceil().max(1.0);
+            let parts = (ends[0].turn.length() * (to - from) / MAX_TURN_RADIANS).ceil().max(1.0);
             // At most 32: no turn is larger than half a circle.
             at.extend((0..parts as usize).map(|part| from + (to - from) * (part as f64 / parts)));
         }
@@ -155,7 +155,7 @@ impl Section {
 
 /// Bisects for the position where a condition that holds at `from` and not at `to` changes.
 fn halved(mut from: f64, mut to: f64, holds: impl Fn(f64) -> bool) -> f64 {
-    for _ in 0..HALVINGS {
+    for _ in 0..BISECTIONS {
         let middle = from + (to - from) / 2.0;
         if holds(middle) {
             from = middle;

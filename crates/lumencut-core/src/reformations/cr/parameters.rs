@@ -3,7 +3,7 @@
 use crate::error::{Error, ErrorKind, Result};
 
 /// The largest radius offset and arc-length threshold (pixels).
-const MOST_PIXELS: f64 = 1e6;
+const MAX_THRESHOLD_PIXELS: f64 = 1e6;
 
 /// The two thresholds of CR.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,7 +25,7 @@ impl CrParameters {
     /// Fails with [`ErrorKind::Settings`] for a threshold that is not from 0 to a million pixels.
     pub fn check(&self) -> Result<()> {
         for (name, value) in [("radius_offset", self.radius_offset), ("arc_threshold", self.arc_threshold)] {
-            if !(0.0..=MOST_PIXELS).contains(&value) {
+            if !(0.0..=MAX_THRESHOLD_PIXELS).contains(&value) {
                 let expected = "a finite number of pixels between 0 and 1e6";
                 return Err(Error::new(ErrorKind::Settings, name, format!("{value}"), expected));
             }

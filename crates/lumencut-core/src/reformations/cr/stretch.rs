@@ -9,7 +9,7 @@ use crate::math::nearest::squared_distances_to_segments;
 use crate::math::tile::{Area, Tile};
 
 /// Number of chains whose surroundings a search caches.
-const MOST_KEPT: usize = 256;
+const MAX_CACHED_CHAINS: usize = 256;
 
 /// Finds the piece nearest to a pixel within the threshold along the tree. Points on one chain have nearly
 /// the same pieces around them, and so do the pixels of a tile.
@@ -55,7 +55,7 @@ impl<'a> StretchSearch<'a> {
 
     fn seen_from(&mut self, tile: &Tile, chain: u32) -> NearFirst {
         let view = self.view;
-        if self.around.len() > MOST_KEPT {
+        if self.around.len() > MAX_CACHED_CHAINS {
             self.around.clear();
         }
         let around = self.around.entry(chain).or_insert_with(|| view.around(chain));

@@ -58,7 +58,7 @@ fn the_cheapest_way_is_that_of_all_ways() {
     let total = |way: &[i32]| -> f64 {
         let own = |(n, k): (usize, &i32)| cost[k.rem_euclid(DIRECTIONS as i32) as usize][n];
         let changes: i32 = way.windows(2).map(|ends| (ends[1] - ends[0]).abs()).sum();
-        way.iter().enumerate().map(own).sum::<f64>() + CHANGE * f64::from(changes)
+        way.iter().enumerate().map(own).sum::<f64>() + CHANGE_COST_MM * f64::from(changes)
     };
     let mut least = f64::INFINITY;
     for start in 0..DIRECTIONS as i32 {

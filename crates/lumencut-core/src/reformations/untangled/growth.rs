@@ -9,10 +9,10 @@ use super::pieces::Piece;
 use crate::error::{Error, ErrorKind, Result};
 
 /// Length over which the radius of a free end is averaged (mm).
-const MEAN_OVER: f64 = 10.0;
+const RADIUS_MEAN_LENGTH_MM: f64 = 10.0;
 
 /// Radii that differ by less are the same (mm).
-const SAME_RADIUS: f64 = 1e-6;
+const SAME_RADIUS_MM: f64 = 1e-6;
 
 #[derive(Clone, Debug)]
 pub(super) struct Part {
@@ -181,8 +181,8 @@ impl<'a> Graph<'a> {
         for &piece in members {
             for end in 0..2 {
                 let is_free = self.ends[self.pieces[piece].nodes[end]].len() == 1;
-                let radius = self.pieces[piece].mean_radius(end, MEAN_OVER);
-                if is_free && widest.is_none_or(|(_, most)| radius > most + SAME_RADIUS) {
+                let radius = self.pieces[piece].mean_radius(end, RADIUS_MEAN_LENGTH_MM);
+                if is_free && widest.is_none_or(|(_, most)| radius > most + SAME_RADIUS_MM) {
                     widest = Some(((piece, end), radius));
                 }
             }

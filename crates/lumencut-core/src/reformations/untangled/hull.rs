@@ -5,10 +5,10 @@ use glam::DVec2;
 use super::pieces::Piece;
 
 /// Number of consecutive discs within one circle, and of these circles within another one.
-const RUN: usize = 16;
+const DISCS_PER_CIRCLE: usize = 16;
 
 /// Tolerance for discs that touch (mm).
-const TOUCHING: f64 = 1e-9;
+const TOUCH_TOLERANCE_MM: f64 = 1e-9;
 
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Disc {
@@ -21,7 +21,7 @@ pub(super) struct Disc {
 
 impl Disc {
     fn overlaps(&self, other: &Self) -> bool {
-        let reach = self.radius + other.radius - TOUCHING;
+        let reach = self.radius + other.radius - TOUCH_TOLERANCE_MM;
         reach > 0.0 && self.center.distance_squared(other.center) < reach * reach
     }
 
@@ -89,7 +89,8 @@ pub(super) struct Hull {
 impl Hull {
     pub(super) fn new(discs: Vec<Disc>) -> Self {
         let circles: Vec<Circle> = discs.iter().map(|disc| (disc.center, disc.radius.max(0.0))).collect();
-        let around = |circles: &[Circle]| circles.chunks(RUN).map(circle_around).collect::<Vec<_>>();
+        let around =
+            |circles: &[Circle]| circles.chunks(DISCS_PER_CIRCLE).map(circle_around).collect::<Vec<_>>();
         let runs = around(&circles);
         Self { groups: around(&runs), runs, discs }
     }
@@ -169,7 +170,7 @@ fn circle_around(circles: &[Circle]) -> Circle {
 
 /// The indices within circle `n`, of `count` in all.
 fn members(n: usize, count: usize) -> std::ops::Range<usize> {
-    n * RUN..count.min((n + 1) * RUN)
+    n * DISCS_PER_CIRCLE..count.min((n + 1) * DISCS_PER_CIRCLE)
 }
 
 fn meet(circle: &Circle, other: &Circle) -> bool {

@@ -9,13 +9,13 @@ use crate::reformations::connections::Ends;
 use crate::vessel_tree::{Vessel, VesselTree};
 
 /// The largest distance of stations (mm).
-const STEP: f64 = 0.5;
+const MAX_STATION_DISTANCE_MM: f64 = 0.5;
 
 /// The fewest steps of a piece.
-const FEWEST: f64 = 4.0;
+const MIN_STEPS: f64 = 4.0;
 
 /// A point of the vessel nearer to the last station than this share of a step is no station.
-const TOO_NEAR: f64 = 0.1;
+const MIN_STEP_SHARE: f64 = 0.1;
 
 /// A part of a vessel between two points where vessels meet or end. Stations follow the vessel's own order.
 #[derive(Clone, Debug)]
@@ -103,11 +103,11 @@ struct Stations<'a> {
 impl Stations<'_> {
     fn piece(&self, id: usize, nodes: [usize; 2], first: usize, last: usize) -> Piece {
         let along = self.vessel.arc_length();
-        let step = STEP.min((along[last] - along[first]) / FEWEST);
+        let step = MAX_STATION_DISTANCE_MM.min((along[last] - along[first]) / MIN_STEPS);
         let mut at = vec![along[first]];
         let mut previous = along[first];
         for (i, place) in along.iter().enumerate().take(last + 1).skip(first + 1) {
-            let is_apart = |other: f64| (place - other).abs() >= TOO_NEAR * step;
+            let is_apart = |other: f64| (place - other).abs() >= MIN_STEP_SHARE * step;
             if i == last || (is_apart(previous) && is_apart(along[last])) {
                 let parts = ((place - previous) / step).ceil().max(1.0);
                 let between = (1..parts as usize).map(|n| previous + (place - previous) * (n as f64 / parts));

@@ -9,7 +9,7 @@ use crate::error::Result;
 use crate::reformations::layout::checked_size;
 
 /// Distance between the hulls of parts that are not connected (mm), if the image is wide enough.
-const BETWEEN_PARTS: f64 = 10.0;
+const PART_GAP_MM: f64 = 10.0;
 
 /// Roots in the image (mm): as seen, but moved right until clear of the hull to the left.
 pub(super) fn roots(parts: &[Part], hulls: &[Vec<Disc>], camera: &Camera, width: f64) -> Vec<DVec2> {
@@ -23,7 +23,7 @@ pub(super) fn roots(parts: &[Part], hulls: &[Vec<Disc>], camera: &Camera, width:
             [low.min(disc.center.x - disc.radius), high.max(disc.center.x + disc.radius)]
         });
         roots[n].x = roots[n].x.max(right - low);
-        right = roots[n].x + high + BETWEEN_PARTS.min(width);
+        right = roots[n].x + high + PART_GAP_MM.min(width);
     }
     roots
 }

@@ -6,14 +6,14 @@ use super::growth::Growth;
 use super::pieces::Piece;
 use super::strip::{Strip, normals};
 use crate::math::same_place::ON_PICTURE;
-use crate::reformations::cut_locus::NEARER;
+use crate::reformations::cut_locus::MIN_DISTANCE_EXCESS;
 use crate::reformations::segments::Segments;
 
 /// The most bisections in the search for a section, to below the resolution of a number.
-const HALVINGS: usize = 60;
+const BISECTIONS: usize = 60;
 
 /// The most moves of a position to the next segment of its piece.
-const STEPS: usize = 4;
+const MAX_MOVES: usize = 4;
 
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Station {
@@ -30,7 +30,7 @@ pub(super) struct Station {
 
 /// A position on a sheet: segment, share of it (outside 0 to 1 beyond free ends), offset to the right (mm).
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Place {
+pub(super) struct SheetPosition {
     pub segment: usize,
     pub share: f64,
     pub aside: f64,
@@ -81,7 +81,7 @@ impl Sheet {
         &self.stations[self.start[first]..self.start[end - 1] + 2]
     }
 
-    pub(super) fn piece(&self, place: &Place) -> usize {
+    pub(super) fn piece(&self, place: &SheetPosition) -> usize {
         self.piece[place.segment]
     }
 
@@ -94,11 +94,11 @@ impl Sheet {
     }
 
     /// The position on the nearest segment to a point of the image (mm), the first one of several.
-    pub(super) fn place(&self, seen: DVec2) -> Option<Place> {
+    pub(super) fn place(&self, seen: DVec2) -> Option<SheetPosition> {
         self.place_within(seen, self.width)
     }
 
-    fn place_within(&self, seen: DVec2, limit: f64) -> Option<Place> {
+    fn place_within(&self, seen: DVec2, limit: f64) -> Option<SheetPosition> {
         let (segment, _) = self.seen.nearest(seen.extend(0.0), limit)?;
         Some(self.on_segment(segment, seen))
     }
@@ -116,9 +116,9 @@ impl Sheet {
     }
 
     /// The sheet position nearest to an image point on a segment, or at corners on the next one.
-    pub(super) fn on_segment(&self, mut segment: usize, seen: DVec2) -> Place {
+    pub(super) fn on_segment(&self, mut segment: usize, seen: DVec2) -> SheetPosition {
         let mut place = self.across_segment(segment, seen);
-        for _ in 0..STEPS {
+        for _ in 0..MAX_MOVES {
             let next = if place.share > 1.0 { segment + 1 } else { segment.wrapping_sub(1) };
             let is_inside = (0.0..=1.0).contains(&place.share);
             if is_inside || self.piece.get(next) != self.piece.get(segment) {
@@ -136,15 +136,15 @@ impl Sheet {
     }
 
     /// The position with a share within its segment, unless the piece ends there.
-    fn ended(&self, place: Place) -> Place {
+    fn ended(&self, place: SheetPosition) -> SheetPosition {
         let is_same = |other: usize| self.piece.get(other) == self.piece.get(place.segment);
         let low = if is_same(place.segment.wrapping_sub(1)) { 0.0 } else { f64::NEG_INFINITY };
         let high = if is_same(place.segment + 1) { 1.0 } else { f64::INFINITY };
-        Place { share: place.share.clamp(low, high), ..place }
+        SheetPosition { share: place.share.clamp(low, high), ..place }
     }
 
     /// The position of an image point on a segment: on the line across it that runs through the point.
-    fn across_segment(&self, segment: usize, seen: DVec2) -> Place {
+    fn across_segment(&self, segment: usize, seen: DVec2) -> SheetPosition {
         let [a, b] = self.ends(segment);
         let step = b.place - a.place;
         let length = step.length();
@@ -157,12 +157,12 @@ impl Sheet {
         let end = length + aside * b.normal.dot(along);
         let share = if end > start { (from.dot(along) - start) / (end - start) } else { 0.5 };
         if share > 1.0 {
-            return Place { segment, share: 1.0 + (from.dot(along) - end) / length, aside };
+            return SheetPosition { segment, share: 1.0 + (from.dot(along) - end) / length, aside };
         }
         if share < 0.0 {
-            return Place { segment, share: (from.dot(along) - start) / length, aside };
+            return SheetPosition { segment, share: (from.dot(along) - start) / length, aside };
         }
-        Place { segment, share, aside }
+        SheetPosition { segment, share, aside }
     }
 
     fn ends(&self, segment: usize) -> [Station; 2] {
@@ -170,37 +170,37 @@ impl Sheet {
         [self.stations[start], self.stations[start + 1]]
     }
 
-    pub(super) fn point(&self, place: &Place) -> DVec3 {
+    pub(super) fn point(&self, place: &SheetPosition) -> DVec3 {
         let [a, b] = self.ends(place.segment);
         self.center(place) + a.across.lerp(b.across, place.share.clamp(0.0, 1.0)) * place.aside
     }
 
     /// The point of the vessel at a position, extrapolated straight at ends.
-    fn center(&self, place: &Place) -> DVec3 {
+    fn center(&self, place: &SheetPosition) -> DVec3 {
         let [a, b] = self.ends(place.segment);
         a.point.lerp(b.point, place.share)
     }
 
     /// Across the sheet, into the scene where the vessel is seen from its side.
-    pub(super) fn slab_direction(&self, place: &Place) -> DVec3 {
+    pub(super) fn slab_direction(&self, place: &SheetPosition) -> DVec3 {
         let [a, b] = self.ends(place.segment);
         let across = a.across.lerp(b.across, place.share.clamp(0.0, 1.0));
         (b.point - a.point).cross(across).normalize_or_zero()
     }
 
-    pub(super) fn arc_length(&self, place: &Place) -> f64 {
+    pub(super) fn arc_length(&self, place: &SheetPosition) -> f64 {
         let [a, b] = self.ends(place.segment);
         a.at + (b.at - a.at) * place.share.clamp(0.0, 1.0)
     }
 
-    pub(super) fn seen(&self, place: &Place) -> DVec2 {
+    pub(super) fn seen(&self, place: &SheetPosition) -> DVec2 {
         let [a, b] = self.ends(place.segment);
         let share = place.share.clamp(0.0, 1.0);
         a.place.lerp(b.place, place.share) + a.normal.lerp(b.normal, share) * place.aside
     }
 
     /// Whether the sheet runs backwards, or another part of the tree is nearer to what it shows.
-    pub(super) fn is_folded(&self, place: &Place) -> bool {
+    pub(super) fn is_folded(&self, place: &SheetPosition) -> bool {
         let [a, b] = self.ends(place.segment);
         let along = b.point - a.point;
         let is_beyond = !(0.0..=1.0).contains(&place.share);
@@ -209,13 +209,13 @@ impl Sheet {
             return true;
         }
         let excess = (place.share - place.share.clamp(0.0, 1.0)) * along.length();
-        let nearer = place.aside.hypot(excess) * (1.0 - NEARER) - ON_PICTURE;
+        let nearer = place.aside.hypot(excess) * (1.0 - MIN_DISTANCE_EXCESS) - ON_PICTURE;
         nearer > 0.0 && self.world.any_within(self.point(place), nearer)
     }
 
     /// Of the shown positions of a world point: the nearest to the sheet, then to its vessel, then the first.
-    pub(super) fn place_of(&self, point: DVec3) -> Option<Place> {
-        let mut best: Option<(Place, [f64; 2])> = None;
+    pub(super) fn place_of(&self, point: DVec3) -> Option<SheetPosition> {
+        let mut best: Option<(SheetPosition, [f64; 2])> = None;
         for segment in self.world.within(point, self.reach) {
             for place in self.sections(segment, point) {
                 let off = self.point(&place).distance(point);
@@ -230,7 +230,7 @@ impl Sheet {
         best.map(|(place, _)| place)
     }
 
-    fn is_shown(&self, place: &Place) -> bool {
+    fn is_shown(&self, place: &SheetPosition) -> bool {
         // Tolerates rounding at the very edge.
         let there = self.place_within(self.seen(place), self.width + ON_PICTURE);
         let Some(there) = there else { return false };
@@ -239,7 +239,7 @@ impl Sheet {
     }
 
     /// The positions of a segment whose sections hold a world point, also beyond it where the piece ends.
-    fn sections(&self, segment: usize, point: DVec3) -> Vec<Place> {
+    fn sections(&self, segment: usize, point: DVec3) -> Vec<SheetPosition> {
         let [a, b] = self.ends(segment);
         let along = b.point - a.point;
         // Distance of the point beyond the section at a share of the segment, and to the right there.
@@ -252,12 +252,12 @@ impl Sheet {
             let across = a.across.lerp(b.across, inner);
             (point - a.point.lerp(b.point, share)).dot(across) / across.length_squared()
         };
-        let place = |share: f64| Place { segment, share, aside: aside(share, share.clamp(0.0, 1.0)) };
+        let place = |share: f64| SheetPosition { segment, share, aside: aside(share, share.clamp(0.0, 1.0)) };
         let (first, last) = (ahead(0.0), ahead(1.0));
         let mut found = Vec::new();
         if (first >= 0.0) != (last >= 0.0) {
             let (mut low, mut high) = (0.0, 1.0);
-            for _ in 0..HALVINGS {
+            for _ in 0..BISECTIONS {
                 let middle = f64::midpoint(low, high);
                 let half = if (ahead(middle) >= 0.0) == (first >= 0.0) { &mut low } else { &mut high };
                 *half = middle;

@@ -8,19 +8,19 @@ use super::pieces::Piece;
 use crate::camera::Camera;
 
 /// Below this sine of the angle to the view, a vessel's direction does not define the line across it.
-const END_ON: f64 = 0.1;
+const MIN_VIEW_SINE: f64 = 0.1;
 
 /// Smoothing of lines across a vessel along it (mm).
-const SMOOTHING_ACROSS: f64 = 2.0;
+const SMOOTHING_ACROSS_MM: f64 = 2.0;
 
 /// Where a Gaussian is cut off (σ).
-const CUT_OFF: f64 = 4.0;
+const CUT_OFF_SIGMAS: f64 = 4.0;
 
 /// Longest extension of a line across a sharp corner, so that it ends where its neighbours end.
 pub(super) const LONGEST_MITRE: f64 = 3.0;
 
 /// A shorter vector has no direction.
-const NO_DIRECTION: f64 = 1e-9;
+const MIN_DIRECTION_LENGTH: f64 = 1e-9;
 
 #[derive(Clone, Debug)]
 pub(super) struct Strip {
@@ -44,11 +44,11 @@ impl Strip {
             .map(|(tangent, theta)| {
                 let own = camera.direction().cross(*tangent);
                 let (sine, cosine) = theta.sin_cos();
-                let is_end_on = own.length() < END_ON;
+                let is_end_on = own.length() < MIN_VIEW_SINE;
                 if is_end_on { camera.right() * sine - camera.up() * cosine } else { own.normalize() }
             })
             .collect();
-        let lines = smooth(&piece.at, &lines, SMOOTHING_ACROSS);
+        let lines = smooth(&piece.at, &lines, SMOOTHING_ACROSS_MM);
         let across = (0..piece.at.len()).map(|n| across(&directions, &lines, n)).collect();
         Self { theta, across }
     }
@@ -88,7 +88,11 @@ fn across(directions: &[DVec3], lines: &[DVec3], n: usize) -> DVec3 {
     let (before, after) = (directions[first], directions[second]);
     let tangent = (before + after).try_normalize().unwrap_or(after);
     let line = (lines[first] + lines[second]).reject_from_normalized(tangent);
-    let line = if line.length() < NO_DIRECTION { tangent.any_orthonormal_vector() } else { line.normalize() };
+    let line = if line.length() < MIN_DIRECTION_LENGTH {
+        tangent.any_orthonormal_vector()
+    } else {
+        line.normalize()
+    };
     let slope = line.dot(after);
     line / (1.0 - slope * slope).max(0.0).sqrt().max(1.0 / LONGEST_MITRE)
 }
@@ -96,7 +100,7 @@ fn across(directions: &[DVec3], lines: &[DVec3], n: usize) -> DVec3 {
 /// The angles of directions, each within half a turn of the previous one. A segment along the view takes the
 /// angle of its neighbour; a vessel never seen from the side runs downwards.
 fn unwrapped(directions: &[DVec2]) -> Vec<f64> {
-    let known = |d: &DVec2| d.length() > NO_DIRECTION;
+    let known = |d: &DVec2| d.length() > MIN_DIRECTION_LENGTH;
     let mut last = directions.iter().find(|d| known(d)).map_or(-FRAC_PI_2, |d| d.to_angle());
     let mut angles = Vec::with_capacity(directions.len());
     for direction in directions {
@@ -115,7 +119,7 @@ fn smooth(at: &[f64], values: &[DVec3], sigma: f64) -> Vec<DVec3> {
         return values.to_vec();
     }
     let middles: Vec<f64> = at.windows(2).map(|ends| f64::midpoint(ends[0], ends[1])).collect();
-    let reach = CUT_OFF * sigma;
+    let reach = CUT_OFF_SIGMAS * sigma;
     let mut first = 0;
     let mean = |middle: &f64| {
         while middles[first] < middle - reach {

@@ -13,17 +13,17 @@ use super::strip::Strip;
 use crate::error::{Error, Result};
 use crate::stop::{Stop, go_on};
 
-/// Hull radii around a branching point, plus `BEYOND_NEAR` mm, within which branches may overlap, in the
+/// Hull radii around a branching point, plus `OVERLAP_EXTRA_MM` mm, within which branches may overlap, in the
 /// order tried.
-const NEAR: [f64; 5] = [1.5, 2.5, 4.0, 7.0, 12.0];
-pub(super) const BEYOND_NEAR: f64 = 2.0;
+const OVERLAP_RADII: [f64; 5] = [1.5, 2.5, 4.0, 7.0, 12.0];
+pub(super) const OVERLAP_EXTRA_MM: f64 = 2.0;
 
 /// The share of the bends of vessels that is kept, tried in this order.
 const STIFFNESS: [f64; 4] = [1.0, 0.6, 0.3, 0.0];
 
 /// Number of steps of a turn, and bisections of the first one that suffices.
-const STEPS: usize = 16;
-const HALVINGS: usize = 16;
+const TURN_STEPS: usize = 16;
+const BISECTIONS: usize = 16;
 
 #[derive(Clone, Copy)]
 pub(super) struct Tree<'a> {
@@ -42,7 +42,7 @@ pub(super) struct Turning {
     pub turns: Vec<f64>,
     /// The hull of each part, from its root, not moved.
     pub hulls: Vec<Vec<Disc>>,
-    /// Within this many hull radii of a branching point, plus [`BEYOND_NEAR`], branches may overlap.
+    /// Within this many hull radii of a branching point, plus [`OVERLAP_EXTRA_MM`], branches may overlap.
     pub near: f64,
     /// Number of branching points where sectors did not fit, so that branches turned too much or too little.
     pub(crate) without_room: usize,
@@ -61,7 +61,8 @@ impl Turning {
 /// the fewest overlapping pieces, then with the fewest branching points without room.
 pub(super) fn untangle(tree: Tree, stop: Stop) -> Result<Turning> {
     let mut best: Option<Turning> = None;
-    let ways: Vec<_> = NEAR.iter().flat_map(|near| STIFFNESS.map(|stiffness| (*near, stiffness))).collect();
+    let ways: Vec<_> =
+        OVERLAP_RADII.iter().flat_map(|near| STIFFNESS.map(|stiffness| (*near, stiffness))).collect();
     // The first layout suffices for most trees; the others are tried in parallel, a few at a time.
     let (first, others) = ways.split_at(1);
     for ways in [first].into_iter().chain(others.chunks(STIFFNESS.len())) {
@@ -165,7 +166,7 @@ impl Node {
             let here = discs.iter().filter(|disc| disc.center == DVec2::ZERO).map(|disc| disc.radius);
             here.fold(0.0, f64::max)
         };
-        let distance = near * all.map(at_node).fold(0.0, f64::max) + BEYOND_NEAR;
+        let distance = near * all.map(at_node).fold(0.0, f64::max) + OVERLAP_EXTRA_MM;
         let outer = |discs: &[Disc]| Hull::new(beyond(discs, distance));
         let branches: Vec<Hull> = branches.iter().map(|branch| outer(branch.discs())).collect();
         let middle = || {
@@ -191,13 +192,13 @@ impl Node {
 
     /// The smallest share of the turns without overlap; 1 if there is none.
     fn smallest_share(&self, wanted: &[f64]) -> f64 {
-        let mut shares = (0..=STEPS).map(|step| step as f64 / STEPS as f64);
+        let mut shares = (0..=TURN_STEPS).map(|step| step as f64 / TURN_STEPS as f64);
         let Some(mut enough) = shares.find(|share| self.is_apart(wanted, *share)) else { return 1.0 };
         if enough == 0.0 {
             return 0.0;
         }
-        let mut too_small = enough - 1.0 / STEPS as f64;
-        for _ in 0..HALVINGS {
+        let mut too_small = enough - 1.0 / TURN_STEPS as f64;
+        for _ in 0..BISECTIONS {
             let middle = f64::midpoint(too_small, enough);
             let half = if self.is_apart(wanted, middle) { &mut enough } else { &mut too_small };
             *half = middle;

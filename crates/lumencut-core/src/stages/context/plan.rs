@@ -4,9 +4,9 @@ use crate::camera::Camera;
 use crate::error::{Error, ErrorKind, Result};
 use crate::math::accumulate::Palette;
 use crate::math::blocks::Blocks;
-use crate::math::context_parameters::{BlockPlaces, ContextParameters};
+use crate::math::context_parameters::{BlockLayout, ContextParameters};
 use crate::math::light::Shading;
-use crate::math::ray::{MOST_SAMPLES, Rays};
+use crate::math::ray::{MAX_SAMPLES, Rays};
 use crate::math::transfer::Colors;
 use crate::settings::{Context, Settings};
 use crate::volume::Volume;
@@ -34,10 +34,10 @@ fn default_step(volume: &Volume, settings: &Context) -> f64 {
 /// The longest distance between samples (mm). Fails with `Settings` for rays of more than 65,536 samples.
 pub fn step(volume: &Volume, settings: &Context) -> Result<f64> {
     let longest = volume.longest_way();
-    let step = settings.step.unwrap_or_else(|| default_step(volume, settings).max(longest / MOST_SAMPLES));
-    if longest > MOST_SAMPLES * step {
+    let step = settings.step.unwrap_or_else(|| default_step(volume, settings).max(longest / MAX_SAMPLES));
+    if longest > MAX_SAMPLES * step {
         let found = format!("{step} mm for a volume {longest:.4} mm across");
-        let expected = format!("at least {} mm", rounded_up(longest / MOST_SAMPLES));
+        let expected = format!("at least {} mm", rounded_up(longest / MAX_SAMPLES));
         return Err(Error::new(ErrorKind::Settings, "context_step", found, expected));
     }
     Ok(step)
@@ -59,7 +59,7 @@ impl<'a> Plan<'a> {
     ) -> Result<Self> {
         let (step, colors) = (step(volume, context)?, Colors::new(&context.transfer));
         // The CPU finds blocks through `Blocks`.
-        let parameters = ContextParameters::new(settings, context, &colors, step, &BlockPlaces::default());
+        let parameters = ContextParameters::new(settings, context, &colors, step, &BlockLayout::default());
         Ok(Self {
             volume,
             blocks,

@@ -1,7 +1,7 @@
 //! The paper's way: at each level the piece with the smallest key, of any vessel.
 
 use super::blend::LevelBlend;
-use super::{CutSurface, FIRST, Search, Sheet, TileSurface};
+use super::{CHOSEN_GAP, CutSurface, Search, Sheet, TileSurface};
 use crate::math::decision::Decision;
 use crate::math::lanes::{FAR, PIXELS, places};
 use crate::math::pieces::Envelope;
@@ -76,7 +76,7 @@ impl BlendedSheets {
                 let (vessel, s) = self.finer[l];
                 let is_first = found.is_first[l] & ((vessel < 0) | (*gap < 0.0));
                 if is_first {
-                    *gap = FIRST;
+                    *gap = CHOSEN_GAP;
                 } else if vessel >= 0 {
                     let same = vessel == found.vessel[l];
                     *gap = if same { (found.arc_length[l] - s).abs() } else { FAR };

@@ -1,7 +1,7 @@
 //! One decision: the winner on the finest level decides the vessel; only its levels are blended.
 
 use super::blend::LevelBlend;
-use super::{CutSurface, FIRST, Search, TileSurface};
+use super::{CHOSEN_GAP, CutSurface, Search, TileSurface};
 use crate::math::decision::Decision;
 use crate::math::lanes::{PART_PIXELS, PIXELS, places};
 use crate::math::own_pieces::NearestPieces;
@@ -38,7 +38,7 @@ impl CutSurface<'_> {
         let mut sheet = [[0.0; 4]; PIXELS];
         if SHEET {
             for l in 0..PIXELS {
-                let gap = if decision.is_first[l] { FIRST } else { sum.gap(l) };
+                let gap = if decision.is_first[l] { CHOSEN_GAP } else { sum.gap(l) };
                 sheet[l] = [sum.slope[0][l], sum.slope[1][l], decision.sheet_radius(l), gap];
             }
         }

@@ -4,15 +4,15 @@ use crate::math::lanes::FAN;
 use crate::math::leaps::{DOWNWARDS, LEAPS, LINE_DOWNWARDS, LINE_TO_THE_RIGHT, LUMEN, TO_THE_RIGHT};
 
 /// A pixel, or a step from one to another: to the right, downwards.
-type Place = [isize; 2];
+type PixelStep = [isize; 2];
 
-const STEPS: [Place; 4] = [[1, 0], [-1, 0], [0, 1], [0, -1]];
+const STEPS: [PixelStep; 4] = [[1, 0], [-1, 0], [0, 1], [0, -1]];
 
 pub(super) struct LeapLines<'a> {
     leap: &'a [u32],
     /// The values on the surface, NaN where it shows nothing; empty if all of it counts as shown.
     value: &'a [f32],
-    size: Place,
+    size: PixelStep,
     /// Width of a line (pixels), at least 1.
     line_width: f32,
     /// The most of a pixel that a line covers.
@@ -65,8 +65,8 @@ impl<'a> LeapLines<'a> {
     }
 
     /// Lines cover a lumen only straight across from a leap to another lumen, where it ends.
-    fn cover_of_lumen(&self, here: Place) -> f32 {
-        let ends = |at: Place, step| {
+    fn cover_of_lumen(&self, here: PixelStep) -> f32 {
+        let ends = |at: PixelStep, step| {
             let beyond = ahead(at, step);
             self.border(at, step).has_line && self.is_lumen(at) && self.is_lumen(beyond)
         };
@@ -83,7 +83,7 @@ impl<'a> LeapLines<'a> {
 
     /// Lines cover the outside by the distance to the nearest leap on their side, unless the pixel is the
     /// other side of a leap.
-    fn cover_beside_lumen(&self, here: Place) -> f32 {
+    fn cover_beside_lumen(&self, here: PixelStep) -> f32 {
         let mut leaps = STEPS.into_iter().filter(|step| self.border(here, *step).is_leap).peekable();
         if leaps.peek().is_some() && !leaps.any(|step| self.shows_line(here, step)) {
             return 0.0;
@@ -106,7 +106,7 @@ impl<'a> LeapLines<'a> {
     }
 
     /// Whether the line of the leap from a pixel to a neighbour is shown on one side of it, beyond it or not.
-    fn shows_line_of(&self, owner: Place, step: Place, beyond: bool) -> bool {
+    fn shows_line_of(&self, owner: PixelStep, step: PixelStep, beyond: bool) -> bool {
         if beyond {
             self.shows_line(ahead(owner, step), [-step[0], -step[1]])
         } else {
@@ -116,7 +116,7 @@ impl<'a> LeapLines<'a> {
 
     /// A pixel shows a leap's line that lies in it, or whose own pixel shows nothing while this one is no
     /// lumen.
-    fn shows_line(&self, here: Place, step: Place) -> bool {
+    fn shows_line(&self, here: PixelStep, step: PixelStep) -> bool {
         let may_lie_here = !(self.is_lumen(here) || self.is_shown(ahead(here, step)));
         self.is_shown(here) && (self.border(here, step).has_line || may_lie_here)
     }
@@ -126,7 +126,7 @@ impl<'a> LeapLines<'a> {
         self.most * (self.line_width + 0.5 - (x * x + y * y).sqrt()).clamp(0.0, 1.0)
     }
 
-    fn border(&self, here: Place, step: Place) -> Border {
+    fn border(&self, here: PixelStep, step: PixelStep) -> Border {
         let (bit, line) =
             if step[1] == 0 { (TO_THE_RIGHT, LINE_TO_THE_RIGHT) } else { (DOWNWARDS, LINE_DOWNWARDS) };
         let is_owner = step[0] + step[1] > 0;
@@ -135,20 +135,20 @@ impl<'a> LeapLines<'a> {
         Border { is_leap, has_line: is_leap && (bits & line == 0) == is_owner }
     }
 
-    fn is_lumen(&self, here: Place) -> bool {
+    fn is_lumen(&self, here: PixelStep) -> bool {
         self.bits(here) & LUMEN != 0
     }
 
-    fn is_shown(&self, [i, j]: Place) -> bool {
+    fn is_shown(&self, [i, j]: PixelStep) -> bool {
         self.value.is_empty() || !self.value[(j * self.size[0] + i) as usize].is_nan()
     }
 
-    fn bits(&self, [i, j]: Place) -> u32 {
+    fn bits(&self, [i, j]: PixelStep) -> u32 {
         let is_inside = (0..self.size[0]).contains(&i) && (0..self.size[1]).contains(&j);
         if is_inside { self.leap[(j * self.size[0] + i) as usize] } else { 0 }
     }
 }
 
-fn ahead([i, j]: Place, [right, down]: Place) -> Place {
+fn ahead([i, j]: PixelStep, [right, down]: PixelStep) -> PixelStep {
     [i + right, j + down]
 }

@@ -5,13 +5,13 @@ use std::collections::HashMap;
 use glam::DVec3;
 
 #[derive(Clone, Debug)]
-pub(crate) struct PlaceMap<T> {
+pub(crate) struct PositionMap<T> {
     cells: HashMap<[i64; 3], Vec<(DVec3, T)>>,
     /// Positions no farther apart than this (mm) are equal.
     within: f64,
 }
 
-impl<T: Clone> PlaceMap<T> {
+impl<T: Clone> PositionMap<T> {
     pub(crate) fn new(within: f64) -> Self {
         Self { cells: HashMap::new(), within }
     }
@@ -42,7 +42,7 @@ mod tests {
 
     #[test]
     fn places_are_found_within_their_distance_across_cells_too() {
-        let mut map = PlaceMap::new(0.1);
+        let mut map = PositionMap::new(0.1);
         map.add(DVec3::new(0.0, 1.0, -2.0), &1);
         map.add(DVec3::new(0.05, 1.0, -2.0), &2);
         for (x, found) in [(-0.09, Some(&1)), (0.09, Some(&1)), (0.14, Some(&2)), (-0.11, None), (0.16, None)]
