@@ -50,11 +50,11 @@ impl Camera {
             return wrong(
                 "direction of the camera",
                 format!("{direction}"),
-                "a finite vector that is not zero",
+                "a finite vector other than zero",
             );
         };
         let Some(unit_up) = up.try_normalize() else {
-            return wrong("up of the camera", format!("{up}"), "a finite vector that is not zero");
+            return wrong("up of the camera", format!("{up}"), "a finite vector other than zero");
         };
         let across = unit.cross(unit_up);
         if across.length() < 1e-6 {

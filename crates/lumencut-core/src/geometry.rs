@@ -79,7 +79,7 @@ impl Curved {
                 position.len(),
                 slab_direction.len()
             );
-            let expected = "one point and one direction for each pixel, of which there is at least one";
+            let expected = "at least one pixel, with one point and one direction each";
             return Err(Error::new(ErrorKind::Camera, "curved geometry", found, expected));
         }
         Ok(Self { size, position, slab_direction })

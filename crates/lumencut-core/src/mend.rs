@@ -55,14 +55,14 @@ impl Mend {
 impl fmt::Display for Mend {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
-            Self::Bridge => "ask for a bridge where it is occluded",
-            Self::EverySecond => "take every second voxel along each axis, an eighth of all",
+            Self::Bridge => "allow a bridge across the occlusion",
+            Self::EverySecond => "take every second voxel along each axis (an eighth of the memory)",
             Self::Cpu => "compute with the device 'cpu'",
-            Self::Windows => "state the windows where they stand for nothing",
+            Self::Windows => "set the windows, which the data do not contain",
             Self::Threshold => "compare the values with a threshold first",
-            Self::FewerPixels => "larger pixels or a smaller width make fewer",
-            Self::Doubtful => "look at the doubtful ones",
-            Self::SmallerRadius => "ask for a smaller radius",
+            Self::FewerPixels => "choose larger pixels or a smaller width",
+            Self::Doubtful => "inspect the doubtful vessels",
+            Self::SmallerRadius => "choose a smaller radius",
         })
     }
 }

@@ -65,7 +65,7 @@ impl<'a> Request<'a> {
             return Ok(Cow::Borrowed(self.settings));
         };
         let found = format!("{what} for a scene without centerlines");
-        Err(Error::new(ErrorKind::Settings, setting, found, "centerlines, around whose vessels it is")
+        Err(Error::new(ErrorKind::Settings, setting, found, "a scene with centerlines")
             .mend(format!("give centerlines, or leave the {setting} out")))
     }
 

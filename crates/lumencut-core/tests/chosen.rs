@@ -311,7 +311,7 @@ fn vessels_that_are_not_there_and_rules_without_tiers_are_refused() {
     };
     let error = refused(&scene, &choosing(&[0, 2]));
     assert_eq!((error.kind, error.subject.as_str()), (ErrorKind::Settings, "focus_vessels"));
-    assert!(error.to_string().contains("the vessel 2 of a tree of 2; expected ids from 0 to 1"), "{error}");
+    assert!(error.to_string().contains("vessel 2 in a tree of 2; expected ids from 0 to 1"), "{error}");
     let error = refused(&scene, &Settings { focus_vessels: vec![1], ..Settings::paper() });
     assert!(error.to_string().contains("chosen vessels without lumen_first"), "{error}");
     let phantom = crossing().unwrap();

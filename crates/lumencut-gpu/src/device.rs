@@ -119,7 +119,7 @@ fn watch(device: &wgpu::Device, trouble: &Arc<Mutex<Trouble>>) {
 
 fn broken(name: &str, words: &str) -> Error {
     let words = words.split_whitespace().collect::<Vec<_>>().join(" ");
-    Error::new(ErrorKind::Device, format!("GPU {name}"), words, "a GPU that computes to the end")
+    Error::new(ErrorKind::Device, format!("GPU {name}"), words, "a GPU that completes its work")
         .mend("try a smaller picture or volume")
         .mended_by(Mend::Cpu)
 }

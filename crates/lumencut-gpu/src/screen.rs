@@ -110,7 +110,7 @@ impl Screen {
 }
 
 fn not_drawn(words: &str) -> Error {
-    Error::new(ErrorKind::Device, "canvas of the page", words, "one that the GPU can draw on")
+    Error::new(ErrorKind::Device, "canvas of the page", words, "a canvas that the GPU can draw on")
 }
 
 fn pipeline(device: &Device) -> RenderPipeline {

@@ -116,7 +116,7 @@ impl Surface {
 fn send(device: &Device, curved: &Curved, volume: &Volume) -> Result<Buffer> {
     let most = device.limits.max_storage_buffer_binding_size as usize / size_of::<CurvedPixel>();
     if curved.position().len() > most {
-        let found = format!("{} pixels with places of their own", curved.position().len());
+        let found = format!("{} pixels", curved.position().len());
         return Err(device.too_large("curved geometry", found, &format!("{most} pixels")));
     }
     Ok(device.upload("curved places", &CurvedPixel::of(curved, volume)))

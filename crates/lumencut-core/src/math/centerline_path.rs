@@ -33,8 +33,8 @@ impl CenterlinePath {
             }
         }
         if points.len() < 2 {
-            let found = "a vessel without length: all of its points lie at one place";
-            let expected = "points at two places at least";
+            let found = "a vessel without length: all of its points coincide";
+            let expected = "points at two or more positions";
             return Err(Error::new(ErrorKind::VesselTree, "points of the vessel", found, expected));
         }
         let direction: Vec<_> = points.windows(2).map(|ends| (ends[1] - ends[0]).normalize()).collect();

@@ -33,7 +33,6 @@ use crate::math::centerline_path::CenterlinePath;
 use crate::named::Named;
 use crate::stop::Stop;
 
-/// The default margin on each side of the vessel (mm).
 const DEFAULT_MARGIN_MM: f64 = 25.0;
 
 /// How the lines across a vessel are laid out as an image.

@@ -19,7 +19,6 @@ impl<'a> CutLocus<'a> {
         Self { path, segments: Segments::new(ends) }
     }
 
-    /// Whether a point shown next to the vessel at an arc length (mm) lies beyond the cut locus.
     pub(super) fn is_beyond(&self, point: DVec3, at: f64) -> bool {
         self.segments.any_within(point, point.distance(self.path.at(at)) * (1.0 - MIN_DISTANCE_EXCESS))
     }

@@ -35,7 +35,6 @@ pub trait Layout: Send + Sync {
     fn pixel_from_world(&self, point: DVec3) -> DVec2;
 }
 
-/// An image whose rows are written by a function of their number, with a check for stop before each row.
 pub(super) fn by_rows<T: Clone + Send>(
     [width, height]: [usize; 2],
     nothing: T,
@@ -69,7 +68,6 @@ pub(super) fn curved_by_rows(
     Curved::new(size, position, direction)
 }
 
-/// Tolerance for a length that is a whole number of pixels.
 const WHOLE_PIXEL_TOLERANCE: f64 = 1e-9;
 
 pub(super) fn whole_pixels(length: f64, pixel_spacing: f64) -> f64 {

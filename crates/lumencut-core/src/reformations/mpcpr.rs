@@ -16,7 +16,6 @@ use crate::pipeline::Request;
 use crate::scene::LeveledTree;
 use crate::stages::depth::Sheet;
 
-/// Number of points in a row that share one range of view y.
 const POINTS_PER_BLOCK: usize = 64;
 
 /// The slope (mm per mm) is clamped to this: it is unbounded where a vessel runs along a row.
@@ -133,7 +132,6 @@ struct Crossing {
     radius: f64,
     /// Distance of the surface from the centerline per mm along the row.
     lean: f64,
-    /// Whether its vessel has other points in the row.
     is_folded: bool,
 }
 

@@ -2,7 +2,6 @@
 
 use glam::DVec3;
 
-/// Number of boxes or segments within one box.
 const FAN: usize = 8;
 
 #[derive(Clone, Copy, Debug)]

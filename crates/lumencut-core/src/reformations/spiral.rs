@@ -22,7 +22,6 @@ use crate::stop::Stop;
 
 const LENGTH: Limits = Limits::new(1e-6, 1e4, "mm");
 
-/// Newton iterations for the angle of a length, more than needed.
 const NEWTON_STEPS: usize = 12;
 
 /// How the samples of a row lie on its spirals.

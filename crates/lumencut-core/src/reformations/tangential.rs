@@ -29,7 +29,7 @@ impl Tangential {
     pub fn new(path: Arc<CenterlinePath>, camera: Camera) -> Result<Self> {
         let along = path.direction().iter().map(|direction| direction.cross(camera.direction()).length());
         if along.fold(0.0, f64::max) < 1e-6 {
-            let found = "a vessel that runs along the view in all of its length";
+            let found = "a vessel parallel to the direction of view";
             let error = Error::new(
                 ErrorKind::Camera,
                 "camera of the tangential CPR",

@@ -23,8 +23,8 @@ impl Wall {
         let rises = at.windows(2).all(|ends| ends[1] > ends[0]);
         let is_table = directions > 0 && radius.len() == directions * at.len() && open.len() == radius.len();
         if !is_table || !rises {
-            let found = format!("{} places, {} radii", at.len(), radius.len());
-            let expected = "as many radii at each of the places, which rise";
+            let found = format!("{} arc lengths, {} radii", at.len(), radius.len());
+            let expected = "the same number of radii for each arc length, in rising order";
             return Err(Error::new(ErrorKind::VesselTree, "wall of the vessel", found, expected));
         }
         if let Some(wrong) = radius.iter().find(|radius| !(**radius > 0.0 && radius.is_finite())) {

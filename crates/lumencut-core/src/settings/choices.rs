@@ -85,7 +85,7 @@ impl ContextChoices {
             return Ok(());
         }
         let found = format!("{step} mm with the context '{}'", name.name());
-        let expected = "no step: the values along each ray are exact there";
+        let expected = "no step: this context has exact values along rays";
         Err(Error::new(ErrorKind::Settings, "context_step", found, expected))
     }
 }

@@ -11,7 +11,7 @@ impl Settings {
     pub(crate) fn for_vessels(&self, count: usize) -> Result<Cow<'_, Self>> {
         let chosen = &self.focus_vessels;
         if let Some(id) = chosen.iter().find(|id| **id >= count) {
-            let found = format!("the vessel {id} of a tree of {count}");
+            let found = format!("vessel {id} in a tree of {count}");
             let expected = format!("ids from 0 to {}", count.saturating_sub(1));
             return Err(Error::new(ErrorKind::Settings, "focus_vessels", found, expected));
         }
@@ -36,7 +36,7 @@ impl Settings {
             return Ok(());
         }
         let found = "chosen vessels without lumen_first";
-        let expected = "lumen_first, whose tiers those of the chosen vessels come before";
+        let expected = "lumen_first, which chosen vessels need";
         Err(Error::new(ErrorKind::Settings, "focus_vessels", found, expected)
             .mend("set lumen_first, or choose no vessels"))
     }

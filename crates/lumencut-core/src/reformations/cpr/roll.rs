@@ -47,8 +47,8 @@ impl Roll {
     pub fn new(at: Vec<f64>, angle: Vec<f64>) -> Result<Self> {
         let rises = at.windows(2).all(|ends| ends[1] > ends[0]);
         if at.is_empty() || at.len() != angle.len() || !rises || !angle.iter().all(|a| a.is_finite()) {
-            let found = format!("{} angles at {} places", angle.len(), at.len());
-            let expected = "a finite angle for each of the places, which rise";
+            let found = format!("{} angles for {} arc lengths", angle.len(), at.len());
+            let expected = "one finite angle for each arc length, in rising order";
             return Err(Error::new(ErrorKind::Camera, "roll of the CPR", found, expected));
         }
         Ok(Self { at, angle })

@@ -11,7 +11,6 @@ use crate::math::same_place::ON_PICTURE;
 /// The most bisections in the search for a section, to below the resolution of a number.
 const BISECTIONS: usize = 60;
 
-/// The largest turn of the sections within an interval (radians).
 const MAX_TURN_RADIANS: f64 = 0.1;
 
 /// The sections of a vessel, independent of the angle from which it is seen.
@@ -38,7 +37,6 @@ pub(super) struct Section {
 }
 
 impl Section {
-    /// How far the point lies beyond the section, along the vessel (mm).
     fn ahead(&self) -> f64 {
         self.offset.dot(self.frame.tangent)
     }

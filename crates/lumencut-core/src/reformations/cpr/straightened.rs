@@ -58,7 +58,7 @@ impl Straightened {
         };
         if is_along(ahead) {
             let found = format!("{}, along the vessel's first segment {tangent}", -ahead);
-            let expected = "a normal across the vessel at its first point";
+            let expected = "a normal that is not parallel to the vessel at its first point";
             return Err(Error::new(ErrorKind::Camera, "normal of the CPR", found, expected));
         }
         let frames = Frames::new(&path, MovingFrame::looking(tangent, ahead));

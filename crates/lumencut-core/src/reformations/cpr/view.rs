@@ -54,6 +54,6 @@ pub(super) fn unit(subject: &str, vector: DVec3) -> Result<DVec3> {
     let largest = vector.abs().max_element();
     let unit = if largest.is_finite() && largest > 0.0 { (vector / largest).try_normalize() } else { None };
     unit.ok_or_else(|| {
-        Error::new(ErrorKind::Camera, subject, format!("{vector}"), "a finite vector that is not zero")
+        Error::new(ErrorKind::Camera, subject, format!("{vector}"), "a finite vector other than zero")
     })
 }

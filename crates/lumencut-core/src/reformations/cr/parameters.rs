@@ -2,7 +2,6 @@
 
 use crate::error::{Error, ErrorKind, Result};
 
-/// The largest radius offset and arc-length threshold (pixels).
 const MAX_THRESHOLD_PIXELS: f64 = 1e6;
 
 /// The two thresholds of CR.

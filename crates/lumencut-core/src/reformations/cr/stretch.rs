@@ -8,7 +8,6 @@ use crate::math::lanes::FAN;
 use crate::math::nearest::squared_distances_to_segments;
 use crate::math::tile::{Area, Tile};
 
-/// Number of chains whose surroundings a search caches.
 const MAX_CACHED_CHAINS: usize = 256;
 
 /// Finds the piece nearest to a pixel within the threshold along the tree. Points on one chain have nearly

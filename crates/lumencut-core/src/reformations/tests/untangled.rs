@@ -8,7 +8,6 @@ fn go() -> bool {
     false
 }
 
-/// From the front: patient left is to the right, z upwards.
 fn front() -> Camera {
     Camera::new(DVec3::ZERO, DVec3::Y, DVec3::Z, [64, 64], 1.0).unwrap()
 }

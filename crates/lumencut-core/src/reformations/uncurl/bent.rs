@@ -9,7 +9,6 @@ use crate::math::frames::{Frames, MovingFrame};
 /// A vessel begins along the view if the angle between them has a smaller tangent.
 const ALONG_VIEW: f64 = 0.05;
 
-/// Two directions whose cross product is shorter are parallel.
 const PARALLEL: f64 = 1e-12;
 
 #[derive(Clone, Copy, Debug)]

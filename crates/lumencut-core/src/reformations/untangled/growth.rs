@@ -8,10 +8,8 @@ use glam::DVec3;
 use super::pieces::Piece;
 use crate::error::{Error, ErrorKind, Result};
 
-/// Length over which the radius of a free end is averaged (mm).
 const RADIUS_MEAN_LENGTH_MM: f64 = 10.0;
 
-/// Radii that differ by less are the same (mm).
 const SAME_RADIUS_MM: f64 = 1e-6;
 
 #[derive(Clone, Debug)]
@@ -189,10 +187,10 @@ impl<'a> Graph<'a> {
         }
         widest.map(|(end, _)| end).ok_or_else(|| {
             let vessel = self.pieces[members[0]].vessel;
-            let found = "a loop without a free end to begin at";
-            let expected = "a free end in every part that hangs together";
+            let found = "a loop without a free end to start at";
+            let expected = "a free end in every connected part";
             Error::new(ErrorKind::VesselTree, format!("vessel {vessel} of the tree"), found, expected)
-                .mend("name a point to begin at as the root, or leave this vessel out")
+                .mend("give a point to start at as the root, or leave out this vessel")
         })
     }
 }

@@ -7,7 +7,6 @@ use super::pieces::Piece;
 /// Number of consecutive discs within one circle, and of these circles within another one.
 const DISCS_PER_CIRCLE: usize = 16;
 
-/// Tolerance for discs that touch (mm).
 const TOUCH_TOLERANCE_MM: f64 = 1e-9;
 
 #[derive(Clone, Copy, Debug)]

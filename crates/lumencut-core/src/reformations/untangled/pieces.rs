@@ -8,10 +8,8 @@ use crate::math::same_place::VESSEL_END;
 use crate::reformations::connections::Ends;
 use crate::vessel_tree::{Vessel, VesselTree};
 
-/// The largest distance of stations (mm).
 const MAX_STATION_DISTANCE_MM: f64 = 0.5;
 
-/// The fewest steps of a piece.
 const MIN_STEPS: f64 = 4.0;
 
 /// A point of the vessel nearer to the last station than this share of a step is no station.

@@ -17,7 +17,6 @@ pub(super) struct Sector {
 }
 
 impl Sector {
-    /// The sector of discs about the origin, if there are any.
     pub(super) fn of(discs: &[Disc], forward: DVec2) -> Option<Self> {
         let middle: DVec2 = discs.iter().map(|disc| disc.center.normalize_or_zero()).sum();
         let middle = wrapped(middle.try_normalize()?.to_angle() - forward.to_angle());

@@ -12,7 +12,6 @@ use crate::reformations::segments::Segments;
 /// The most bisections in the search for a section, to below the resolution of a number.
 const BISECTIONS: usize = 60;
 
-/// The most moves of a position to the next segment of its piece.
 const MAX_MOVES: usize = 4;
 
 #[derive(Clone, Copy, Debug)]
@@ -42,7 +41,6 @@ pub(super) struct Sheet {
     stations: Vec<Station>,
     start: Vec<usize>,
     piece: Vec<usize>,
-    /// The segments in the image and in the world.
     seen: Segments,
     world: Segments,
     /// Width of the sheet on each side (mm), and largest distance of its points from vessels.
@@ -135,7 +133,6 @@ impl Sheet {
         self.ended(place)
     }
 
-    /// The position with a share within its segment, unless the piece ends there.
     fn ended(&self, place: SheetPosition) -> SheetPosition {
         let is_same = |other: usize| self.piece.get(other) == self.piece.get(place.segment);
         let low = if is_same(place.segment.wrapping_sub(1)) { 0.0 } else { f64::NEG_INFINITY };

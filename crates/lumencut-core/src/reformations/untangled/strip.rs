@@ -10,10 +10,8 @@ use crate::camera::Camera;
 /// Below this sine of the angle to the view, a vessel's direction does not define the line across it.
 const MIN_VIEW_SINE: f64 = 0.1;
 
-/// Smoothing of lines across a vessel along it (mm).
 const SMOOTHING_ACROSS_MM: f64 = 2.0;
 
-/// Where a Gaussian is cut off (σ).
 const CUT_OFF_SIGMAS: f64 = 4.0;
 
 /// Longest extension of a line across a sharp corner, so that it ends where its neighbours end.
