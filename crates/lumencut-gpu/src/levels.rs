@@ -140,7 +140,6 @@ pub(crate) struct DeviceLevels {
 }
 
 impl DeviceLevels {
-    /// Uploads `levels`, finest first.
     pub(crate) fn new(device: &Device, levels: &[Level]) -> Result<Self> {
         let origin = middle(&levels[0].points);
         let points = levels.iter().flat_map(|level| &level.points);

@@ -36,7 +36,6 @@ impl Pass<'_> {
         Ok(())
     }
 
-    /// A stage that finds the cut surface.
     fn find(&mut self, stage: Stage, images: &mut Images) -> Result<()> {
         let (Some(tree), settings) = (&self.scene.tree, self.request.settings) else { return Ok(()) };
         let renderer = &mut self.on_cpu.renderer;
@@ -45,7 +44,6 @@ impl Pass<'_> {
         renderer.pass(self.request).run(stage, images)
     }
 
-    /// A stage that shows the volume.
     fn show(&self, stage: Stage, images: &mut Images) -> Result<()> {
         let Some(volume) = &self.scene.volume else { return Ok(()) };
         let geometry = match &self.geometry {
@@ -91,7 +89,6 @@ impl Pass<'_> {
     }
 }
 
-/// Takes the `n`th image that was read.
 fn put(images: &mut Images, image: Image, results: &Results, n: usize) {
     match image {
         Image::Distance => images.distance = results.numbers(n),

@@ -32,7 +32,6 @@ pub(crate) struct Results {
 }
 
 impl Results {
-    /// The numbers of the `n`th requested buffer.
     pub(crate) fn numbers<T: Pod + Send + Sync>(&self, n: usize) -> Vec<T> {
         self.view.as_ref().map_or_else(Vec::new, |all| copied(&all[self.places[n].clone()]))
     }
@@ -59,7 +58,6 @@ impl<'a> Recording<'a> {
         Self { device, encoder, clock, names: Vec::new(), reads: Vec::new() }
     }
 
-    /// Runs `stage` over `groups` of threads.
     pub(crate) fn run(&mut self, stage: &Stage, resources: &[BindingResource], groups: [u32; 2]) {
         self.run_as(stage.name, stage, resources, groups);
     }
@@ -92,7 +90,6 @@ impl<'a> Recording<'a> {
         self.reads.push((buffer.clone(), bytes));
     }
 
-    /// Runs everything.
     pub(crate) async fn finish(mut self, stop: Stop<'_>) -> Result<Results> {
         let times = self.names.len() as u64 * 2 * 8;
         if let Some(clock) = &self.clock {

@@ -181,7 +181,6 @@ impl GpuRenderer {
         })
     }
 
-    /// Sends what the scene has and the GPU lacks.
     fn prepare(&mut self, scene: &Scene, request: &Request) -> Result<()> {
         if let Some(shared) = &scene.volume
             && self.volume.as_ref().is_none_or(|kept| !kept.key.is(&shared.key))

@@ -108,7 +108,6 @@ impl Connections {
         &self.meetings[first..end]
     }
 
-    /// The meetings within the threshold of a junction, in the order of vessels and along them.
     fn reached(&self, junction: u32) -> Cow<'_, [Reached]> {
         let known = &self.reached[junction as usize];
         if let Some(reached) = known.get() {

@@ -20,7 +20,6 @@ impl Bounds {
     }
 }
 
-/// Segments, ordered so that neighbours lie near each other.
 #[derive(Clone, Debug)]
 pub(super) struct Segments {
     ends: Vec<[DVec3; 2]>,

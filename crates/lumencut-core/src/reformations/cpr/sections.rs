@@ -169,7 +169,6 @@ impl Mark {
         Section { at: self.at, frame: self.frame, offset: point - self.point }
     }
 
-    /// The section through a point where the vessel continues straight from here.
     fn beyond(&self, point: DVec3) -> Section {
         let here = self.section(point);
         let along = here.ahead();

@@ -118,7 +118,6 @@ impl<'a> CrView<'a> {
     }
 }
 
-/// The value in an envelope before any piece was offered.
 pub(super) const NO_PIECE: u32 = u32::MAX;
 
 #[derive(Clone, Copy)]
@@ -136,7 +135,6 @@ pub(super) struct Seen {
 }
 
 impl Seen {
-    /// Vessel and arc length (mm).
     #[inline(always)]
     pub(super) fn place(&self) -> (i32, f32) {
         (self.vessel, self.arc_length)
