@@ -31,8 +31,8 @@ pub(crate) fn candidates<const LUMEN_FIRST: bool>(
 
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Cover {
-    pub(crate) in_stripe: bool,
-    pub(crate) in_wedge: bool,
+    pub in_stripe: bool,
+    pub in_wedge: bool,
     /// (q − p)·e at the middle q of the area.
     start: f32,
     /// The largest difference from that over the area.

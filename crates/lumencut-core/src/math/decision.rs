@@ -12,7 +12,7 @@ use super::tile::{Area, Tile};
 pub(crate) struct Decision {
     pub vessel: [i32; PIXELS],
     pub arc_length: [f32; PIXELS],
-    pub(crate) beyond_wall: [f32; PIXELS],
+    pub beyond_wall: [f32; PIXELS],
     pub radius: [f32; PIXELS],
     pub is_lumen: [bool; PIXELS],
     pub is_first: [bool; PIXELS],

@@ -31,7 +31,7 @@ fn bounded(change: f32) -> f32 {
 pub(crate) struct Headlight<'a> {
     pub shading: Option<Shading>,
     pub sampler: &'a dyn Sampler,
-    pub(crate) index_from_view: &'a IndexFromView,
+    pub index_from_view: &'a IndexFromView,
     /// The voxel from which the positions are counted.
     pub base: [i32; 3],
     pub places: Places,

@@ -20,17 +20,17 @@ pub(crate) struct Bundle {
     #[allow(missing_docs)]
     pub y: [f32; FAN],
     /// The next point; the same point in a slot without stripe.
-    pub(crate) next_x: [f32; FAN],
+    pub next_x: [f32; FAN],
     #[allow(missing_docs)]
-    pub(crate) next_y: [f32; FAN],
+    pub next_y: [f32; FAN],
     /// e: the edge to the next point, zero where it is missing or collinear with the view.
-    pub(crate) edge_x: [f32; FAN],
+    pub edge_x: [f32; FAN],
     #[allow(missing_docs)]
-    pub(crate) edge_y: [f32; FAN],
+    pub edge_y: [f32; FAN],
     /// f: the edge before the point, zero where it is missing.
-    pub(crate) before_x: [f32; FAN],
+    pub before_x: [f32; FAN],
     #[allow(missing_docs)]
-    pub(crate) before_y: [f32; FAN],
+    pub before_y: [f32; FAN],
     /// 1 / |e|, zero with e.
     pub inverse_length: [f32; FAN],
     /// Depth of the stripe at its start (mm), [`ABSENT`] without stripe.

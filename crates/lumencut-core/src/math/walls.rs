@@ -21,7 +21,7 @@ pub(crate) struct WallRange {
     pub slack: f32,
 }
 
-/// The largest [`lean`]: beyond it one end of the segment is nearest for every pixel.
+/// The largest `lean`: beyond it one end of the segment is nearest for every pixel.
 pub const MAX_LEAN: f32 = 1e6;
 
 /// Lowers each pixel's distance (mm) from the wall, negative within, to that of the segment of slot `s`.

@@ -20,7 +20,7 @@ pub(super) struct CrView<'a> {
     projected: Vec<Projected>,
     /// Their pieces without depth and radius: the smallest key is the smallest distance.
     plane: Hierarchy,
-    pub(crate) plane_rule: Rule,
+    pub plane_rule: Rule,
     /// Their pieces with disc radii: the smallest key is the foremost disc that holds the pixel.
     discs: Hierarchy,
     disc_rule: Rule,

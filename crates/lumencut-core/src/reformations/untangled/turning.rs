@@ -28,8 +28,8 @@ const BISECTIONS: usize = 16;
 #[derive(Clone, Copy)]
 pub(super) struct Tree<'a> {
     pub pieces: &'a [Piece],
-    pub(crate) strips: &'a [Strip],
-    pub(crate) growth: &'a Growth,
+    pub strips: &'a [Strip],
+    pub growth: &'a Growth,
     /// How much wider than the lumen a hull is (mm).
     pub hull_margin: f64,
 }
@@ -45,7 +45,7 @@ pub(super) struct Turning {
     /// Within this many hull radii of a branching point, plus [`OVERLAP_EXTRA_MM`], branches may overlap.
     pub near: f64,
     /// Number of branching points where sectors did not fit, so that branches turned too much or too little.
-    pub(crate) without_room: usize,
+    pub without_room: usize,
     /// The pieces that still overlap others, or themselves.
     pub overlaps: Vec<usize>,
 }
