@@ -1,4 +1,4 @@
-//! Shaders without their comments, for what a browser loads; `shaders.rs` takes them there.
+//! Strips comments from the shaders that a browser loads; `shaders.rs` includes the result.
 
 use std::path::{Path, PathBuf};
 use std::{env, fs, io};
@@ -14,7 +14,7 @@ fn main() -> io::Result<()> {
     Ok(())
 }
 
-/// Writes the shaders of a folder without comments, except for those that name imports, and without indentation.
+/// Writes the shaders of a folder without indentation and without comments other than imports.
 fn shorten(from: &Path, to: &Path) -> io::Result<()> {
     fs::create_dir_all(to)?;
     for entry in fs::read_dir(from)? {
@@ -31,7 +31,7 @@ fn shorten(from: &Path, to: &Path) -> io::Result<()> {
     Ok(())
 }
 
-/// A line without the comment at its end; WGSL has no texts that could hold its sign.
+/// Removes the comment at the end of a line; WGSL has no string literals that could hold `//`.
 fn code(line: &str) -> &str {
     line.split("//").next().unwrap_or(line).trim_end()
 }

@@ -289,7 +289,7 @@ class Renderer:
         if not words:
             return settings
         if tree is None:
-            expected = "centerlines, around whose vessels it is"
+            expected = "a scene with centerlines"
             mend = "give centerlines, or leave the focus_vessels out"
             found = "chosen vessels for a scene without centerlines"
             raise SettingsError("focus_vessels", found, expected, mend)

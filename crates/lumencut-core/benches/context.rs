@@ -1,6 +1,4 @@
-//! The context: the sampler against a scalar loop, and every mode with and without the blocks of the volume.
-//!
-//! `cargo bench -p lumencut-core --bench context`
+//! The context: the sampler against a scalar loop, and every mode with and without block skipping.
 
 use glam::{DAffine3, DVec3};
 use lumencut_core::camera::Camera;
@@ -19,14 +17,13 @@ use lumencut_scenes::views::{fitted, on_cpu};
 use lumencut_scenes::volumes::volume;
 use lumencut_scenes::workloads::WORKLOADS;
 
-/// The side of the sampler's volume (voxels), and the rays and samples along each.
+/// Side of the sampler's volume in voxels.
 const SIDE: usize = 256;
 const PACKETS: usize = 2048;
 const SAMPLES: usize = 128;
-/// The samples of a ray that are taken together.
+/// Samples of a ray taken together.
 const STEPS: usize = 8;
 
-/// Sixteen parallel rays.
 struct Line {
     toward: [f32; 3],
     from: usize,
@@ -47,12 +44,10 @@ impl SampledRun for Line {
     }
 }
 
-/// The voxel where a packet of rays begins.
 fn base(packet: usize) -> [i32; 3] {
     [4 + (packet % 64 * 2) as i32, 3 + (packet / 64 * 2 % 64) as i32, 2]
 }
 
-/// The largest sample of each ray, summed up.
 struct ByLanes<'a, T> {
     grid: Grid,
     voxels: &'a [T],
@@ -82,7 +77,6 @@ impl<T: Voxel> Kernel for ByLanes<'_, T> {
     }
 }
 
-/// The same, one sample after the other.
 fn one_by_one<T: Voxel>(voxels: &[T], toward: [f32; 3]) -> f32 {
     let last = (SIDE - 1) as f32;
     let strides = [1, SIDE, SIDE * SIDE];
@@ -149,7 +143,6 @@ fn samplers() {
     sampler("float32", &floats, &cube(Voxels::F32(&floats)));
 }
 
-/// The modes, by their names.
 fn modes() -> Vec<(&'static str, Context)> {
     let preset = |preset: Preset| preset.transfer_function(Context::default().window);
     let blend = |gamma| Context { mode: ContextMode::Blend { gamma }, ..Context::default() };
@@ -167,7 +160,7 @@ fn modes() -> Vec<(&'static str, Context)> {
     ]
 }
 
-/// The milliseconds of one mode, every ray through the whole volume.
+/// Milliseconds of one mode with every ray through the whole volume.
 fn whole(shared: &SharedVolume, camera: &Camera, settings: &Context, skip: bool, runs: usize) -> Result<f64> {
     let work = on_cpu(camera);
     let start = vec![WHOLE; 512 * 512];
@@ -180,7 +173,6 @@ fn whole(shared: &SharedVolume, camera: &Camera, settings: &Context, skip: bool,
     result.map(|()| times.median)
 }
 
-/// Every mode from two directions, and the whole picture.
 fn workload(name: &str, phantom: &Phantom) -> Result<()> {
     let scene = Scene::new(phantom.volume()?, phantom.tree.clone());
     let shared = SharedVolume::new(phantom.volume()?, VolumeKey::default());

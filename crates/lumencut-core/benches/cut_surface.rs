@@ -1,6 +1,4 @@
 //! The cut surface (projection, distance and depth at all levels) against brute force in the same run.
-//!
-//! `cargo bench -p lumencut-core --bench cut_surface`
 
 use glam::DVec3;
 use lumencut_core::brute_force;
@@ -21,7 +19,6 @@ use lumencut_scenes::timing::{Times, head, row, time};
 use lumencut_scenes::trees::finer;
 use lumencut_scenes::views::fitted;
 
-/// Buffers of one view.
 struct Buffers {
     distance: Vec<f32>,
     depth: Vec<f32>,
@@ -33,13 +30,11 @@ fn buffers() -> Buffers {
 }
 
 impl Buffers {
-    /// What the stage `depth` writes.
     fn written(&mut self) -> (&[f32], DepthImages<'_>) {
         (&self.distance, DepthImages { depth: &mut self.depth, vessel: &mut self.vessel, sheet: &mut [] })
     }
 }
 
-/// Renders the cut surface `runs` times.
 fn cut_surface(
     renderer: &mut CpuRenderer,
     camera: &Camera,
@@ -62,7 +57,6 @@ fn cut_surface(
     (times, b)
 }
 
-/// The same by brute force.
 fn by_brute_force(renderer: &CpuRenderer, camera: &Camera, settings: &Settings) -> (Times, Buffers) {
     let mut b = buffers();
     let request = Request::new(camera, settings);
@@ -79,7 +73,7 @@ fn by_brute_force(renderer: &CpuRenderer, camera: &Camera, settings: &Settings) 
     (times, b)
 }
 
-/// The view in which a tree fits into the image, one in which it fits into 128 pixels, and one that a vessel fills.
+/// Three views: the tree fits the image, the tree fits 128 pixels, one vessel fills the image.
 fn zooms(tree: &VesselTree) -> Result<[(&'static str, Camera); 3]> {
     let fit = fitted(tree, DVec3::new(0.1, 1.0, 0.2), 512);
     let first = tree.vessels()[0].points();
@@ -88,14 +82,13 @@ fn zooms(tree: &VesselTree) -> Result<[(&'static str, Camera); 3]> {
     Ok([("fits", fit), ("in 128 pixels", away), ("one vessel", seen(first[first.len() / 2], 0.02)?)])
 }
 
-/// Hierarchy against brute force, for some instruction sets, rules and zooms.
 fn against_brute_force(name: &str, tree: &VesselTree, sets: &[Isa]) -> Result<()> {
     let nearest = Settings { level_choice: LevelChoice::Nearest, ..Settings::default() };
     let rules =
         [("default", Settings::default()), ("paper's", Settings::paper()), ("lumen first, nearest", nearest)];
     let leveled = LeveledTree::new(tree.clone());
     for (zoom, camera) in zooms(tree)? {
-        // The other rules and sets are looked at where the tree fits.
+        // The other rules and instruction sets are timed only for the view that shows the whole tree.
         let fits = zoom == "fits";
         for (rule, settings) in rules.iter().take(if fits { rules.len() } else { 1 }) {
             for &isa in if fits { sets } else { &sets[sets.len() - 1..] } {
@@ -122,7 +115,7 @@ fn against_brute_force(name: &str, tree: &VesselTree, sets: &[Isa]) -> Result<()
     Ok(())
 }
 
-/// The slowest of many directions against the median one.
+/// Compares the slowest of many directions with the median.
 fn over_directions(name: &str, tree: &VesselTree) {
     let (mut renderer, settings) = (CpuRenderer::default(), Settings::default());
     renderer.prepare(&LeveledTree::new(tree.clone()), &settings);

@@ -1,6 +1,4 @@
-//! The cut surface by the default rules beside the paper's, in turns, at several pixel spacings.
-//!
-//! `cargo bench -p lumencut-core --bench level_choice`
+//! The cut surface by the default rules and by the paper's, in alternation, at several pixel spacings.
 
 use glam::DVec3;
 use lumencut_core::camera::Camera;
@@ -15,14 +13,13 @@ use lumencut_scenes::random_tree::random_tree;
 use lumencut_scenes::timing::{head, once, row};
 use lumencut_scenes::workloads::WORKLOADS;
 
-/// How often each rule renders each view.
 const RUNS: usize = 41;
-/// What is asked for: without the distance, which the paper's rule needs all the same.
+/// Without the distance image, which the paper's rule computes anyway.
 const SURFACE: ImageSet = ImageSet::of(&[Image::Depth, Image::Vessel]);
 
 /// The medians of both rules (ms), and the median of the ratios of neighbouring runs.
 fn in_turns(scene: &Scene, camera: &Camera) -> Result<[f64; 3]> {
-    // Depth filter, leaps and all that shows the volume are left out: `workloads` measures whole frames.
+    // Without depth filter, leaps and image: `workloads` measures whole frames.
     let rules = [Settings::default(), Settings::paper()];
     let rules = rules.map(|rule| Settings { depth_filter: false, ..rule });
     let mut renderers = [CpuRenderer::default(), CpuRenderer::default()];
@@ -45,7 +42,6 @@ fn in_turns(scene: &Scene, camera: &Camera) -> Result<[f64; 3]> {
     Ok(times.map(|mut all| median(&mut all).unwrap_or(f64::NAN)))
 }
 
-/// A tree from the front and obliquely, at spacings of pixels by their names.
 fn compare(name: &str, tree: &VesselTree) -> Result<()> {
     let (low, high) = tree.bounds();
     let (center, extent) = ((low + high) * 0.5, (high - low).max_element());
@@ -54,7 +50,7 @@ fn compare(name: &str, tree: &VesselTree) -> Result<()> {
     let scene = Scene::default().with_tree(tree.clone());
     for (view, direction) in [("front", DVec3::Y), ("oblique", DVec3::new(0.5, 1.0, -0.4))] {
         for (label, spacing) in spacings {
-            // The closest view looks at a point of the first vessel.
+            // The closest view is centred on a point of the first vessel.
             let first = tree.vessels()[0].points();
             let center = if spacing < 0.1 { first[first.len() / 2] } else { center };
             let camera = Camera::new(center, direction, DVec3::Z, [512, 512], spacing)?;

@@ -1,7 +1,4 @@
-//! mpCPR and CR beside the cut surface: 512 × 512 pixels of the workloads from the front, without context, where the pixels
-//! look and what is shown there.
-//!
-//! `cargo bench -p lumencut-core --bench reformations`
+//! mpCPR, CR and the cut surface: 512 × 512 pixels of the workloads from the front, without context.
 
 use glam::DVec3;
 use lumencut_core::error::Result;
@@ -16,20 +13,18 @@ use lumencut_scenes::timing::{head, row, time};
 use lumencut_scenes::views::fitted;
 use lumencut_scenes::workloads::{ASKED, WORKLOADS};
 
-/// How often each picture is made.
 const RUNS: usize = 31;
 
-/// A method that finds where the pixels look.
 type Find<'a> = &'a dyn Fn(&LeveledTree, &Request) -> Result<Frame>;
 
-/// The median and the fastest milliseconds of finding the places, and of the whole picture.
+/// Median and fastest milliseconds of finding the positions, and of the whole picture.
 fn times(volume: &SharedVolume, tree: &LeveledTree, request: &Request, find: Find) -> [String; 2] {
     let renderer = CpuRenderer::default();
     let found = || find(tree, request).expect("a frame");
-    let told = |times: lumencut_scenes::timing::Times| format!("{:.2} ({:.2})", times.median, times.minimum);
+    let cell = |times: lumencut_scenes::timing::Times| format!("{:.2} ({:.2})", times.median, times.minimum);
     let places = time(RUNS, || drop(found()));
     let picture = time(RUNS, || drop(renderer.look(volume, found(), request).expect("a picture")));
-    [told(places), told(picture)]
+    [cell(places), cell(picture)]
 }
 
 fn compare(name: &str, phantom: &Phantom) -> Result<()> {
@@ -44,8 +39,8 @@ fn compare(name: &str, phantom: &Phantom) -> Result<()> {
     let cut = Request { images: with_leaps, ..request };
     let csr = time(RUNS, || drop(renderer.render(&surface, &cut).expect("a cut surface")));
     let whole = time(RUNS, || drop(renderer.render(&scene, &request).expect("a picture")));
-    let told = |times: lumencut_scenes::timing::Times| format!("{:.2} ({:.2})", times.median, times.minimum);
-    row([name.to_owned(), "CSR".to_owned(), told(csr), told(whole)]);
+    let cell = |times: lumencut_scenes::timing::Times| format!("{:.2} ({:.2})", times.median, times.minimum);
+    row([name.to_owned(), "CSR".to_owned(), cell(csr), cell(whole)]);
     let [places, picture] = times(volume, tree, &request, &mpcpr);
     row([name.to_owned(), "mpCPR".to_owned(), places, picture]);
     for (radius_offset, arc_threshold) in [(0.0, 150.0), (50.0, 150.0), (150.0, 300.0)] {

@@ -1,7 +1,4 @@
-//! Untangled CPR of trees of 9, 50 and 200 vessels, bent at random, 512 × 1024 pixels or about as many: laying out, and where the
-//! pixels look.
-//!
-//! `cargo bench -p lumencut-core --bench untangled`
+//! Untangled CPR of trees of 9, 50 and 200 random vessels at about 512 × 1024 pixels: layout and positions.
 
 use glam::DVec3;
 use lumencut_core::camera::Camera;
@@ -12,13 +9,11 @@ use lumencut_core::stop::NEVER;
 use lumencut_core::vessel_tree::{Vessel, VesselTree};
 use lumencut_scenes::timing::{head, row, time};
 
-/// How often each layout is made.
 const RUNS: usize = 11;
 
-/// How many pixels a picture has.
 const PIXELS: f64 = 512.0 * 1024.0;
 
-/// Directions that follow one another without a pattern: a spiral on the sphere.
+/// A spiral on the sphere.
 fn direction(n: usize) -> DVec3 {
     let z = 1.0 - 2.0 * ((n as f64 * 0.754_877_666).fract());
     let around = n as f64 * 2.399_963_229;
@@ -26,7 +21,7 @@ fn direction(n: usize) -> DVec3 {
     DVec3::new(across * around.cos(), across * around.sin(), z)
 }
 
-/// A tree whose vessels branch in two, each 40 mm long in steps of 1 mm.
+/// A binary tree of vessels, each 40 mm long in steps of 1 mm.
 fn tree(count: usize) -> Result<VesselTree> {
     let mut vessels = Vec::new();
     let mut waiting = std::collections::VecDeque::from([(DVec3::ZERO, DVec3::NEG_Z, 6.0)]);
@@ -64,14 +59,14 @@ fn main() -> Result<()> {
         let both = time(RUNS, || drop(made(spacing).and_then(|made| made.curved(NEVER)).expect("places")));
         let layout = made(spacing)?;
         let [width, height] = layout.size();
-        let told = |times: [f64; 2]| format!("{:.1} ({:.1})", times[0], times[1]);
+        let cell = |times: [f64; 2]| format!("{:.1} ({:.1})", times[0], times[1]);
         row([
             count.to_string(),
             format!("{width} × {height}"),
             layout.overlaps().len().to_string(),
-            told([laid_out.median, laid_out.minimum]),
-            told([both.median - laid_out.median, both.minimum - laid_out.minimum]),
-            told([both.median, both.minimum]),
+            cell([laid_out.median, laid_out.minimum]),
+            cell([both.median - laid_out.median, both.minimum - laid_out.minimum]),
+            cell([both.median, both.minimum]),
         ]);
     }
     Ok(())

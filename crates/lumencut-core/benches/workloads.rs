@@ -1,7 +1,4 @@
-//! Table 2 of the paper: each stage on the three workloads, 512 × 512 pixels, by the default rules and by the paper's,
-//! beside the paper's figures.
-//!
-//! `cargo bench -p lumencut-core --bench workloads`
+//! Table 2 of the paper: each stage on the three workloads at 512 × 512 pixels, next to the paper's figures.
 
 use glam::DVec3;
 use lumencut_core::error::Result;
@@ -13,8 +10,7 @@ use lumencut_scenes::timing::{StageTimes, head, once, row, stage_medians};
 use lumencut_scenes::views::fitted;
 use lumencut_scenes::workloads::{ASKED, PAPER_STAGES, PaperStage, WORKLOADS};
 
-/// The median milliseconds of each stage of 31 views from the front, without context: by the default rules, and by the
-/// paper's.
+/// Median milliseconds of each stage over 31 frontal views without context: default rules, paper's rules.
 fn stages(phantom: &Phantom) -> Result<[StageTimes; 2]> {
     let scene = Scene::new(phantom.volume()?, phantom.tree.clone());
     let camera = fitted(&phantom.tree, DVec3::Y, 512);
@@ -27,7 +23,6 @@ fn stages(phantom: &Phantom) -> Result<[StageTimes; 2]> {
     Ok([of(Settings::default())?, of(Settings::paper())?])
 }
 
-/// Milliseconds by both rules and, where there are, those of the paper.
 fn cell(times: &[StageTimes; 2], stage: &str, paper: f64) -> String {
     let [own, papers] =
         times.each_ref().map(|times| times.get(stage).map_or("–".to_owned(), |time| format!("{time:.2}")));

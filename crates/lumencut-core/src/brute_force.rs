@@ -1,5 +1,4 @@
-//! The reference: every pixel against every piece of every level it needs. Vectorised and parallel like the
-//! product, without its hierarchy; for tests and benches only.
+//! The reference for tests and benches: every pixel against every piece, parallel but without the hierarchy.
 
 use crate::error::Result;
 use crate::math::cost::Rule;
@@ -15,9 +14,6 @@ use crate::stages::depth::{CutSurface, DepthImages, Search, depth_by};
 use crate::stages::distance::{Measure, distance_by};
 
 /// [`crate::stages::distance::distance`] against every segment.
-///
-/// # Errors
-/// [`crate::error::ErrorKind::Interrupted`].
 pub fn distance(work: &Work, surface: &CutSurface, distance: &mut [f32]) -> Result<()> {
     distance_by(work, surface, distance, || EverySegment(surface.finest()))
 }
@@ -66,9 +62,6 @@ impl Search for EveryPiece<'_> {
 }
 
 /// [`crate::stages::depth::depth`] against every piece.
-///
-/// # Errors
-/// [`crate::error::ErrorKind::Interrupted`].
 pub fn depth(work: &Work, surface: &CutSurface, distance: &[f32], images: DepthImages) -> Result<()> {
     depth_by(work, surface, distance, images, || EveryPiece(surface))
 }

@@ -5,14 +5,13 @@ use glam::DVec3;
 use crate::error::{Error, ErrorKind, Result};
 use crate::vessel_tree::MAX_COORDINATE;
 
-/// The most pixels along one side of an image.
-pub const MAX_SIZE: usize = 32_768;
+pub(crate) const MAX_SIZE: usize = 32_768;
 
 /// The most pixels of an image: their buffers take a few gigabytes.
 pub const MAX_PIXELS: usize = 1 << 27;
 
-/// The largest pixel spacing (mm): with it, no view reaches as far as the kernels' sentinels.
-pub const MAX_PIXEL_SPACING: f64 = 1e4;
+/// The largest pixel spacing (mm); it keeps every view within the kernels' sentinels.
+pub(crate) const MAX_PIXEL_SPACING: f64 = 1e4;
 
 /// An orthographic view: x right, y up, z away from the viewer, origin at `center`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,11 +26,9 @@ pub struct Camera {
 
 impl Camera {
     /// A camera that looks along `direction` with `up` upwards, `size` = (width, height) pixels of
-    /// `pixel_spacing` mm. `up` need not be perpendicular to `direction`.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Camera`] for vectors that are not finite, zero or parallel, an empty or oversized
-    /// image, or a pixel spacing that is not positive and finite.
+    /// `pixel_spacing` mm. `up` need not be perpendicular to `direction`. Fails with [`ErrorKind::Camera`]
+    /// for vectors that are not finite, zero or parallel, an empty or oversized image, or a pixel spacing
+    /// that is not positive and finite.
     pub fn new(
         center: DVec3,
         direction: DVec3,
@@ -53,11 +50,11 @@ impl Camera {
             return wrong(
                 "direction of the camera",
                 format!("{direction}"),
-                "a finite vector that is not zero",
+                "a finite vector other than zero",
             );
         };
         let Some(unit_up) = up.try_normalize() else {
-            return wrong("up of the camera", format!("{up}"), "a finite vector that is not zero");
+            return wrong("up of the camera", format!("{up}"), "a finite vector other than zero");
         };
         let across = unit.cross(unit_up);
         if across.length() < 1e-6 {
@@ -82,11 +79,8 @@ impl Camera {
         Ok(Self { center, direction: unit, right, up: right.cross(unit), size, pixel_spacing })
     }
 
-    /// The same view with unit vectors that were kept of it elsewhere, taken to the last bit: normalising them once
-    /// more could change it.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Camera`] for vectors that are not the camera's own but for rounding.
+    /// The same view with stored unit vectors, kept to the bit: normalising them again could change them.
+    /// Fails with [`ErrorKind::Camera`] for vectors that differ from the camera's own by more than rounding.
     pub fn with_axes(self, direction: DVec3, right: DVec3, up: DVec3) -> Result<Self> {
         let kept = Self { direction, right, up, ..self };
         let pairs = [(direction, self.direction), (right, self.right), (up, self.up)];
@@ -98,7 +92,7 @@ impl Camera {
         Ok(kept)
     }
 
-    /// The origin of view space (mm, LPS), in the middle of the image at depth 0.
+    /// Origin of view space (mm, LPS): the middle of the image at depth 0.
     pub fn center(&self) -> DVec3 {
         self.center
     }

@@ -1,5 +1,4 @@
-//! What can go wrong, and the words for it: every error names its subject, what was found, what was
-//! expected, and what would mend it.
+//! Errors in one form: subject, what was found, what was expected, and what mends it.
 
 use std::fmt;
 
@@ -10,26 +9,26 @@ pub use crate::mend::Mend;
 /// The cause of an [`Error`]; each has its own exception class in Python.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum ErrorKind {
-    /// A volume whose voxels or geometry cannot be used.
+    /// Voxels or geometry of a volume are unusable.
     Volume,
-    /// A vessel or vessel tree whose points or radii cannot be used.
+    /// Points or radii of a vessel or vessel tree are unusable.
     VesselTree,
-    /// A camera that defines no view.
+    /// The camera defines no view.
     Camera,
-    /// A setting outside its range.
+    /// A setting is outside its range.
     Settings,
-    /// A GPU that is not there, too small for the work, or failed.
+    /// The GPU is missing, too small or failed.
     Device,
-    /// Points between which no centerline can be traced.
+    /// No centerline can be traced between the points.
     Tracing,
-    /// A vessel whose lumen cannot be measured, or a place on it for which a number would be meaningless.
+    /// The lumen cannot be measured, or a number at this position would be meaningless.
     Measuring,
     /// The caller asked to stop.
     Interrupted,
 }
 
 impl ErrorKind {
-    /// Every kind, for tests that each of them can be met.
+    /// Every kind, for tests.
     pub const ALL: [ErrorKind; 8] = [
         ErrorKind::Volume,
         ErrorKind::VesselTree,
@@ -44,26 +43,26 @@ impl ErrorKind {
 
 /// Where an error shows in the volume.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Place {
-    /// The place (mm, LPS).
+pub struct ErrorPosition {
+    /// Position (mm, LPS).
     pub point: DVec3,
-    /// The value of the volume there; NaN outside of it.
+    /// The value of the volume there; NaN outside the volume.
     pub value: f64,
 }
 
-/// Which of the clicked points an error is about; the subject tells the same in words.
+/// Which of the clicked points an error is about; the subject names the same in words.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Clicked {
     /// All points of the vessel with this number, from 0.
     Vessel(usize),
     /// One point of a vessel, both counted from 0.
     Point {
-        /// The number of the vessel.
+        /// Index of the vessel.
         vessel: usize,
-        /// The number of the point along it.
+        /// Index of the point along it.
         point: usize,
     },
-    /// A point of no vessel yet.
+    /// A point that belongs to no vessel yet.
     Single,
 }
 
@@ -76,20 +75,20 @@ pub struct Error {
     pub subject: String,
     /// What was found.
     pub found: String,
-    /// What was expected instead.
+    /// What was expected.
     pub expected: String,
-    /// Advice that no host acts on; empty where `expected` already says so.
+    /// Advice without an action in a host; empty where `expected` already says it.
     pub mend: String,
-    /// What mends it beside the advice, for hosts to offer in their own words.
+    /// A mend besides the advice, which hosts word and offer themselves.
     pub mended_by: Option<Mend>,
-    /// Where it shows in the volume: of a path without lumen the weakest place, of a point outside of the lumen that point.
-    pub place: Option<Box<Place>>,
-    /// Which of the clicked points it is about.
+    /// Position in the volume: the weakest point of a path without lumen, or the point outside the lumen.
+    pub place: Option<Box<ErrorPosition>>,
+    /// The clicked points it is about.
     pub clicked: Option<Box<Clicked>>,
 }
 
 impl Error {
-    /// An error without a mend of its own.
+    /// An error without a mend.
     pub fn new(
         kind: ErrorKind,
         subject: impl Into<String>,
@@ -108,31 +107,31 @@ impl Error {
         }
     }
 
-    /// The same error with advice that no host acts on.
+    /// Adds advice without an action in a host.
     #[must_use]
     pub fn mend(mut self, mend: impl Into<String>) -> Self {
         self.mend = mend.into();
         self
     }
 
-    /// The same error with a mend that hosts offer in their own words.
+    /// Adds a mend that hosts word and offer themselves.
     #[must_use]
     pub fn mended_by(mut self, mend: Mend) -> Self {
         self.mended_by = Some(mend);
         self
     }
 
-    /// The same error with the clicked points that it is about.
+    /// Adds the clicked points that the error is about.
     #[must_use]
     pub fn about(mut self, clicked: Clicked) -> Self {
         self.clicked = Some(Box::new(clicked));
         self
     }
 
-    /// The same error with the place (mm, LPS) where it shows in the volume, and the value there.
+    /// Adds the position (mm, LPS) where the error shows, and the value of the volume there.
     #[must_use]
     pub fn at(mut self, point: DVec3, value: f64) -> Self {
-        self.place = Some(Box::new(Place { point, value }));
+        self.place = Some(Box::new(ErrorPosition { point, value }));
         self
     }
 

@@ -1,4 +1,4 @@
-//! What a rendering leaves behind, pixel by pixel, row 0 on top.
+//! The result of a rendering: one image per quantity, row 0 on top.
 
 use crate::geometry::Geometry;
 use crate::stages::focus::Shares;
@@ -7,17 +7,16 @@ use crate::stages::{Image, ImageSet};
 /// How long one stage took.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Timing {
-    /// The stage's name, the same as its room's.
+    /// Name of the stage, the same as its module's.
     pub stage: &'static str,
     /// Wall time (ms).
     pub milliseconds: f64,
 }
 
-/// The images of one view; every buffer has `width × height` entries in rows from the top, or none where the view does
-/// not have the image.
+/// The images of one view: `width × height` entries in rows from the top; a missing image is empty.
 #[derive(Clone, Debug)]
 pub struct Frame {
-    /// Where the pixels look, with the depth of the cut surface.
+    /// The position of every pixel, with the depth of the cut surface.
     pub geometry: Geometry,
     /// RGBA.
     pub image: Vec<[u8; 4]>,
@@ -25,23 +24,22 @@ pub struct Frame {
     pub vessel: Vec<i32>,
     /// Where the cut surface leaps ([`crate::stages::leap`]).
     pub leap: Vec<u32>,
-    /// How much of the cut surface and of its silhouettes each pixel shows ([`crate::stages::focus`]); empty where all of both is
-    /// shown.
+    /// Shown shares of cut surface and silhouettes ([`crate::stages::focus`]); empty where all is shown.
     pub focus: Vec<Shares>,
     /// Projected distance to the nearest centerline (mm).
     pub distance: Vec<f32>,
     /// The volume at the cut surface, NaN outside the volume.
     pub value: Vec<f32>,
-    /// The context alone, RGBA with straight alpha; transparent where none was needed, empty without a context.
+    /// The context alone, RGBA with straight alpha; transparent where not needed, empty without a context.
     pub context: Vec<[u8; 4]>,
-    /// Whether other points of the vessel share the pixel's place, by a reformation; empty by others.
+    /// For reformations: whether other points of the vessel share the pixel. Otherwise empty.
     pub folded: Vec<bool>,
     /// How long each stage took, in the order they ran.
     pub timings: Vec<Timing>,
 }
 
 impl Frame {
-    /// A frame that so far knows only where it looks.
+    /// A frame with positions and no images yet.
     pub fn of(geometry: Geometry) -> Self {
         Self {
             geometry,
@@ -67,7 +65,7 @@ impl Frame {
         self.geometry.depth()
     }
 
-    /// Counts the time of stages that ran once more, each to its own.
+    /// Adds the times of stages that ran again.
     pub fn count(&mut self, timings: &[Timing]) {
         for more in timings {
             match self.timings.iter_mut().find(|known| known.stage == more.stage) {
@@ -77,7 +75,7 @@ impl Frame {
         }
     }
 
-    /// The images that it has.
+    /// The images that the frame has.
     pub fn images(&self) -> ImageSet {
         let present = [
             (Image::Picture, !self.image.is_empty()),
@@ -93,14 +91,14 @@ impl Frame {
         there.fold(ImageSet::of(&[]), |images, (image, _)| images.and(ImageSet::of(&[image])))
     }
 
-    /// The same frame whose picture is transparent where it has no value, whatever the background.
+    /// Makes the picture transparent where it has no value, independent of the background.
     #[must_use]
     pub fn transparent_outside(mut self) -> Self {
         clear_outside(&mut self.image, &self.value);
         self
     }
 
-    /// The same frame with those of its images that are among `wanted`.
+    /// Drops the images that are not in `wanted`.
     #[must_use]
     pub fn keeping(mut self, wanted: ImageSet) -> Self {
         fn keep<T>(pixels: &mut Vec<T>, is_wanted: bool) {
@@ -122,8 +120,7 @@ impl Frame {
     }
 }
 
-/// Makes the pixels of a picture transparent where there is no value.
-pub fn clear_outside(image: &mut [[u8; 4]], value: &[f32]) {
+pub(crate) fn clear_outside(image: &mut [[u8; 4]], value: &[f32]) {
     let outside = image.iter_mut().zip(value).filter(|(_, value)| value.is_nan());
     outside.for_each(|(pixel, _)| *pixel = [0; 4]);
 }

@@ -1,22 +1,21 @@
-//! Where the pixels of a view look. What is shown there (`pipeline.rs`, `look`) does not ask which method found it.
+//! Position of every pixel in world space, independent of the method that found it.
 
 use glam::{DVec3, Vec3};
 
 use crate::camera::Camera;
 use crate::error::{Error, ErrorKind, Result};
 
-/// Where every pixel of a view looks in world space.
+/// Position of every pixel in world space.
 #[derive(Clone, Debug)]
 pub enum Geometry {
     /// Along the rays of an orthographic camera.
     Orthographic {
         /// The view.
         camera: Camera,
-        /// The depth of the cut surface in each pixel (mm); empty where there is no cut surface, so that every ray crosses
-        /// the whole volume.
+        /// Depth of the cut surface in each pixel (mm); if empty, every ray crosses the whole volume.
         depth: Vec<f32>,
     },
-    /// At a place of its own for every pixel.
+    /// One position per pixel.
     Curved(Curved),
 }
 
@@ -42,7 +41,7 @@ impl Geometry {
         }
     }
 
-    /// The depth of the cut surface (mm); empty where there is no camera or no cut surface.
+    /// Depth of the cut surface (mm); empty without a camera or a cut surface.
     pub fn depth(&self) -> &[f32] {
         match self {
             Self::Orthographic { depth, .. } => depth,
@@ -50,7 +49,7 @@ impl Geometry {
         }
     }
 
-    /// Whether pixels have a place of their own: not so where every ray crosses the whole volume.
+    /// Whether pixels have a position; false where every ray crosses the whole volume.
     pub fn has_surface(&self) -> bool {
         match self {
             Self::Orthographic { depth, .. } => !depth.is_empty(),
@@ -59,7 +58,7 @@ impl Geometry {
     }
 }
 
-/// A place for every pixel of an image that no camera looks at, such as a vessel that is laid out straight.
+/// One position per pixel of an image without a camera, such as a straightened vessel.
 #[derive(Clone, Debug)]
 pub struct Curved {
     size: [usize; 2],
@@ -68,11 +67,10 @@ pub struct Curved {
 }
 
 impl Curved {
-    /// The world point of every pixel (mm, LPS), row by row from the top, and the unit vector along which a slab at this
-    /// pixel is thick. A point that is not finite shows nothing.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Camera`] where `size` has no pixels, or the points or directions are not one for each pixel.
+    /// `position` holds the world point of every pixel (mm, LPS), row by row from the top, and
+    /// `slab_direction` the unit vector along which a slab there is thick. A point that is not finite shows
+    /// nothing. Fails with [`ErrorKind::Camera`] if `size` has no pixels or does not match the number of
+    /// points or directions.
     pub fn new(size: [usize; 2], position: Vec<DVec3>, slab_direction: Vec<Vec3>) -> Result<Self> {
         let pixels = size[0] * size[1];
         if pixels == 0 || position.len() != pixels || slab_direction.len() != pixels {
@@ -81,7 +79,7 @@ impl Curved {
                 position.len(),
                 slab_direction.len()
             );
-            let expected = "one point and one direction for each pixel, of which there is at least one";
+            let expected = "at least one pixel, with one point and one direction each";
             return Err(Error::new(ErrorKind::Camera, "curved geometry", found, expected));
         }
         Ok(Self { size, position, slab_direction })

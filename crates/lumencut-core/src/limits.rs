@@ -14,10 +14,8 @@ pub struct Limits {
 }
 
 impl Limits {
-    /// The largest intensity of a window, an opacity or a control point.
-    pub const LARGEST_INTENSITY: f64 = 1e12;
-    /// Intensities, in the unit of the volume.
-    pub const INTENSITY: Self =
+    pub(crate) const LARGEST_INTENSITY: f64 = 1e12;
+    pub(crate) const INTENSITY: Self =
         Self::new(-Self::LARGEST_INTENSITY, Self::LARGEST_INTENSITY, "units of intensity");
 
     /// From `low` to `high`, both included.
@@ -25,10 +23,7 @@ impl Limits {
         Self { low, high, unit }
     }
 
-    /// Checks the value of what is called `name`.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Settings`] for a number outside, NaN too.
+    /// Checks the parameter `name`. Fails with [`ErrorKind::Settings`] for a number outside or NaN.
     pub fn check(&self, name: &str, value: f64) -> Result<()> {
         let &Self { low, high, unit } = self;
         if value >= low && value <= high {

@@ -1,26 +1,26 @@
-//! What mends an error, where a host can do it or says it in words of its own.
+//! What mends an error, if a host can do it or words it itself.
 
 use std::fmt;
 
-/// A step that mends an [`Error`](crate::error::Error). Each host words it in its own way: as arguments of Python, as options
-/// of the command line, as buttons of a page. The words of [`fmt::Display`] are for programs in Rust.
+/// A step that mends an [`Error`](crate::error::Error). Each host words it: as Python arguments, command-line
+/// options or buttons. The words of [`fmt::Display`] are for Rust programs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Mend {
-    /// Bridge the stretch between two points that does not look like lumen.
+    /// Bridge a stretch between two points that does not look like lumen.
     Bridge,
     /// Take every second voxel along each axis, which needs an eighth of the memory.
     EverySecond,
     /// Compute on the CPU.
     Cpu,
-    /// State the windows, which the data do not give.
+    /// Set the windows, which the data do not contain.
     Windows,
     /// Compare the values of a mask with a threshold.
     Threshold,
     /// Ask for fewer pixels: larger ones, or a narrower picture.
     FewerPixels,
-    /// Look at the vessels that were found but are doubtful.
+    /// Inspect the vessels that were found but are doubtful.
     Doubtful,
-    /// Look for thinner vessels too.
+    /// Also search for thinner vessels.
     SmallerRadius,
 }
 
@@ -37,7 +37,7 @@ impl Mend {
         Self::SmallerRadius,
     ];
 
-    /// The name by which every host knows it.
+    /// The name that every host uses.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Bridge => "bridge",
@@ -55,14 +55,14 @@ impl Mend {
 impl fmt::Display for Mend {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
-            Self::Bridge => "ask for a bridge where it is occluded",
-            Self::EverySecond => "take every second voxel along each axis, an eighth of all",
+            Self::Bridge => "allow a bridge across the occlusion",
+            Self::EverySecond => "take every second voxel along each axis (an eighth of the memory)",
             Self::Cpu => "compute with the device 'cpu'",
-            Self::Windows => "state the windows where they stand for nothing",
+            Self::Windows => "set the windows, which the data do not contain",
             Self::Threshold => "compare the values with a threshold first",
-            Self::FewerPixels => "larger pixels or a smaller width make fewer",
-            Self::Doubtful => "look at the doubtful ones",
-            Self::SmallerRadius => "ask for a smaller radius",
+            Self::FewerPixels => "choose larger pixels or a smaller width",
+            Self::Doubtful => "inspect the doubtful vessels",
+            Self::SmallerRadius => "choose a smaller radius",
         })
     }
 }

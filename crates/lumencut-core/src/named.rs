@@ -2,12 +2,12 @@
 
 use crate::error::{Error, ErrorKind, Result};
 
-/// Values that have names, the same in Python, on the command line and in a browser.
+/// Values with names, the same in Python, on the command line and in a browser.
 pub trait Named: Copy + PartialEq + 'static {
-    /// Each value with its name, in the order to show them to users.
+    /// Each value with its name, in display order.
     const NAMES: &'static [(&'static str, Self)];
 
-    /// The names, in the order to show them to users.
+    /// The names, in display order.
     fn names() -> Vec<&'static str> {
         Self::NAMES.iter().map(|(name, _)| *name).collect()
     }
@@ -17,10 +17,7 @@ pub trait Named: Copy + PartialEq + 'static {
         Self::NAMES.iter().find(|(_, value)| *value == self).map_or("", |(name, _)| *name)
     }
 
-    /// The value that is called `name`; `subject` is what it is chosen for.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Settings`] for any other name.
+    /// The value called `name` for `subject`. Fails with [`ErrorKind::Settings`] for any other name.
     fn named(subject: &str, name: &str) -> Result<Self> {
         if let Some((_, value)) = Self::NAMES.iter().find(|(known, _)| *known == name) {
             return Ok(*value);

@@ -1,7 +1,7 @@
 //! The method from end to end: the stages in the order of the paper's Fig. 4.
 //!
-//! `cut_surface` finds where the pixels look, `look` shows what is there. A reformation that finds its places in another
-//! way brings its own geometry and shares `look`.
+//! `cut_surface` finds the position of every pixel, `look` shows what is there. A reformation brings its own
+//! geometry and shares `look`.
 
 mod clock;
 mod details;
@@ -33,31 +33,29 @@ use crate::stages::depth::{CutSurface, Sheet};
 use crate::stages::{Image, ImageSet, Stage, Work};
 use crate::stop::Stop;
 
-/// What is asked for: a view of a scene.
+/// A view of a scene to render.
 #[derive(Clone, Copy)]
 pub struct Request<'a> {
     /// The view.
     pub camera: &'a Camera,
     /// How it is made and shown.
     pub settings: &'a Settings,
-    /// The images that the frame is to have, where the view has them.
+    /// The images that the frame shall have, if the view has them.
     pub images: ImageSet,
     /// Whether to stop.
     pub stop: Stop<'a>,
-    /// Where to tell how far the view is.
+    /// Receives the progress of the view.
     pub progress: Option<&'a Progress>,
 }
 
 impl<'a> Request<'a> {
-    /// All images of a view, without a way to stop or to tell how far it is.
+    /// All images of a view, without stop or progress.
     pub fn new(camera: &'a Camera, settings: &'a Settings) -> Self {
         Self { camera, settings, images: ImageSet::ALL, stop: &|| false, progress: None }
     }
 
-    /// The settings as they are for the vessels of the scene, checked.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Settings`] for a setting outside its range, or a focus or chosen vessels that are not there.
+    /// The settings adapted to the vessels of the scene, checked. Fails with [`ErrorKind::Settings`] for a
+    /// setting outside its range, or a focus or chosen vessel that the scene lacks.
     pub fn settings_for(&self, scene: &Scene) -> Result<Cow<'a, Settings>> {
         self.settings.check()?;
         if let Some(tree) = &scene.tree {
@@ -67,18 +65,17 @@ impl<'a> Request<'a> {
             return Ok(Cow::Borrowed(self.settings));
         };
         let found = format!("{what} for a scene without centerlines");
-        Err(Error::new(ErrorKind::Settings, setting, found, "centerlines, around whose vessels it is")
+        Err(Error::new(ErrorKind::Settings, setting, found, "a scene with centerlines")
             .mend(format!("give centerlines, or leave the {setting} out")))
     }
 
-    /// The same without the picture where the scene has no volume to show: nothing is made for it then.
+    /// Removes the picture if the scene has no volume to show.
     #[must_use]
     pub fn without_unseen_picture(self, scene: &Scene) -> Self {
         let images = if scene.volume.is_some() { self.images } else { self.images.without(Image::Picture) };
         Self { images, ..self }
     }
 
-    /// Tells that the view begins on the CPU, and by which stages.
     fn begin_view(&self, scene: &Scene) {
         let Some(progress) = self.progress else { return };
         let asked = self.without_unseen_picture(scene).images;
@@ -102,15 +99,15 @@ impl<'a> Request<'a> {
     }
 }
 
-/// Renders views on the CPU. It keeps the buffers that hold a projected tree, and that of the sheet, from view to view; all
-/// else belongs to the scenes.
+/// Renders views on the CPU. It keeps the buffers of the projected tree and of the sheet from view to view;
+/// scenes own everything else.
 #[derive(Debug)]
 pub struct CpuRenderer {
     levels: Arc<Vec<Level>>,
     projected: Vec<ProjectedLevel>,
-    /// The vessels that come before all others in them.
+    /// The vessels that take precedence in them.
     first: Vec<usize>,
-    /// The sheet of the view before: the largest of the images that no frame keeps.
+    /// The sheet of the previous view: the largest image that no frame keeps.
     sheet: Vec<Sheet>,
     isa: Isa,
 }
@@ -127,12 +124,9 @@ impl CpuRenderer {
         Self { levels: Arc::default(), projected: Vec::new(), first: Vec::new(), sheet: Vec::new(), isa }
     }
 
-    /// One view of a scene: the whole picture; without a volume the cut surface alone, and without a tree the context
-    /// alone. `Settings::samples` is not read here: hosts average several pictures.
-    ///
-    /// # Errors
-    /// Those of [`Request::settings_for`], [`ErrorKind::Volume`] for a scene without volume and tree,
-    /// [`ErrorKind::Interrupted`] once the caller asks to stop.
+    /// Renders one view of a scene: without a volume the cut surface alone, without a tree the context alone.
+    /// `Settings::samples` does not apply here: hosts average several pictures. Fails with those of
+    /// [`Request::settings_for`], [`ErrorKind::Volume`] for a scene without volume and tree.
     pub fn render(&mut self, scene: &Scene, request: &Request) -> Result<Frame> {
         let settings = request.settings_for(scene)?;
         let request = &Request { settings: &settings, ..*request };
@@ -148,10 +142,7 @@ impl CpuRenderer {
         }
     }
 
-    /// The details of the cut surface of one view; of the request the images do not count.
-    ///
-    /// # Errors
-    /// As [`CpuRenderer::render`].
+    /// The details of the cut surface; ignores the images of the request. Fails as [`CpuRenderer::render`].
     pub fn details(&mut self, tree: &LeveledTree, request: &Request) -> Result<SurfaceDetails> {
         request.settings.check()?;
         let settings = &*request.settings.for_vessels(tree.tree().vessels().len())?;
@@ -160,18 +151,14 @@ impl CpuRenderer {
         SurfaceDetails::of(&self.pass(&Request { settings, images: SurfaceDetails::WANTED, ..*request }))
     }
 
-    /// The strength of the silhouettes of a frame that a reformation made, 0 to 1, as if all of it showed something. Its request
-    /// asked for [`crate::stages::Image::Leap`].
-    ///
-    /// # Errors
-    /// [`ErrorKind::Interrupted`] once the caller asks to stop.
+    /// Strength of the silhouettes of a reformation's frame with [`crate::stages::Image::Leap`], 0 to 1,
+    /// unmasked.
     pub fn strength(&self, frame: &Frame, request: &Request) -> Result<Vec<f32>> {
         let &Request { camera, settings, stop, .. } = request;
         let work = Work { size: frame.size(), isa: self.isa, stop, progress: None };
         Lines::of(frame).strength(&work, settings, camera)
     }
 
-    /// Where the pixels of a view look: depth, vessel and distance of the cut surface.
     fn cut_surface(&mut self, tree: &LeveledTree, request: &Request) -> Result<Frame> {
         let mut clock = Clock::start();
         let mut images = Images { sheet: std::mem::take(&mut self.sheet), ..Images::default() };
@@ -189,11 +176,8 @@ impl CpuRenderer {
         Ok(images.into_cut_surface(*request.camera, clock.timings))
     }
 
-    /// Shows the volume where a frame's geometry looks: values, silhouettes, context, picture. Frames of any method are
-    /// shown in this way; of the request only settings, images and the way to stop count.
-    ///
-    /// # Errors
-    /// As [`CpuRenderer::render`].
+    /// Shows the volume at the positions of a frame of any method: values, silhouettes, context, picture. Of
+    /// the request only settings, images and stop apply. Fails as [`CpuRenderer::render`].
     pub fn look(&self, volume: &SharedVolume, frame: Frame, request: &Request) -> Result<Frame> {
         request.settings.check()?;
         self.show(volume, frame, request)
@@ -213,8 +197,7 @@ impl CpuRenderer {
         Ok(images.into_frame(frame, clock.timings).keeping(request.images))
     }
 
-    /// Takes over the levels of a tree that is another one than in the view before, or smoothed in another way, or shown
-    /// with more levels, and the vessels that come before all others.
+    /// Takes over the levels of a tree if it, their number, smoothing or chosen vessels changed.
     pub fn prepare(&mut self, tree: &LeveledTree, settings: &Settings) {
         let levels = tree.levels(settings.levels, settings.centerline_smoothing);
         if !Arc::ptr_eq(&self.levels, &levels) {
@@ -230,7 +213,7 @@ impl CpuRenderer {
         }
     }
 
-    /// Projects the levels into the view of `camera`, once they are prepared.
+    /// Projects the prepared levels into the view of `camera`.
     pub fn project(&mut self, camera: &Camera, settings: &Settings) {
         let (levels, projected) = (&self.levels, &mut self.projected[..=settings.levels]);
         projected
@@ -239,7 +222,7 @@ impl CpuRenderer {
             .for_each(|(projected, level)| projected.project(level, camera, Radii::new(settings)));
     }
 
-    /// What the stages of the cut surface read, once the levels are projected into the view.
+    /// The input of the cut-surface stages, once the levels are projected.
     pub fn pass<'a>(&'a self, request: &Request<'a>) -> CutSurfacePass<'a> {
         let &Request { camera, settings, images, stop, progress } = request;
         let (levels, projected) = (&self.levels[..=settings.levels], &self.projected[..=settings.levels]);
@@ -253,10 +236,8 @@ impl CpuRenderer {
     }
 }
 
-/// The picture of values in the window and opacity of `settings`, over their background; transparent where the value is NaN.
-///
-/// # Errors
-/// [`ErrorKind::Settings`] for a setting outside its range, [`ErrorKind::Interrupted`] once the caller asks to stop.
+/// The picture of values in the window and opacity of `settings`, over their background; transparent where
+/// the value is NaN. Fails with [`ErrorKind::Settings`] for a setting outside its range.
 pub fn picture(value: &[f32], size: [usize; 2], (settings, stop): (&Settings, Stop)) -> Result<Vec<[u8; 4]>> {
     settings.check()?;
     let work = Work { size, isa: Isa::widest(), stop, progress: None };
@@ -267,7 +248,7 @@ pub fn picture(value: &[f32], size: [usize; 2], (settings, stop): (&Settings, St
     Ok(image)
 }
 
-/// An error for a scene of nothing.
+/// The error for an empty scene.
 pub fn nothing_to_show() -> Error {
     let found = "neither a volume nor vessels";
     Error::new(ErrorKind::Volume, "scene of the renderer", found, "one of them or both")

@@ -1,15 +1,13 @@
-//! How far views are, for whoever watches them from another thread.
+//! The progress of views, read from another thread.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// How far the views are that one call renders. The CPU tells it stage by stage and pixel by pixel; of a view on a GPU
-/// nothing is known before it is whole.
+/// The progress of the views of one call. The CPU reports it per stage and pixel, a GPU only per view.
 #[derive(Debug, Default)]
 pub struct Progress {
-    /// How many views there are to render, and how many are whole.
     views: AtomicU64,
     whole: AtomicU64,
-    /// The cost of all stages of the view, of those that ended, and of the one that runs, for each pixel.
+    /// Cost per pixel of all stages of the view, of those that ended, and of the one that runs.
     planned: AtomicU64,
     ended: AtomicU64,
     running: AtomicU64,
@@ -19,13 +17,13 @@ pub struct Progress {
 }
 
 impl Progress {
-    /// So many views follow.
+    /// Announces the number of views.
     pub fn expect_views(&self, count: usize) {
         set(&self.views, count);
         set(&self.whole, 0);
     }
 
-    /// A view of this number of pixels begins, whose stages have these costs for each pixel.
+    /// Begins a view of this number of pixels whose stages have these costs per pixel.
     pub fn begin_view(&self, costs: impl Iterator<Item = usize>, pixels: usize) {
         for number in [&self.ended, &self.running, &self.begun] {
             set(number, 0);
@@ -34,26 +32,25 @@ impl Progress {
         set(&self.planned, costs.sum());
     }
 
-    /// A stage of this cost for each pixel begins; the one before has ended.
+    /// Ends the last stage and begins one of this cost per pixel.
     pub fn begin_stage(&self, cost: usize) {
         self.begun.store(0, Ordering::Relaxed);
         self.ended.fetch_add(self.running.load(Ordering::Relaxed), Ordering::Relaxed);
         set(&self.running, cost);
     }
 
-    /// The stage has begun this number of further pixels.
+    /// Counts further pixels that the stage has begun.
     pub fn begin_pixels(&self, count: usize) {
         self.begun.fetch_add(count as u64, Ordering::Relaxed);
     }
 
-    /// The view is whole.
+    /// Ends the view.
     pub fn end_view(&self) {
         set(&self.planned, 0);
         self.whole.fetch_add(1, Ordering::Relaxed);
     }
 
-    /// The share of all work that is done, 0 to 1. Stages count as much as they usually take, so it is about that of the
-    /// time.
+    /// The finished share of all work, 0 to 1, weighted by the usual time of the stages.
     pub fn share(&self) -> f64 {
         let [views, whole, planned, ended, running, pixels, begun] =
             [&self.views, &self.whole, &self.planned, &self.ended, &self.running, &self.pixels, &self.begun]
@@ -87,7 +84,7 @@ mod tests {
                 shares.push(progress.share());
                 progress.begin_pixels(25);
                 shares.push(progress.share());
-                // More pixels than there are, such as those of tiles that reach beyond the view, count as all.
+                // Surplus pixels, such as those of tiles that reach beyond the view, are capped.
                 progress.begin_pixels(30);
             }
             progress.end_view();

@@ -1,4 +1,4 @@
-//! What a view shows: a volume that all renderers share, and a tree that can be exchanged without touching the volume.
+//! What a view shows: a volume that all renderers share, and a tree that can be exchanged independently.
 
 use std::sync::{Arc, Mutex, OnceLock, PoisonError, Weak};
 
@@ -13,37 +13,36 @@ use crate::stop::Stop;
 use crate::vessel_tree::VesselTree;
 use crate::volume::Volume;
 
-/// What is shown. A scene is cheap to make and to clone: whatever takes time is kept behind it, by the [`VolumeKey`] and
-/// by the [`LeveledTree`].
+/// What is shown. Cloning is cheap: the [`VolumeKey`] and the [`LeveledTree`] keep what takes time.
 #[derive(Clone, Debug, Default)]
 pub struct Scene<'a> {
-    /// The volume; without it only the cut surface can be made.
+    /// The volume; without it only the cut surface can be rendered.
     pub volume: Option<SharedVolume<'a>>,
     /// The tree; without it only the context of the volume can be shown.
     pub tree: Option<Arc<LeveledTree>>,
 }
 
 impl<'a> Scene<'a> {
-    /// A volume and a tree that was not used before.
+    /// A scene of a new volume and a new tree.
     pub fn new(volume: Volume<'a>, tree: VesselTree) -> Self {
         Self::default().with_volume(volume).with_tree(tree)
     }
 
-    /// The same scene with a volume that was not used before.
+    /// Replaces the volume by a new one.
     #[must_use]
     pub fn with_volume(self, volume: Volume<'a>) -> Self {
         Self { volume: Some(SharedVolume::new(volume, VolumeKey::default())), ..self }
     }
 
-    /// The same volume with another tree: what is known of the volume stays.
+    /// Replaces the tree; what was computed of the volume stays.
     #[must_use]
     pub fn with_tree(self, tree: VesselTree) -> Self {
         Self { tree: Some(Arc::new(LeveledTree::new(tree))), ..self }
     }
 }
 
-/// Stands for the voxels of one volume, wherever they are borrowed: what was learnt of them once, and what a GPU keeps
-/// of them, is found by it. Clones stand for the same voxels.
+/// Identifies the voxels of one volume, wherever they are borrowed, for caches on CPU and GPU; shared by
+/// clones.
 #[derive(Clone, Debug, Default)]
 pub struct VolumeKey {
     blocks: Arc<OnceLock<Blocks>>,
@@ -67,50 +66,44 @@ impl WeakVolumeKey {
     }
 }
 
-/// A volume together with what is known of its voxels.
+/// A volume and what was computed of its voxels.
 #[derive(Clone, Debug)]
 pub struct SharedVolume<'a> {
     /// The voxels and their grid.
     pub volume: Volume<'a>,
-    /// Stands for the voxels.
+    /// Identifies the voxels.
     pub key: VolumeKey,
 }
 
 impl<'a> SharedVolume<'a> {
-    /// `volume`, whose voxels `key` stands for.
+    /// `volume`, whose voxels `key` identifies.
     pub fn new(volume: Volume<'a>, key: VolumeKey) -> Self {
         Self { volume, key }
     }
 
-    /// The smallest and largest values of the volume's blocks, made at the first call.
-    ///
-    /// # Errors
-    /// [`crate::error::ErrorKind::Interrupted`] once `stop` says so.
+    /// The smallest and largest values of the volume's blocks, computed at the first call.
     pub fn blocks(&self, stop: Stop) -> Result<&Blocks> {
         if let Some(blocks) = self.key.blocks.get() {
             return Ok(blocks);
         }
-        // Made outside the lock: a thread of the pool that waited for its part could take up another view and wait
-        // for itself. Blocks that someone else made meanwhile are the same.
+        // Computed outside the lock: a waiting pool thread could take up another view and wait for itself.
         let blocks = Blocks::new(&self.volume, stop)?;
         Ok(self.key.blocks.get_or_init(|| blocks))
     }
 }
 
-/// For how many values of `centerline_smoothing` the levels of a tree are kept: one picture with it and one without can
-/// take turns, or two renderers.
-const KEPT: usize = 2;
+/// Number of `centerline_smoothing` values with cached levels, so that two renderers can alternate.
+const CACHED_SMOOTHINGS: usize = 2;
 
-/// A tree with its levels of detail, which are made once for all renderers.
+/// A tree with its levels of detail, computed once for all renderers.
 #[derive(Debug)]
 pub struct LeveledTree {
     tree: VesselTree,
-    /// The values of `centerline_smoothing` that were asked for last, the latest first, and their levels.
     kept: Mutex<Vec<(f64, Arc<Vec<Level>>)>>,
 }
 
 impl LeveledTree {
-    /// A tree whose levels are made when they are first needed.
+    /// A tree whose levels are computed when they are first needed.
     pub fn new(tree: VesselTree) -> Self {
         Self { tree, kept: Mutex::default() }
     }
@@ -120,14 +113,13 @@ impl LeveledTree {
         &self.tree
     }
 
-    /// The tree's own points, smoothed by `smoothing` radii, and at least `coarsest` levels of detail, finest first.
-    ///
-    /// The levels of the two values of `smoothing` that were asked for last are kept.
+    /// The tree smoothed by `smoothing` radii in at least `coarsest` levels, finest first; the last two are
+    /// kept.
     pub fn levels(&self, coarsest: usize, smoothing: f64) -> Arc<Vec<Level>> {
         if let Some(known) = self.latest(smoothing, None).filter(|known| known.len() > coarsest) {
             return known;
         }
-        // Made outside the lock, for the reason that `SharedVolume::blocks` gives.
+        // Computed outside the lock, as in `SharedVolume::blocks`.
         let made = if smoothing > 0.0 {
             levels(&smooth_centerlines(&self.tree, smoothing), coarsest)
         } else {
@@ -137,15 +129,15 @@ impl LeveledTree {
         self.latest(smoothing, Some(&made)).unwrap_or(made)
     }
 
-    /// The levels of `smoothing`, which become the latest; `made` are kept where there are fewer.
+    /// The levels of `smoothing`, which become the latest, or `made` if it has more of them.
     fn latest(&self, smoothing: f64, made: Option<&Arc<Vec<Level>>>) -> Option<Arc<Vec<Level>>> {
         let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
         let place = kept.iter().position(|(value, _)| *value == smoothing);
         let known = place.map(|place| kept.remove(place).1);
-        // Of equally many the known ones stay, which others may hold already: the last of them counts.
+        // Ties go to the known ones, the last argument, which others may hold already.
         let most = [made, known.as_ref()].into_iter().flatten().max_by_key(|levels| levels.len()).cloned()?;
         kept.insert(0, (smoothing, Arc::clone(&most)));
-        kept.truncate(KEPT);
+        kept.truncate(CACHED_SMOOTHINGS);
         Some(most)
     }
 }

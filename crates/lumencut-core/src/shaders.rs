@@ -1,12 +1,11 @@
-//! The stages once more, as WGSL: each room's shader lies beside its Rust, under the same name. Their text is all that
-//! this crate knows of GPUs.
+//! The stages as WGSL, each next to its Rust file: all that this crate knows of GPUs.
 
-/// A room's shader.
+/// A module's shader.
 #[derive(Clone, Copy, Debug)]
 pub struct Shader {
-    /// The room, such as `stages/depth`.
+    /// The module, such as `stages/depth`.
     pub room: &'static str,
-    /// WGSL; lines `// import ROOM` name the rooms whose declarations it uses.
+    /// WGSL; lines `// import MODULE` name the modules whose declarations it uses.
     pub text: &'static str,
 }
 
@@ -17,7 +16,7 @@ macro_rules! shaders {
     };
 }
 
-/// What a browser loads has no comments in it (`build.rs`).
+/// A browser loads them without comments (`build.rs`).
 #[cfg(target_arch = "wasm32")]
 macro_rules! shaders {
     ($($room:literal),* $(,)?) => {
@@ -25,7 +24,7 @@ macro_rules! shaders {
     };
 }
 
-/// The shaders of all rooms.
+/// The shaders of all modules.
 pub const SHADERS: &[Shader] = shaders![
     "math/accumulate",
     "math/blocks",

@@ -2,41 +2,32 @@
 
 use crate::error::{Error, Result};
 
-/// Asked again and again during long work, from any thread, whether to stop.
+/// Polled during long work, from any thread: whether to stop.
 pub type Stop<'a> = &'a (dyn Fn() -> bool + Sync);
 
-/// For work that is short, or whose caller never asks to stop.
+/// For short work, or callers that never ask to stop.
 pub const NEVER: Stop<'static> = &|| false;
 
-/// As many entries are written between two looks at whether to stop.
-const PART: usize = 1 << 20;
+/// Entries written between two checks for stop.
+const ENTRIES_PER_CHECK: usize = 1 << 20;
 
-/// An error where the caller asks to stop.
-///
-/// # Errors
-/// [`crate::error::ErrorKind::Interrupted`].
+/// Fails once the caller asks to stop.
 pub fn go_on(stop: Stop) -> Result<()> {
     if stop() { Err(Error::interrupted()) } else { Ok(()) }
 }
 
-/// Gives a list this number of entries, new ones of one value. The first touch of the memory of a large image takes seconds.
-///
-/// # Errors
-/// [`crate::error::ErrorKind::Interrupted`].
+/// Resizes a list; the first touch of the memory of a large image takes seconds.
 pub fn resize<T: Clone>(list: &mut Vec<T>, count: usize, value: T, stop: Stop) -> Result<()> {
     list.truncate(count);
     list.reserve_exact(count - list.len());
     while list.len() < count {
         go_on(stop)?;
-        list.resize(count.min(list.len() + PART), value.clone());
+        list.resize(count.min(list.len() + ENTRIES_PER_CHECK), value.clone());
     }
     Ok(())
 }
 
-/// A list of this number of entries of one value, as by [`resize`].
-///
-/// # Errors
-/// [`crate::error::ErrorKind::Interrupted`].
+/// A list of `count` entries of one value, as by [`resize`].
 pub fn filled<T: Clone>(count: usize, value: T, stop: Stop) -> Result<Vec<T>> {
     let mut list = Vec::new();
     resize(&mut list, count, value, stop)?;
@@ -52,7 +43,7 @@ mod tests {
 
     #[test]
     fn a_list_is_filled_in_parts_until_the_caller_asks_to_stop() {
-        let count = 3 * PART + 5;
+        let count = 3 * ENTRIES_PER_CHECK + 5;
         let asked = AtomicUsize::new(0);
         let never = || asked.fetch_add(1, Ordering::Relaxed) > count;
         let mut list = filled(count, 7_u8, &never).unwrap();

@@ -17,10 +17,8 @@ pub struct Vessel {
 }
 
 impl Vessel {
-    /// A vessel from at least two finite points and, where given, one finite radius ≥ 0 per point.
-    ///
-    /// # Errors
-    /// [`ErrorKind::VesselTree`] where a count or a value is another.
+    /// At least two finite points and, if given, one finite radius ≥ 0 each. Fails with
+    /// [`ErrorKind::VesselTree`].
     pub fn new(points: Vec<DVec3>, radius: Option<Vec<f64>>) -> Result<Self> {
         let wrong = |subject: &str, found: String, expected: &str| {
             Err(Error::new(ErrorKind::VesselTree, subject, found, expected))
@@ -52,7 +50,7 @@ impl Vessel {
         Self { points, radius, arc_length }
     }
 
-    /// A coarser level of a vessel, whose points know where along the vessel itself they are (mm, never falling).
+    /// A coarser level of a vessel; `arc_length` is that of the vessel itself (mm, never falling).
     pub(crate) fn coarser(points: Vec<DVec3>, radius: Option<Vec<f64>>, arc_length: Vec<f64>) -> Self {
         Self { points, radius, arc_length }
     }
@@ -62,13 +60,12 @@ impl Vessel {
         &self.points
     }
 
-    /// The radius at each point (mm), where known.
+    /// The radius at each point (mm), if known.
     pub fn radius(&self) -> Option<&[f64]> {
         self.radius.as_deref()
     }
 
-    /// The length of the centerline from its first point to each point (mm); at a level of detail that of the vessel
-    /// itself, taken through the same filter as the points.
+    /// Arc length of each point (mm); for levels of detail that of the original vessel, filtered like points.
     pub fn arc_length(&self) -> &[f64] {
         &self.arc_length
     }
@@ -79,18 +76,14 @@ impl Vessel {
     }
 }
 
-/// A set of vessels that may share end points; a vessel's index is its id. Forests, cycles and loose
-/// pieces are legal.
+/// Vessels that may share end points; the index is the id. Forests, cycles and loose pieces are legal.
 #[derive(Clone, Debug, PartialEq)]
 pub struct VesselTree {
     vessels: Vec<Vessel>,
 }
 
 impl VesselTree {
-    /// A tree of at least one vessel.
-    ///
-    /// # Errors
-    /// [`ErrorKind::VesselTree`] for a tree without vessels, or one with more points than 2³⁰.
+    /// Fails with [`ErrorKind::VesselTree`] for no vessels, or more than 2³⁰ points.
     pub fn new(vessels: Vec<Vessel>) -> Result<Self> {
         let points: usize = vessels.iter().map(|v| v.points.len()).sum();
         if vessels.is_empty() || points > 1 << 30 {

@@ -6,9 +6,9 @@ use crate::error::{Error, ErrorKind, Result};
 
 /// A voxel type, widened when it is read.
 pub trait Voxel: Copy + Default + PartialOrd + Send + Sync + 'static {
-    /// The type that the interpolation computes in: `f32` where it holds every value exactly, else `f64`.
+    /// The type of interpolation: `f32` if it holds every value exactly, else `f64`.
     type Real: Real;
-    /// Two neighbours as one number where there is one of that size: so that one load fetches both.
+    /// Two neighbours as one number where possible, so that one load fetches both.
     type Pair: Copy;
     /// The smallest finite value of the type.
     const SMALLEST: Self;
@@ -82,7 +82,7 @@ impl Real for f64 {
     }
 }
 
-/// Voxels of a whole number of bits that share a number twice as wide.
+/// Integer voxels, two of which share an integer twice as wide.
 macro_rules! packed {
     ($real:ty, $unsigned:ty, $pair:ty: $($type:ty),*) => {$(
         impl Voxel for $type {
@@ -110,7 +110,6 @@ packed!(f32, u8, u16: i8);
 packed!(f32, u8, u16: u8);
 packed!(f32, u16, u32: i16, u16);
 
-/// Other voxels.
 macro_rules! plain {
     ($real:ty: $($type:ty),*) => {$(
         impl Voxel for $type {
@@ -137,8 +136,8 @@ plain!(f32: f32);
 #[cfg(not(target_arch = "wasm32"))]
 plain!(f64: i32, u32, i64, u64, f64);
 
-/// The voxels of a volume, borrowed in their own type. What a browser loads has the code for four types alone, which
-/// makes it smaller: there all others become one of these, exactly but for numbers beyond 24 bits.
+/// The voxels of a volume, borrowed in their own type. The browser build contains code for four types only,
+/// which makes it smaller: there all others are converted, exactly except for numbers beyond 24 bits.
 #[derive(Clone, Copy, Debug)]
 #[allow(missing_docs)]
 pub enum Voxels<'a> {
@@ -194,7 +193,7 @@ macro_rules! with_voxels {
     };
 }
 
-/// A volume: voxels, the grid they lie on, and the grid's place in world space (LPS, mm).
+/// A volume: voxels, their grid, and the grid's position in world space (LPS, mm).
 #[derive(Clone, Copy, Debug)]
 pub struct Volume<'a> {
     voxels: Voxels<'a>,
@@ -206,11 +205,9 @@ pub struct Volume<'a> {
 
 impl<'a> Volume<'a> {
     /// A volume over `voxels` with `size` voxels along (i, j, k); the voxel at (i, j, k) is element
-    /// `i·strides[0] + j·strides[1] + k·strides[2]`. `world_from_index` may be oblique, left-handed or sheared.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Volume`] for an empty grid, strides that leave the slice, or an affine that is not
-    /// finite and invertible.
+    /// `i·strides[0] + j·strides[1] + k·strides[2]`. `world_from_index` may be oblique, left-handed or
+    /// sheared. Fails with [`ErrorKind::Volume`] for an empty grid, strides that leave the slice, or an
+    /// affine that is not finite and invertible.
     pub fn new(
         voxels: Voxels<'a>,
         size: [usize; 3],
@@ -279,7 +276,7 @@ impl<'a> Volume<'a> {
         sides.x_axis.length().min(sides.y_axis.length()).min(sides.z_axis.length())
     }
 
-    /// The longest way through the volume (mm).
+    /// The longest line through the volume (mm).
     pub fn longest_way(&self) -> f64 {
         let corners = self.corners();
         (0..4).map(|c| corners[c].distance(corners[7 - c])).fold(0.0, f64::max)

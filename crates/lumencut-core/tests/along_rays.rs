@@ -1,5 +1,5 @@
-//! The largest, the smallest and the mean value along rays are those of an independent computation in float64: all crossings
-//! of a ray with the planes of the grid, sorted, and between two of them the cubic through four samples.
+//! Largest, smallest and mean values along rays against an independent computation in float64: all crossings
+//! of a ray with the planes of the grid, sorted, and between them the cubic through four samples.
 #![allow(clippy::unwrap_used)]
 
 use glam::{DAffine3, DVec3};
@@ -16,7 +16,7 @@ use lumencut_scenes::volumes::{ball_and_rod, sheared, volume};
 
 const SIZE: [usize; 3] = [41, 37, 29];
 
-/// The voxels as numbers, i fastest, and where they lie.
+/// The voxels as numbers, i fastest, and their grid.
 struct Exact {
     values: Vec<f64>,
     size: [usize; 3],
@@ -45,7 +45,7 @@ impl Exact {
         sum
     }
 
-    /// Smallest, largest and mean value between two depths of a ray; none where it misses the volume.
+    /// Smallest, largest and mean value between two depths of a ray; `None` where it misses the volume.
     fn along(&self, origin: DVec3, direction: DVec3, chord: [f64; 2]) -> Option<[f64; 3]> {
         let (from, toward) = (
             self.index_from_world.transform_point3(origin),
@@ -124,7 +124,7 @@ fn cameras() -> Vec<Camera> {
     ]
 }
 
-/// Chords that are whole, begin or end within the volume, are short, and are none.
+/// Chords through the volume, partly inside, short, and empty.
 fn chord(p: usize) -> [f64; 2] {
     let depth = (p % 37) as f64 - 18.0;
     match p % 6 {
@@ -174,14 +174,14 @@ fn every_value_is_that_of_an_independent_computation() {
     let volume = volume(Voxels::I16(&voxels), SIZE, sheared(SIZE));
     let exact = Exact { values, size: SIZE, index_from_world: volume.index_from_world() };
     for camera in cameras() {
-        // Of 1000.
+        // Values go up to 1000.
         assert_exact(&volume, &exact, &camera, 0.02);
     }
 }
 
 #[test]
 fn flat_volumes_and_rays_along_faces_have_exact_values() {
-    // Pixels look exactly along voxel centres and along the faces between them.
+    // Rays exactly along voxel centres and along the faces between them.
     for size in [[1, 1, 1], [2, 1, 3], [1, 6, 5], [9, 2, 4], [5, 4, 8]] {
         let voxels: Vec<i16> = (0..size.iter().product()).map(|n| (n * 7919 % 1001) as i16).collect();
         let last = DVec3::from(size.map(|n: usize| (n - 1) as f64));
@@ -253,7 +253,7 @@ fn a_cell_without_a_number_is_left_out() {
     let run = |reduction| reduced(&volume, &camera, reduction, None, Isa::widest(), &whole)[4];
     assert_eq!(run(Reduction::Largest), 3.0);
     assert_eq!(run(Reduction::Smallest), 1.0);
-    // Along k: one half voxel and one voxel of 1, two voxels without a number, one that rises from 1 to 3, half a voxel of 3.
+    // Along k: half a voxel and one of 1, two of NaN, one from 1 to 3, half a voxel of 3.
     let mean = (0.5 + 1.0 + 2.0 + 1.5) / 3.0;
     assert!((f64::from(run(Reduction::Mean)) - mean).abs() < 1e-5, "{}", run(Reduction::Mean));
 }

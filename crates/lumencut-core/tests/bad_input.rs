@@ -1,4 +1,4 @@
-//! Scenes that nobody means but somebody loads: no panic, no invalid depth, the same bits in every way of computing.
+//! Degenerate scenes: no panic, no invalid depth, the same bits in every way of computing.
 #![allow(clippy::unwrap_used)]
 
 use std::f64::consts::TAU;
@@ -36,7 +36,7 @@ fn rendered(tree: &VesselTree, camera: &Camera, settings: &Settings, isa: Isa) -
     CpuRenderer::new(isa).render(&scene, &Request::new(camera, settings)).unwrap()
 }
 
-/// Refuses depths that are no numbers or lie before or behind the whole tree.
+/// Depths are numbers within the depth range of the tree.
 fn assert_depths_of_the_tree(tree: &VesselTree, camera: &Camera, frame: &Frame) {
     let depths = tree.vessels().iter().flat_map(|v| v.points()).map(|p| camera.view_from_world(*p).z);
     let [low, high] = depths.fold([f64::MAX, f64::MIN], |[low, high], z| [low.min(z), high.max(z)]);
@@ -48,7 +48,7 @@ fn assert_depths_of_the_tree(tree: &VesselTree, camera: &Camera, frame: &Frame) 
     assert!(frame.distance.iter().all(|d| d.is_finite() && *d >= 0.0));
 }
 
-/// Refuses a view that is not that of brute force, or another by other instruction sets or numbers of threads.
+/// The view equals brute force on every instruction set and number of threads.
 fn assert_sound_in(tree: &VesselTree, camera: &Camera, settings: &Settings) {
     let found = by_hierarchy(tree, camera, settings);
     assert_depths_of_the_tree(tree, camera, &found);
@@ -77,7 +77,7 @@ fn without_radii(tree: &VesselTree) -> VesselTree {
     VesselTree::new(tree.vessels().iter().map(bare).collect()).unwrap()
 }
 
-/// A ring of some points, which ends where it begins.
+/// A closed ring.
 fn ring(radius: f64, points: usize, lumen: f64) -> Vessel {
     let place = |i: usize| {
         let t = (i % points) as f64 / points as f64 * TAU;
@@ -104,7 +104,7 @@ fn radii_larger_than_the_bend() {
     let hairpin =
         vessel(&[[-30., 0., 0.], [10., 4., 0.], [12., 5., 1.], [10., 6., 2.], [-30., 10., 2.]], 15.0);
     assert_sound(&tree(vec![hairpin, ring(5.0, 40, 20.0)]), [56, 40], 2.0);
-    // Wider than the whole view: every pixel lies in the lumen, far beyond the ends too.
+    // Wider than the whole view: every pixel lies in the lumen, also far beyond the ends.
     assert_sound(&tree(vec![ring(20.0, 60, 1e6), ring(9.0, 9, 1e5)]), [40, 40], 2.0);
 }
 
@@ -129,7 +129,7 @@ fn a_vessel_wholly_within_the_lumen_of_another() {
     for (depth, expected) in [(-5.0, [1, 1, 0, 0]), (5.0, [0; 4]), (0.0, [0; 4])] {
         let scene = tree(vec![tube(0.0, 10.0), tube(depth, 2.0)]);
         let frame = by_hierarchy(&scene, &camera, &unfiltered());
-        // The inner lumen, as far as it is the nearer one; its wall comes after the outer lumen.
+        // The inner lumen where it is nearer; its wall comes after the outer lumen.
         assert_eq!([0.25, 1.75, 2.25, 9.75].map(|y| frame.vessel[pixel(&frame, 0.25, y)]), expected);
         assert_sound(&scene, [56, 40], 2.0);
     }
@@ -191,7 +191,7 @@ fn vessels_whose_points_are_all_the_same() {
     assert_sound(&tree(vec![doubled, point]), [56, 40], 1.0);
 }
 
-/// A tree of coordinates of about 50 mm, at another scale and another place.
+/// A tree with coordinates of about 50 mm, scaled and shifted.
 fn moved(tree: &VesselTree, scale: f64, shift: DVec3) -> VesselTree {
     let moved = |v: &Vessel| {
         let points = v.points().iter().map(|p| *p * scale + shift).collect();

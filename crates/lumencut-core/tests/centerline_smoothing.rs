@@ -1,4 +1,4 @@
-//! Quiet centerlines: closed forms, what stays to the bit, and odd vessels.
+//! Smoothed centerlines: closed forms, what stays to the bit, and degenerate vessels.
 #![allow(clippy::unwrap_used)]
 
 use std::f64::consts::{PI, TAU};
@@ -19,7 +19,7 @@ use lumencut_scenes::views::view;
 /// Rounding of coordinates of some hundred mm, summed along a vessel (mm).
 const ROUNDING: f64 = 1e-10;
 
-/// By how much the layers of the Gaussian and the chords of a finely sampled arc miss the closed form (share of R).
+/// Error of the Gaussian's layers and of the chords of a finely sampled arc (share of R).
 const CLOSED_FORM: f64 = 1e-4;
 
 fn line(points: Vec<DVec3>, radius: f64) -> Vessel {
@@ -27,7 +27,6 @@ fn line(points: Vec<DVec3>, radius: f64) -> Vessel {
     Vessel::new(points, Some(radii)).unwrap()
 }
 
-/// The points of one vessel, smoothed.
 fn smoothed(vessel: Vessel, radii: f64) -> Vec<DVec3> {
     smooth_centerlines(&tree(vec![vessel]), radii).vessels()[0].points().to_vec()
 }
@@ -41,7 +40,7 @@ fn reversed(vessel: &Vessel) -> Vessel {
 fn a_circle_shrinks_as_the_gaussian_predicts() {
     let (radius, turns) = (10.0_f64, 3.0);
     for sigma in [0.5, 1.0, 3.0, 6.0] {
-        // Sampled unevenly: what is averaged is the curve, not its points.
+        // Sampled unevenly: the curve is averaged, not its points.
         let angle = |t: f64| TAU * turns * (t + 0.02 * (9.0 * PI * t).sin());
         let place = |i: i32| {
             let (sin, cos) = angle(f64::from(i) / 4000.0).sin_cos();
@@ -95,7 +94,7 @@ fn straight_lines_stay_however_they_are_sampled() {
 fn jitter_falls_as_the_gaussian_predicts() {
     let (step, sigma, jitter) = (0.5, 4.0, 0.1);
     let mut random = Random::new(11);
-    // Across the line alone: along it jitter is another sampling of the same line.
+    // Only across the line: jitter along it is another sampling of the same line.
     let mut across = || (random.number() + random.number() + random.number() - 1.5) * 2.0 * jitter;
     let points: Vec<_> = (0..8000).map(|i| DVec3::new(f64::from(i) * step, across(), across())).collect();
     let found = smoothed(line(points.clone(), 2.0), sigma / 2.0);
@@ -122,7 +121,7 @@ fn junctions() -> VesselTree {
             .collect()
     };
     let trunk = walk(DVec3::ZERO, DVec3::X, 60);
-    // Half a thousandth of a millimetre beside the trunk's point.
+    // 0.0005 mm off the trunk's point.
     let branch = walk(trunk[25] + DVec3::Z * 5e-4, DVec3::Y, 40);
     let (bare, partly) = (walk(DVec3::splat(50.0), DVec3::Y, 30), walk(branch[39], DVec3::Z, 30));
     let radii = (0..30).map(|i| if (10..15).contains(&i) { 0.0 } else { 2.0 }).collect();
@@ -222,7 +221,7 @@ fn odd_vessels_give_finite_points_that_stay_in_bounds() {
     for radii in [1e-9, 0.5, 10.0] {
         let after = smooth_centerlines(&odd, radii);
         for (old, new) in odd.vessels().iter().zip(after.vessels()) {
-            // The constructor refuses what is not finite or out of bounds.
+            // The constructor rejects what is not finite or out of bounds.
             assert!(Vessel::new(new.points().to_vec(), None).is_ok());
             assert_eq!(old.points().len(), new.points().len());
         }

@@ -1,5 +1,4 @@
-//! The context gives the same bits whatever is skipped, on every instruction set and number of threads, and however the
-//! voxels lie in memory.
+//! The same bits with and without skipping, on every instruction set, thread count and memory layout.
 #![allow(clippy::unwrap_used)]
 
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -23,7 +22,6 @@ use lumencut_scenes::volumes::{ball_and_rod, sheared, volume};
 
 const SIZE: [usize; 3] = [41, 37, 29];
 
-/// The volume of these voxels on a sheared grid.
 fn placed(voxels: Voxels<'_>) -> Volume<'_> {
     volume(voxels, SIZE, sheared(SIZE))
 }
@@ -137,7 +135,7 @@ fn a_falling_step_at_a_value_that_blocks_hold_alone_is_seen() {
 
 #[test]
 fn a_preview_shows_nothing_before_the_cut_surface() {
-    // White before depth 0, black behind it; the cut surface at depth 0, and beside it none.
+    // White before depth 0, black behind it; the cut surface at depth 0 on one side only.
     let voxels: Vec<i16> = (0..20 * 20 * 20).map(|n| if n / 20 % 20 < 10 { 1000 } else { 0 }).collect();
     let place = DAffine3::from_translation(DVec3::splat(-9.5));
     let volume = Volume::new(Voxels::I16(&voxels), [20; 3], [1, 20, 400], place).unwrap();
@@ -200,7 +198,7 @@ fn the_order_of_voxels_in_memory_changes_no_bit() {
 
 #[test]
 fn voxels_more_than_32_bits_apart_are_found() {
-    // The allocator hands out zeros without touching them: the memory is not really taken.
+    // The allocator returns untouched zero pages: the memory is not really used.
     let far = (1usize << 32) + 1;
     let mut sparse = vec![0u8; far + 4];
     let near = [10u8, 50, 200, 90, 40, 160, 120, 240];

@@ -21,7 +21,7 @@ fn seen(tree: &VesselTree, camera: &Camera, radius_offset: f64, arc_threshold: f
     cr(&LeveledTree::new(tree.clone()), &parameters, &Request::new(camera, &settings)).unwrap()
 }
 
-/// A piece as a pixel sees it: distance, depth, radius, arc length, and its number.
+/// A piece seen from a pixel: distance, depth, radius, arc length, and its number.
 #[derive(Clone, Copy)]
 struct Met {
     distance: f32,
@@ -60,7 +60,7 @@ fn met(projected: &[Projected], x: f32, y: f32) -> Vec<Met> {
     all
 }
 
-/// CR of one pixel, to the letter of METHOD.md. Depths are compared as keys, which `lift` rounds.
+/// CR of one pixel as in docs/method/reformations.md; `lift` rounds depths as it does keys.
 fn by_brute_force(
     all: &[Met],
     offset: f32,
@@ -112,7 +112,7 @@ fn the_hierarchy_finds_what_every_piece_shows() {
     assert!(differing_from_the_nearest > 10_000, "{differing_from_the_nearest}");
 }
 
-/// A vessel from left to right in front, and one from below to above 40 mm behind it.
+/// A vessel from left to right in front, and a vertical one 40 mm behind it.
 fn crossing() -> VesselTree {
     tree(vec![vessel(&[[-60., 0., 0.], [60., 0., 0.]], 4.0), vessel(&[[0., 40., -60.], [0., 40., 60.]], 4.0)])
 }
@@ -125,13 +125,13 @@ fn the_vessel_in_front_keeps_its_disc_and_a_larger_offset_hides_more() {
         for j in 0..120 {
             for i in 0..120 {
                 let (x, y) = (camera.view_x(i).abs(), camera.view_y(j).abs());
-                // Within its disc the vessel in front; elsewhere the nearer one, and on equal distance the first.
+                // Within its disc the vessel in front; elsewhere the nearer one, then the first.
                 let expected = if y <= 4.0 + offset || y <= x { 0.0 } else { 40.0 };
                 assert_eq!(frame.depth()[j * 120 + i], expected, "{x}, {y} with {offset} pixels");
             }
         }
     }
-    // How much of the lumen behind is shown: all but the disc of the vessel in front.
+    // All of the lumen behind is shown but the disc of the vessel in front.
     let shown = |offset: f64| {
         let frame = seen(&crossing(), &camera, offset, 30.0);
         (0..120).filter(|j| frame.depth()[j * 120 + 60] == 40.0).count()
@@ -141,7 +141,7 @@ fn the_vessel_in_front_keeps_its_disc_and_a_larger_offset_hides_more() {
 
 #[test]
 fn a_loop_is_two_stretches_where_the_threshold_is_short_and_one_where_it_is_long() {
-    // Down in front and up again 40 mm behind it and 10 mm beside it: 140 mm between the middles of both limbs.
+    // Down in front and up again 40 mm behind it and 10 mm aside: 140 mm between the middles of both limbs.
     let hairpin =
         vessel(&[[0., 0., 50.], [0., 0., -0.], [0., 0., -50.], [10., 40., -50.], [10., 40., 50.]], 2.0);
     let camera = front([60, 60], 1.0);
@@ -158,7 +158,7 @@ fn the_distance_along_the_tree_goes_through_junctions() {
     let tree = tree(vec![
         vessel(&[[0., 0., 0.], [0., 0., 30.]], 1.0),
         vessel(&[[0., 0., 30.], [20., 0., 30.]], 1.0),
-        // It begins at an inner point of the one before.
+        // It begins at an inner point of the previous one.
         vessel(&[[20., 0., 30.], [20., 10., 30.], [20., 10., 60.]], 1.0),
         vessel(&[[20., 10., 30.], [50., 10., 30.]], 1.0),
         vessel(&[[0., 0., 0.1], [0., 40., 0.1]], 1.0),
@@ -175,7 +175,7 @@ fn the_distance_along_the_tree_goes_through_junctions() {
         assert!(is_near(distance + 1e-4, a, b) && is_near(distance + 1e-4, b, a), "{a:?} to {b:?}");
         assert!(!is_near(distance - 1e-4, a, b) && !is_near(distance - 1e-4, b, a), "{a:?} to {b:?}");
     }
-    // A tenth of a millimetre beside the end of another vessel is not on it.
+    // A tenth of a millimetre off the end of another vessel is not on it.
     assert!(!is_near(1e6, (0, 0.0), (4, 0.0)));
 }
 

@@ -1,4 +1,4 @@
-//! The cut surface on scenes whose answer is known in closed form, and its invariants.
+//! The cut surface on scenes with a closed form, and its invariants.
 #![allow(clippy::unwrap_used)]
 
 use glam::{DQuat, DVec3};
@@ -27,7 +27,7 @@ fn a_slanted_tube_is_cut_along_its_foot_points() {
         near(at(&frame, frame.depth(), x, y), x * 0.4);
         near(at(&frame, &frame.distance, x, y), y.abs());
     }
-    // Before the first and beyond the last point: the half-planes keep the depth of the ends.
+    // Before the first and beyond the last point the half-planes keep the depth of the ends.
     near(at(&frame, frame.depth(), -40.5, 9.5), -12.0);
     near(at(&frame, frame.depth(), 45.5, -3.5), 12.0);
     near(at(&frame, &frame.distance, 45.5, -3.5), 15.5f64.hypot(3.5));
@@ -42,7 +42,7 @@ fn a_bend_has_a_wedge_on_its_outside_and_the_nearer_stripe_inside() {
     for (x, y) in [(5.5, -5.5), (30.5, -0.5), (0.5, -30.5)] {
         near(at(&frame, frame.depth(), x, y), 10.0);
     }
-    // Inside, 10 mm from the first edge and 5 mm from the second: 10·1 − 1.25 against 15 − 5·… decides the cost.
+    // Inside, 10 mm from the first edge and 5 mm from the second: 10·1 − 1.25 against 15 − 5·….
     let (x, y) = (-4.5, 10.5);
     let first = (10.0 * (x + 40.0) / 40.0, y);
     let second = (10.0 + y, -x);
@@ -108,7 +108,7 @@ fn a_run_at_an_end_gives_a_plane_through_the_end_point() {
     let frame = by_hierarchy(&tree(vec![late]), &front([80, 80], 1.0), &settings);
     near(at(&frame, frame.depth(), -10.5, 0.5), 0.0);
     near(at(&frame, frame.depth(), 20.5, 0.5), 25.0);
-    // The plane covers all: where it is nearer by cost than the stripe, it wins there too.
+    // The plane covers all: it also wins where its cost is lower than the stripe's.
     near(at(&frame, frame.depth(), -0.5, 39.5), 0.0);
 }
 
@@ -118,7 +118,7 @@ fn the_trefoil_is_threefold_symmetric() {
     let camera = front([160, 160], 1.0);
     let turn = DQuat::from_axis_angle(DVec3::Y, std::f64::consts::TAU / 3.0);
     let turned = Camera::new(DVec3::ZERO, DVec3::Y, turn * DVec3::Z, [160, 160], 1.0).unwrap();
-    // Level 0 alone: coarser levels start at the vessel's ends, which break the symmetry.
+    // Only level 0: coarser levels start at the vessel's ends, which break the symmetry.
     let settings = Settings { levels: 0, ..paper_unfiltered() };
     let (a, b) = (by_hierarchy(&knot, &camera, &settings), by_hierarchy(&knot, &turned, &settings));
     SYMMETRIC.assert_same(a.depth(), b.depth(), "depths");

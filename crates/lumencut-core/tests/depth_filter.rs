@@ -15,7 +15,6 @@ use lumencut_scenes::zones::Zones;
 
 const SIZES: [[usize; 2]; 5] = [[1, 1], [1, 17], [17, 1], [16, 8], [40, 33]];
 
-/// An image filtered within zones.
 fn filtered(size: [usize; 2], depth: &[f32], vessel: &[i32], depth_leap: f64) -> Vec<f32> {
     let parameters = DepthFilterParameters::of(&Settings { depth_leap, ..Settings::default() });
     let mut smoothed = vec![f32::NAN; depth.len()];
@@ -23,12 +22,11 @@ fn filtered(size: [usize; 2], depth: &[f32], vessel: &[i32], depth_leap: f64) ->
     smoothed
 }
 
-/// A depth for each pixel.
 fn image(size: [usize; 2], depth: impl Fn(f32, f32) -> f32) -> Vec<f32> {
     (0..size[0] * size[1]).map(|p| depth((p % size[0]) as f32, (p / size[0]) as f32)).collect()
 }
 
-/// The rule of one axis as it is stated, in f64: the mean of a pixel and of the pairs that count. Also says how many do.
+/// The rule of one axis in f64: the mean of a pixel and the pairs that count, and their number.
 fn mean_along(
     size: [usize; 2],
     step: [isize; 2],

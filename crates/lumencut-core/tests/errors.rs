@@ -1,4 +1,4 @@
-//! Bad input is refused by name, and every kind of error that this crate raises can be met.
+//! Bad input is rejected by name, and every error kind of this crate occurs.
 #![allow(clippy::unwrap_used)]
 
 use std::collections::HashSet;
@@ -107,7 +107,7 @@ fn errors_name_what_was_found_and_what_was_expected() {
     }
 }
 
-/// The kinds that other crates raise, whose tests meet them: `lumencut-gpu` and `lumencut-vessels`.
+/// The kinds of `lumencut-gpu` and `lumencut-vessels`, whose tests cover them.
 const OF_OTHER_CRATES: [ErrorKind; 3] = [ErrorKind::Device, ErrorKind::Tracing, ErrorKind::Measuring];
 
 #[test]

@@ -1,4 +1,4 @@
-//! The focus: its share against closed forms and an independent distance, and its limits against CSR and the context alone.
+//! The focus against closed forms and an independent distance; its limits against CSR and the context.
 #![allow(clippy::unwrap_used)]
 
 use glam::{DVec2, DVec3};
@@ -26,12 +26,11 @@ fn framed(scene: &Scene, camera: &Camera, settings: &Settings, isa: Isa) -> Fram
     CpuRenderer::new(isa).render(scene, &Request { images, ..Request::new(camera, settings) }).unwrap()
 }
 
-/// How much of the cut surface each pixel shows.
 fn of_surface(frame: &Frame) -> Vec<f32> {
     frame.focus.iter().map(|shares| shares[0]).collect()
 }
 
-/// The same of a tree without a volume.
+/// The same for a tree without a volume.
 fn shares(tree: &VesselTree, camera: &Camera, settings: &Settings) -> Vec<f32> {
     of_surface(&framed(&Scene::default().with_tree(tree.clone()), camera, settings, Isa::widest()))
 }
@@ -46,7 +45,7 @@ fn share(beyond: f64, margin: f64, fade: f64) -> f64 {
     1.0 - away * away * (3.0 - 2.0 * away)
 }
 
-/// The distance of a place in the view from the nearest of very many discs along the vessels.
+/// The distance of a view position from the nearest of very many discs along the vessels.
 fn beyond_discs(tree: &VesselTree, camera: &Camera, place: DVec2) -> f64 {
     let mut nearest = f64::MAX;
     for vessel in tree.vessels() {
@@ -220,7 +219,7 @@ fn between_them_it_is_a_mean_by_the_share() {
 #[test]
 fn far_from_all_walls_silhouettes_are_gone_and_near_them_they_are_as_before() {
     let phantom = crossing().unwrap();
-    // So that lines of zones, which reach to the border of the picture, are seen.
+    // With lines of zones that reach the border of the picture.
     let camera = view([0.2, 1.0, 0.3], [220, 180], 0.6);
     for base in [Settings::default(), Settings::paper()] {
         let quiet = Settings { silhouette_reach: Some(4.0), ..base.clone() };
@@ -246,7 +245,7 @@ fn far_from_all_walls_silhouettes_are_gone_and_near_them_they_are_as_before() {
 
 #[test]
 fn where_no_line_can_lie_the_picture_needs_no_distance() {
-    // Only a picture whose shares are asked for too has them everywhere.
+    // Only a picture requested with its shares has them everywhere.
     let whole = ImageSet::ALL.and(ImageSet::of(&[Image::Focus]));
     let settings = |reach: f64, focus: Option<Focus>, first: &[usize]| Settings {
         silhouette_reach: Some(reach),

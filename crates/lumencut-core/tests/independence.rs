@@ -1,5 +1,5 @@
-//! The same bits whatever the instruction set and the number of threads; stops when asked; allocates nothing of the
-//! size of the tree or the volume for a further view.
+//! Independence of instruction set and threads; stopping; no allocation of the size of tree or volume for a
+//! further view.
 #![allow(clippy::unwrap_used)]
 
 use std::sync::atomic::{AtomicUsize, Ordering};

@@ -1,4 +1,4 @@
-//! Leaps in closed form: where a surface is hidden by another one, and nowhere else.
+//! Leaps in closed form: where one surface hides another, and nowhere else.
 #![allow(clippy::unwrap_used)]
 
 use lumencut_core::camera::Camera;
@@ -26,12 +26,10 @@ fn details(scene: &VesselTree, camera: &Camera, settings: &Settings) -> SurfaceD
     CpuRenderer::default().details(&scene, &Request::new(camera, settings)).unwrap()
 }
 
-/// The leaps alone.
 fn leaps(scene: &VesselTree, camera: &Camera) -> Vec<u32> {
     details(scene, camera, &Settings::default()).leap.iter().map(|bits| bits & LEAPS).collect()
 }
 
-/// A tube across the view.
 fn tube(height: f64, depth: f64, radius: f64) -> lumencut_core::vessel_tree::Vessel {
     vessel(&[[-500.0, depth, height], [500.0, depth, height]], radius)
 }
@@ -57,7 +55,7 @@ fn leaps_to_the_right_are_those_downwards_of_the_view_turned_by_a_right_angle() 
     let tall = Camera::new(glam::DVec3::ZERO, glam::DVec3::Y, glam::DVec3::Z, SIZE, 1.5).unwrap();
     let wide =
         Camera::new(glam::DVec3::ZERO, glam::DVec3::Y, glam::DVec3::X, [SIZE[1], SIZE[0]], 1.5).unwrap();
-    // Up is what was right: rows from the top are columns from the right, and columns are rows.
+    // Turned by 90°: rows from the top are columns from the right, and columns are rows.
     let (a, b) = (leaps(&scene, &tall), leaps(&scene, &wide));
     let turned = |i: usize, j: usize| b[(SIZE[0] - 1 - i) * SIZE[1] + j];
     let mut seen = 0;
@@ -151,7 +149,7 @@ fn noise(random: &mut Random, pixels: usize) -> (Vec<f32>, Vec<Sheet>) {
     (depth, (0..pixels).map(|_| sheet(random)).collect())
 }
 
-/// The rule as it is stated, in f64: whether a change from one pixel to another is a leap; nothing where rounding decides.
+/// The rule in f64: whether a change from one pixel to another is a leap; `None` where rounding decides.
 fn stated(change: f32, sheets: [Sheet; 2], step: [f64; 2]) -> Option<bool> {
     let over = sheets.map(|[x, y, radius, _]| {
         let expected = f64::from(x) * step[0] + f64::from(y) * step[1];

@@ -1,4 +1,4 @@
-//! The lines of leaps in closed form: how wide they are, on which side of a leap they lie, and that they leave lumens free.
+//! The lines of leaps in closed form: their width and side, and that they leave lumens free.
 #![allow(clippy::unwrap_used)]
 
 use lumencut_core::camera::Camera;
@@ -13,9 +13,9 @@ use lumencut_scenes::trees::{tree, vessel};
 use lumencut_scenes::views::{front, on_cpu, view};
 
 const SIZE: [usize; 2] = [60, 80];
-/// Pixel spacings (mm), and how wide a line is there (pixels): 1 mm, but 0.5 to 1.5 pixels.
+/// Pixel spacings (mm), and the width of a line there (pixels): 1 mm, but 0.5 to 1.5 pixels.
 const WIDTHS: [(f64, f32); 6] = [(0.05, 1.5), (0.5, 1.5), (0.8, 1.25), (1.0, 1.0), (1.6, 0.625), (2.5, 0.5)];
-/// More than rounding adds to a sum of strengths.
+/// A bound on the rounding of a sum of strengths.
 const ROUNDING: f32 = 1e-4;
 
 fn details(scene: &VesselTree, camera: &Camera, settings: &Settings) -> SurfaceDetails {
@@ -23,7 +23,6 @@ fn details(scene: &VesselTree, camera: &Camera, settings: &Settings) -> SurfaceD
     CpuRenderer::default().details(&scene, &Request::new(camera, settings)).unwrap()
 }
 
-/// A tube across the view, at a height above its middle.
 fn tube(height: f64, depth: f64, radius: f64) -> Vessel {
     vessel(&[[-900.0, depth, height], [900.0, depth, height]], radius)
 }
@@ -101,7 +100,7 @@ fn a_line_is_as_wide_in_every_direction() {
                     spacing,
                 )
             };
-            // The border between their surroundings goes through the middle of the picture.
+            // The border between their surroundings crosses the middle of the picture.
             let scene = tree(vec![aside(500.0 * spacing, 0.0), aside(-500.0 * spacing, 30.0)]);
             let settings = Settings { levels: 0, cost_weight: 1e4, ..Settings::default() };
             let size = [80, 80];
@@ -116,7 +115,7 @@ fn a_line_is_as_wide_in_every_direction() {
     }
 }
 
-/// How far a pixel lies beside a leap to a nearer lumen, along a row or a column, with lumen up to there (pixels).
+/// Distance (pixels) of a pixel from a leap to a nearer lumen along a row or column of lumen.
 fn to_a_nearer_lumen(leap: &[u32], depth: &[f32], [i, j]: [usize; 2]) -> Option<usize> {
     let at = |i: isize, j: isize| {
         let is_inside = (0..SIZE[0] as isize).contains(&i) && (0..SIZE[1] as isize).contains(&j);

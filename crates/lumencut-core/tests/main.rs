@@ -1,4 +1,4 @@
-//! The tests of the core as one program, which is linked once. `memory.rs` counts what is allocated and is a program of its own.
+//! The tests of the core as one program; `memory.rs` counts allocations in its own process.
 
 mod along_rays;
 mod bad_input;
@@ -23,7 +23,7 @@ mod stages;
 mod table;
 mod three_tiers;
 
-/// A file of tests that nobody names here would never run.
+/// A test file missing here would never run.
 #[test]
 fn every_file_of_tests_is_named_here() {
     let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests");

@@ -1,5 +1,5 @@
-//! Peak memory stays within 64 bytes per pixel and 400 bytes per segment beside the volume, and a further view
-//! allocates nothing of the size of the tree or the volume.
+//! Peak memory stays within 64 bytes per pixel and 400 per segment besides the volume; a further view
+//! allocates nothing of the size of tree or volume.
 #![allow(clippy::unwrap_used, unsafe_code)]
 
 use std::alloc::{GlobalAlloc, Layout, System};
@@ -14,7 +14,7 @@ use lumencut_scenes::random_tree::random_tree;
 use lumencut_scenes::trees::trefoil;
 use lumencut_scenes::views::view;
 
-/// Counts the bytes in use, their peak, and all bytes ever asked for.
+/// Counts the bytes in use, their peak, and all bytes ever requested.
 struct Counting;
 
 static LIVE: AtomicUsize = AtomicUsize::new(0);
@@ -39,7 +39,7 @@ unsafe impl GlobalAlloc for Counting {
 #[global_allocator]
 static ALLOCATOR: Counting = Counting;
 
-// One test alone: the counters belong to the whole process.
+// A single test: the counters belong to the whole process.
 #[test]
 fn memory_stays_within_its_bounds() {
     let voxels = vec![100i16; 200usize.pow(3)];

@@ -23,7 +23,7 @@ fn seen(tree: &VesselTree, camera: &Camera) -> Frame {
     mpcpr(&LeveledTree::new(tree.clone()), &Request::new(camera, &settings)).unwrap()
 }
 
-/// What every pixel of a row shows, against every segment: depth, vessel, and whether its vessel is met more than once.
+/// Every pixel of a row against every segment: depth, vessel, and whether its vessel is met twice.
 fn by_brute_force(tree: &VesselTree, camera: &Camera, j: usize) -> Vec<Option<(f64, i32, bool)>> {
     let y = camera.view_y(j);
     let mut points = Vec::new();
@@ -92,7 +92,7 @@ fn a_row_is_split_midway_between_vessels() {
         vessel(&[[14., -7., -10.], [14., -7., 10.]], 2.0),
     ]);
     let frame = seen(&tree, &front([60, 80], 1.0));
-    // Midway lies x = 2; above and below z = ±10 the second vessel has ended.
+    // x = 2 is midway; above and below z = ±10 the second vessel has ended.
     for (x, y, depth, id) in
         [(1.5, 0.5, 5.0, 0), (2.5, 0.5, -7.0, 1), (29.5, 9.5, -7.0, 1), (29.5, 10.5, 5.0, 0)]
     {
@@ -132,13 +132,13 @@ fn rows_beyond_the_ends_show_nothing() {
             assert!(is_there || (shown.value[p].is_nan() && shown.image[p][3] == 0));
         }
     }
-    // No depth leaps to what is not there.
+    // No depth leaps to empty pixels.
     assert!(shown.leap.iter().all(|leap| leap & LEAPS == 0));
 }
 
 #[test]
 fn ends_and_turns_on_a_row_are_met_once() {
-    // Rows at y = 0.5, 1.5, …: the vessel begins, turns and ends on one, passes one at a point, and has a run on another.
+    // At y = 0.5, 1.5, …: the vessel begins, turns and ends, passes at a point, runs along a row.
     let line = [[-4., 1., 0.5], [-2., 2., 2.5], [0., 3., 0.5], [1., 4., 1.5], [2., 5., 2.5]];
     let camera = front([16, 8], 1.0);
     let frame = seen(&tree(vec![vessel(&line, 1.0)]), &camera);
@@ -168,7 +168,7 @@ fn a_segment_within_a_row_shows_its_point_nearest_along_the_row() {
         assert!(frame.folded[pixel(&frame, x, 0.5)]);
     }
     assert!(!frame.folded[pixel(&frame, 0.5, -0.5)] && !frame.folded[pixel(&frame, 0.5, 1.5)]);
-    // Along the view all of it stands in one place: its nearest point.
+    // Along the view all of it lies at one position: its nearest point.
     let away = vessel(&[[0., 9., 0.5], [0., -3., 0.5]], 1.0);
     let frame = seen(&tree(vec![away]), &front([16, 8], 1.0));
     assert_eq!(at(&frame, frame.depth(), 5.5, 0.5), -3.0);
@@ -176,7 +176,7 @@ fn a_segment_within_a_row_shows_its_point_nearest_along_the_row() {
 
 #[test]
 fn leaps_between_vessels_and_lumen_are_told() {
-    // 45 degrees to the rows and 45 to the view: with d = (1, √2, 1)/2 a point s along the row lies s·√(1 − ¼) off.
+    // 45° to rows and view: with d = (1, √2, 1)/2 a point s along the row lies s·√(1 − ¼) off.
     let slanted = vessel(&[[-20., -28.284_271_2, -20.], [20., 28.284_271_2, 20.]], 3.0);
     let upright = vessel(&[[30., 60., -20.], [30., 60., 20.]], 1.0);
     let frame = seen(&tree(vec![slanted, upright]), &front([400, 40], 0.25));

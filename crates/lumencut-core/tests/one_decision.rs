@@ -1,4 +1,4 @@
-//! One decision for each pixel: the vessel that wins it on the finest level gives its depth alone.
+//! One decision per pixel: only the vessel that wins it on the finest level gives its depth.
 #![allow(clippy::unwrap_used)]
 
 use glam::DVec3;
@@ -114,8 +114,7 @@ fn the_vessel_of_a_pixel_does_not_depend_on_the_levels() {
     }
 }
 
-/// A vessel behind and beyond all others, whose coordinates are the largest: what is rounded by them stays the same
-/// whichever of the others are there.
+/// A vessel beyond all others with the largest coordinates, so that rounding is the same without others.
 fn far_away() -> Vessel {
     let points = vec![DVec3::new(-700.0, 900.0, 700.0), DVec3::new(-720.0, 900.0, 700.0)];
     Vessel::new(points, Some(vec![1.0; 2])).unwrap()
@@ -200,7 +199,7 @@ fn every_level_of_a_straight_tube_has_the_depth_of_the_finest_however_far() {
     }
 }
 
-/// The frame of a request for some images, and the stages that made it.
+/// The frame of a request for some images, and its stages.
 fn asked(scene: &Scene, settings: &Settings, images: &[Image]) -> (Frame, Vec<&'static str>) {
     let camera = view([0.5, 1.0, -0.3], [61, 50], 1.7);
     let request = Request { images: ImageSet::of(images), ..Request::new(&camera, settings) };

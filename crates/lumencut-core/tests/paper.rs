@@ -1,4 +1,4 @@
-//! The paper's rules give the same images, to the bit, as they did when they were the only ones.
+//! The paper's rules give the same images, to the bit, as when they were the only ones.
 #![allow(clippy::unwrap_used)]
 
 use lumencut_core::camera::Camera;
@@ -44,7 +44,6 @@ fn collinear() -> VesselTree {
     tree(vec![vessel(&step, 3.0), vessel(&axis, 2.0)])
 }
 
-/// Scenes by their names.
 fn scenes() -> [(&'static str, VesselTree); 5] {
     let random = random_tree(41, 14, 60, 2.0, 70.0).unwrap();
     [

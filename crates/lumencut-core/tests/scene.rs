@@ -1,4 +1,4 @@
-//! A scene's tree can be exchanged, and what is shown does not ask how its places were found.
+//! A scene's tree can be exchanged, and `look` is independent of how positions were found.
 #![allow(clippy::unwrap_used)]
 
 use std::sync::Arc;
@@ -29,7 +29,6 @@ fn scene(phantom: &Phantom) -> Scene<'_> {
     Scene::new(phantom.volume().unwrap(), phantom.tree.clone())
 }
 
-/// The same images to the bit.
 fn assert_identical(one: &Frame, other: &Frame) {
     let bits = |values: &[f32]| values.iter().map(|v| v.to_bits()).collect::<Vec<_>>();
     assert_eq!(one.image, other.image);
@@ -61,7 +60,6 @@ fn an_exchanged_tree_is_shown_as_in_a_scene_of_its_own() {
     let request = Request::new(&camera, &settings);
     let before = renderer.render(&first, &request).unwrap();
     assert_identical(&renderer.render(&exchanged, &request).unwrap(), &shown(&fresh, &camera, &settings));
-    // And back again.
     assert_identical(&renderer.render(&first, &request).unwrap(), &before);
 }
 
@@ -100,7 +98,7 @@ fn levels_are_kept_for_two_values_of_the_smoothing() {
         assert!(Arc::ptr_eq(&none, &leveled.levels(3, 0.0)));
         assert!(Arc::ptr_eq(&half, &leveled.levels(2, 0.5)));
     }
-    // The value asked for last stays beside a third one.
+    // The value used last stays next to a third one.
     let two = leveled.levels(3, 2.0);
     assert!(Arc::ptr_eq(&half, &leveled.levels(3, 0.5)));
     assert!(Arc::ptr_eq(&two, &leveled.levels(3, 2.0)));
@@ -113,7 +111,7 @@ fn looking_again_shows_the_same() {
     let (camera, scene) = (view([0.3, 1.0, 0.2], SIZE, 1.5), scene(&phantom));
     let request = Request::new(&camera, &settings);
     let whole = shown(&scene, &camera, &settings);
-    // A cut surface alone has leaps, and how far their lines reach, only where they are asked for.
+    // A cut surface alone has leaps, and the reach of their lines, only if requested.
     let cut = Scene { volume: None, ..scene.clone() };
     let images = ImageSet::ALL.and(ImageSet::of(&[Image::Leap, Image::Focus]));
     let with_leaps = Request { images, ..request };
@@ -156,7 +154,7 @@ fn neither_a_volume_nor_a_tree_is_an_error() {
     assert_eq!(nothing.unwrap_err().kind, ErrorKind::Volume);
 }
 
-/// The cut surface of a frame once more, as places of their own.
+/// The cut surface of a frame as a curved geometry.
 fn as_curved(frame: &Frame) -> Geometry {
     let camera = *frame.geometry.camera().unwrap();
     let [width, height] = camera.size();
@@ -194,8 +192,7 @@ fn places_of_their_own_show_the_values_that_a_camera_shows_there() {
         assert_eq!(curved.images(), ImageSet::of(&[Image::Picture, Image::Value]));
         let mut seen = 0;
         for (a, b) in curved.value.iter().zip(&orthographic.value) {
-            // A hair's breadth decides at the border of the volume; elsewhere the two ways of adding differ in the last
-            // digits of an index.
+            // Rounding decides at the border of the volume; elsewhere indices differ in their last digits.
             assert!(a.is_nan() == b.is_nan() && (a.is_nan() || (a - b).abs() < 0.01), "{a} and {b}");
             seen += usize::from(!a.is_nan());
         }

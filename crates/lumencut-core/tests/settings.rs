@@ -9,7 +9,6 @@ use lumencut_core::settings::{
     SlabMode, TransferFunction, Value, Window, table,
 };
 
-/// The settings with these choices.
 fn chosen(given: &[(&str, Value)]) -> Result<Settings, String> {
     let mut choices = Choices::default();
     for (name, value) in given {

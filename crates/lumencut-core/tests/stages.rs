@@ -125,7 +125,7 @@ fn the_surface_reads_the_volume_where_the_depth_says() {
             assert!(value[p].is_nan());
             outside += 1;
         } else {
-            // Within half a voxel of the border the outermost voxels go on.
+            // Within half a voxel of the border the outermost voxels continue.
             let expected = index.clamp(DVec3::ZERO, last).dot(DVec3::new(1.0, 10.0, 100.0));
             assert!(
                 (f64::from(value[p]) - expected).abs() < f64::from(VALUE.apart),
@@ -236,7 +236,7 @@ fn a_whole_rendering_shows_a_bright_tube_on_a_dark_ground() {
 
 #[test]
 fn a_slab_far_thicker_than_the_volume_shows_all_of_it() {
-    // Eight voxels, of a ten thousandth of a mm or of 1 mm, in a slab of 1 m.
+    // Eight voxels with a side of 0.0001 mm or 1 mm, in a slab of 1 m.
     for side in [1e-4, 1.0] {
         let voxels = [1i16, 2, 3, 4, 5, 6, 7, 8];
         let affine = DAffine3::from_scale_rotation_translation(
@@ -245,7 +245,7 @@ fn a_slab_far_thicker_than_the_volume_shows_all_of_it() {
             DVec3::splat(-side / 2.0),
         );
         let volume = Volume::new(Voxels::I16(&voxels), [2; 3], [1, 2, 4], affine).unwrap();
-        // The middle pixel looks along k through the middle of the volume: 2.5 first, 6.5 last.
+        // The middle pixel's ray runs along k through the middle of the volume: 2.5 first, 6.5 last.
         let camera = view([0.0, 0.0, 1.0], [3, 3], side / 10.0);
         for (mode, expected) in [(SlabMode::Min, 2.5), (SlabMode::Mean, 4.5), (SlabMode::Max, 6.5)] {
             let slab = Some(Slab { thickness: 1000.0, mode });
@@ -257,8 +257,8 @@ fn a_slab_far_thicker_than_the_volume_shows_all_of_it() {
 
 #[test]
 fn leaps_are_where_neither_side_goes_on_and_never_beyond_the_image() {
-    // A steep plane, 90 mm for each mm to the right and 70 upwards, with a step of 5 mm after the third column; and one
-    // of 3 mm after the second row, which a vessel of 2 mm radius bridges.
+    // A steep plane (90 mm per mm right, 70 up) with a 5 mm step after the third column, and a 3 mm step
+    // after the second row that a vessel of 2 mm radius bridges.
     let size = [19, 7];
     let camera = view([0.0, 1.0, 0.0], size, 0.5);
     let place = |p: usize| (p % size[0], p / size[0]);

@@ -24,14 +24,14 @@ impl Tube {
         vessel(&[[-500.0, self.depth, self.height], [500.0, self.depth, self.height]], self.radius)
     }
 
-    /// How far a height lies beyond the tube's lumen (mm).
+    /// Distance of a height beyond the tube's lumen (mm).
     fn beyond(self, y: f64, settings: &Settings) -> f64 {
         let is_known = settings.preserve_lumen && self.radius > 0.0;
         let radius = if is_known { self.radius } else { settings.unknown_radius };
         (y - self.height).abs() - radius
     }
 
-    /// The tier, and what orders tubes of one tier.
+    /// The tier, and the order of tubes within it.
     fn key(self, y: f64, settings: &Settings) -> (u8, f64) {
         let beyond = self.beyond(y, settings);
         if beyond <= 0.0 {
@@ -44,11 +44,11 @@ impl Tube {
     }
 }
 
-/// How many pixels the view is high, of [`SIDE`] mm each.
+/// The height of the view in pixels of [`SIDE`] mm.
 const ROWS: usize = 800;
 const SIDE: f64 = 0.1;
 
-/// The vessel that each height of some tubes shows, from the top.
+/// The vessel at each height of some tubes, from the top.
 fn shown(tubes: &[Tube], settings: &Settings) -> Vec<(f64, i32)> {
     let scene = tree(tubes.iter().map(|tube| tube.vessel()).collect());
     let camera = front([3, ROWS], SIDE);
@@ -72,7 +72,7 @@ fn tube(height: f64, depth: f64, radius: f64) -> Tube {
 
 #[test]
 fn lumen_beats_wall_and_wall_beats_surroundings_whatever_the_depth() {
-    // The lumen reaches to 2, its wall to 3; the nearer tube's from 4 and 3.5 on; the nearest one is a thin line far above.
+    // Lumen to 2, wall to 3; the nearer tube's from 4 and 3.5 on; the nearest is a thin line far above.
     let tubes = [tube(0.0, 1000.0, 2.0), tube(5.0, 500.0, 1.5), tube(12.0, -900.0, 0.5)];
     let thin_wall = Settings { lumen_margin: 0.75, ..unfiltered() };
     assert_eq!(
@@ -146,7 +146,7 @@ fn lumen_that_is_not_preserved_counts_as_without_radius() {
     }
 }
 
-/// Settings under which [`random_tubes`] are told apart.
+/// Settings for [`random_tubes`].
 fn tiers(random: &mut Random) -> Settings {
     Settings {
         lumen_margin: if random.once_in(3) { 0.0 } else { random.number() * 4.0 },

@@ -1,6 +1,7 @@
-//! Table 2 of the paper on the GPU, stage by stage, beside the paper's figures and this machine's CPU in the same run.
+//! Table 2 of the paper on the GPU, stage by stage, next to the paper's figures and the CPU in the same run.
 //!
-//! `cargo bench -p lumencut-gpu --bench stages`; with `-- --quick` fewer and smaller pictures, for slow adapters.
+//! `cargo bench -p lumencut-gpu --bench stages`; `-- --quick` renders fewer and smaller pictures, for slow
+//! adapters.
 
 use std::error::Error;
 use std::sync::Arc;
@@ -21,22 +22,19 @@ use lumencut_scenes::timing::{StageTimes, head, row, stage_medians};
 use lumencut_scenes::views::fitted;
 use lumencut_scenes::workloads::{ASKED, PAPER_FRAMES, PAPER_STAGES, PaperStage, WORKLOADS};
 
-/// Any error, in words.
 type Result<T> = std::result::Result<T, Box<dyn Error>>;
 
-/// How long a GPU renders before it is measured.
+/// Rendering time before the measurement.
 const WARM_UP: Duration = Duration::from_secs(1);
-/// The frame of which the picture alone is read back.
+/// The frame of which only the picture is read back.
 const PICTURE_ALONE: &str = "picture alone";
 
-/// How much is measured.
 #[derive(Clone, Copy)]
 struct Effort {
     frames: usize,
     sides: [usize; 2],
 }
 
-/// The stages of one workload without and with context, on the GPU and on the CPU.
 struct Measured {
     gpu: StageTimes,
     cpu: StageTimes,
@@ -44,7 +42,7 @@ struct Measured {
     cpu_mida: StageTimes,
 }
 
-/// Renders for a while: a GPU lowers its clock, to a sixth on some, while nothing is asked of it.
+/// Renders for a while: an idle GPU lowers its clock, some to a sixth.
 fn raise_clock(
     device: &Device,
     render: &mut impl FnMut() -> lumencut_core::error::Result<Frame>,
@@ -78,7 +76,6 @@ fn measure(device: &Arc<Device>, phantom: &Phantom, side: usize, frames: usize) 
     Ok(Measured { gpu, gpu_mida, cpu: on_cpu(&plain)?, cpu_mida: on_cpu(&mida)? })
 }
 
-/// Milliseconds, where they were measured.
 fn cell(time: Option<&f64>) -> String {
     time.map_or_else(|| "–".to_owned(), |time| format!("{time:.2}"))
 }
@@ -107,7 +104,7 @@ fn table(side: usize, names: &[&str], all: &[Measured]) {
     print("frame with MIDA, the picture alone", &|m| of(&m.gpu_mida, &m.cpu_mida, PICTURE_ALONE), [0.0; 3]);
 }
 
-/// The cut surface of a random tree: by the GPU's clock, and with what is read back as its caller waits for it.
+/// The cut surface of a random tree: time on the GPU's clock, and time for the caller including the readback.
 fn cut_surface(device: &Arc<Device>, effort: Effort) -> Result<()> {
     let tree = random_tree(7, 31, 160, 1.5, 150.0)?;
     let title = format!("Cut surface of {} segments, all levels (ms)", tree.segment_count());

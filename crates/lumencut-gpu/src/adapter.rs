@@ -1,14 +1,14 @@
-//! The GPUs of this machine, and which of them computes.
+//! The GPUs of this machine, and the choice between them.
 
 use lumencut_core::error::{Error, ErrorKind, Mend, Result};
 use wgpu::{Adapter, Backends, DeviceType, Instance, InstanceDescriptor};
 
-/// Which GPUs will do.
+/// Which GPUs are acceptable.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Choice {
     /// Hardware only: a software rasteriser is slower than the CPU's own kernels.
     Hardware,
-    /// Software where there is no hardware.
+    /// Software if there is no hardware.
     Any,
 }
 
@@ -17,7 +17,7 @@ pub enum Choice {
 pub struct Description {
     /// Its name.
     pub name: String,
-    /// The API it is reached by, such as vulkan.
+    /// Its API, such as vulkan.
     pub backend: String,
     /// Its driver and version.
     pub driver: String,
@@ -30,7 +30,7 @@ pub struct Description {
 }
 
 impl Description {
-    /// What is said of an adapter.
+    /// The description of an adapter.
     pub fn of(adapter: &Adapter) -> Self {
         let (info, limits) = (adapter.get_info(), adapter.limits());
         Self {
@@ -44,11 +44,11 @@ impl Description {
     }
 }
 
-/// The adapters of this machine, the ones to take first in front.
+/// The adapters of this machine, preferred ones first.
 pub(crate) async fn adapters() -> Vec<Adapter> {
     let instance = Instance::new(InstanceDescriptor::new_without_display_handle());
     let mut adapters = instance.enumerate_adapters(Backends::PRIMARY).await;
-    // A browser gives the one it prefers.
+    // A browser returns the one it prefers.
     if adapters.is_empty()
         && let Ok(adapter) = instance.request_adapter(&wgpu::RequestAdapterOptions::default()).await
     {
@@ -64,12 +64,11 @@ pub(crate) async fn adapters() -> Vec<Adapter> {
     adapters
 }
 
-/// The GPUs of this machine, the ones to take first in front.
+/// The GPUs of this machine, preferred ones first.
 pub async fn devices() -> Vec<Description> {
     adapters().await.iter().map(Description::of).collect()
 }
 
-/// The first adapter that will do.
 pub(crate) async fn choose(choice: Choice) -> Result<Adapter> {
     let is_wanted =
         |adapter: &Adapter| choice == Choice::Any || adapter.get_info().device_type != DeviceType::Cpu;

@@ -2,31 +2,25 @@
 
 use lumencut_core::error::Result;
 use lumencut_core::math::blocks::{Blocks, Range};
-use lumencut_core::math::context_parameters::BlockPlaces;
+use lumencut_core::math::context_parameters::BlockLayout;
 use wgpu::Buffer;
 
 use crate::device::Device;
 
-/// The blocks of a volume, of all sizes in one buffer.
 #[derive(Debug)]
 pub(crate) struct DeviceBlocks {
-    /// The smallest and the largest value of each.
     pub ranges: Buffer,
-    /// Where they lie in it.
-    pub places: BlockPlaces,
+    pub places: BlockLayout,
 }
 
 impl DeviceBlocks {
-    /// Sends blocks to the GPU, but for the smallest ones where there are more than it can read at once.
-    ///
-    /// # Errors
-    /// [`lumencut_core::error::ErrorKind::Device`] where it has no room.
-    pub fn new(device: &Device, blocks: &Blocks) -> Result<Self> {
+    /// Sends blocks to the GPU, without the smallest ones if they exceed a binding.
+    pub(crate) fn new(device: &Device, blocks: &Blocks) -> Result<Self> {
         let room = device.limits.max_storage_buffer_binding_size.min(device.limits.max_buffer_size);
         let all: Vec<_> = blocks.levels().collect();
         let finest = first_that_fits(&all, room as usize / size_of::<[f32; 2]>());
         let mut ranges: Vec<[f32; 2]> = Vec::with_capacity(length(&all[finest..]));
-        let mut places = BlockPlaces { finest: finest as u32, ..BlockPlaces::default() };
+        let mut places = BlockLayout { finest: finest as u32, ..BlockLayout::default() };
         for ((size, level), place) in all[finest..].iter().zip(&mut places.levels) {
             let [i, j, k] = size.map(|n| n as u32);
             *place = [i, j, k, ranges.len() as u32];
@@ -39,12 +33,11 @@ impl DeviceBlocks {
     }
 }
 
-/// The first level that fits in a buffer with room for `most` blocks, together with those above it.
+/// The first level that fits, with all coarser ones, in a buffer with room for `most` blocks.
 pub(crate) fn first_that_fits(levels: &[([usize; 3], &[Range])], most: usize) -> usize {
     (0..levels.len()).find(|first| length(&levels[*first..]) <= most).unwrap_or(levels.len() - 1)
 }
 
-/// The number of blocks of some levels.
 fn length(levels: &[([usize; 3], &[Range])]) -> usize {
     levels.iter().map(|(_, ranges)| ranges.len()).sum()
 }

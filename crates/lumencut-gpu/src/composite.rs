@@ -14,32 +14,27 @@ use crate::view::groups;
 
 const ROOM: &str = "stages/composite";
 
-/// What a picture is made of, from the front to the back.
+/// Layers from the front to the back; [`lumencut_core::stages::composite::Layers`] explains them.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Layers<'a> {
-    /// The volume at the cut surface, where there is one; HUGE where it shows nothing.
     pub value: Option<&'a Buffer>,
-    /// Strength of the silhouettes, where they are drawn.
     pub strength: Option<&'a Buffer>,
-    /// How much of the surface and its silhouettes is shown, where not all of it is.
     pub focus: Option<&'a Buffer>,
-    /// The context, colours times opacity and opacity, where there is one.
     pub context: Option<&'a Buffer>,
 }
 
-/// The layers over each other, and the context alone.
 #[derive(Debug)]
 pub(crate) struct Composite {
-    /// With or without each layer, compiled once needed.
+    /// With or without each layer, compiled when needed.
     stages: [OnceLock<Stage>; 16],
     layer: OnceLock<Stage>,
     parameters: Buffer,
-    /// Bound where a layer is not there, and never read: it is white, so that one would see it.
+    /// Bound in place of a missing layer and never read; white, so that a mistake shows.
     nothing: Buffer,
 }
 
 impl Composite {
-    pub fn new(device: &Device) -> Self {
+    pub(crate) fn new(device: &Device) -> Self {
         Self {
             stages: Default::default(),
             layer: OnceLock::new(),
@@ -48,13 +43,11 @@ impl Composite {
         }
     }
 
-    /// Tells the shader of the settings.
-    pub fn write(&self, device: &Device, settings: &Settings) {
+    pub(crate) fn write(&self, device: &Device, settings: &Settings) {
         device.write(&self.parameters, &[CompositeParameters::new(settings)]);
     }
 
-    /// Writes the picture, RGBA with straight alpha, of the layers over the background.
-    pub fn record(
+    pub(crate) fn record(
         &self,
         recording: &mut Recording,
         view: &Buffer,
@@ -82,8 +75,7 @@ impl Composite {
         recording.run(stage, &buffers.map(Buffer::as_entire_binding), groups(size, GROUP));
     }
 
-    /// Writes a layer of colours times opacity and opacity as RGBA with straight alpha.
-    pub fn record_layer(
+    pub(crate) fn record_layer(
         &self,
         recording: &mut Recording,
         view: &Buffer,

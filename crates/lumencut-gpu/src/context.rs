@@ -22,7 +22,6 @@ use crate::volume::DeviceVolume;
 
 const ROOM: &str = "stages/context";
 
-/// What the shader is compiled for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Permutation {
     is_float: bool,
@@ -50,52 +49,41 @@ impl Permutation {
     }
 }
 
-/// The stage, for all that it was asked for so far, and its parameters.
 #[derive(Debug)]
 pub(crate) struct ContextStage {
-    /// Where rays start: where all of the surface is shown, and around a focus in front of the volume or at the surface.
+    /// Where rays start: without a focus, and with one in front of the volume or at the surface.
     starts: [OnceLock<Stage>; 3],
     stages: Vec<(Permutation, Stage)>,
     parameters: Buffer,
-    /// The parameters as the shader was last told.
-    told: Vec<u8>,
+    /// The parameters last written.
+    written: Vec<u8>,
 }
 
-/// The images of the context.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ContextImages<'a> {
-    /// Width and height.
     pub size: [usize; 2],
-    /// Whether there is a cut surface; without one every ray crosses the whole volume.
+    /// Without one every ray crosses the whole volume.
     pub has_surface: bool,
-    /// How much of it is shown, where not all of it is.
     pub focus: Option<&'a Buffer>,
-    /// The depth of the cut surface (mm).
     pub depth: &'a Buffer,
-    /// The volume there.
     pub value: &'a Buffer,
-    /// Written on the way: where the rays start.
     pub start: &'a Buffer,
-    /// The result: colours times opacity, and opacity.
+    /// The result, premultiplied.
     pub gathered: &'a Buffer,
 }
 
 impl ContextStage {
-    /// No rays compiled yet.
-    pub fn new(device: &Device) -> Self {
+    pub(crate) fn new(device: &Device) -> Self {
         Self {
             starts: Default::default(),
             stages: Vec::new(),
             parameters: device.uniform::<ContextParameters>("context parameters"),
-            told: Vec::new(),
+            written: Vec::new(),
         }
     }
 
-    /// Tells the shaders of the context of a volume in a view, where they were last told otherwise.
-    ///
-    /// # Errors
-    /// As the stage of the CPU.
-    pub fn write(
+    /// Writes the parameters of the context, if they changed.
+    pub(crate) fn write(
         &mut self,
         device: &Device,
         settings: &Settings,
@@ -109,14 +97,13 @@ impl ContextStage {
             _ => IndexFromView::new(volume, camera).voxel(),
         };
         let parameters = ContextParameters::new(settings, context, &colors, step, &blocks.places);
-        if self.told != bytemuck::bytes_of(&parameters) {
+        if self.written != bytemuck::bytes_of(&parameters) {
             device.write(&self.parameters, &[parameters]);
-            self.told = bytemuck::bytes_of(&parameters).to_vec();
+            self.written = bytemuck::bytes_of(&parameters).to_vec();
         }
         Ok(())
     }
 
-    /// The stage that finds where rays start.
     fn starts_stage(&self, device: &Device, has_focus: bool, from: ContextFrom) -> &Stage {
         let from_cut = from == ContextFrom::Cut;
         let place = if has_focus { 1 + usize::from(from_cut) } else { 0 };
@@ -127,8 +114,8 @@ impl ContextStage {
         })
     }
 
-    /// Writes where the rays start, and what they gather. `on_device` is placed in the view by `grid`.
-    pub fn record(
+    /// Writes where the rays start, and what they gather. `grid` places `on_device` in the view.
+    pub(crate) fn record(
         &mut self,
         recording: &mut Recording,
         [view, grid]: [&Buffer; 2],
@@ -139,7 +126,7 @@ impl ContextStage {
         let ContextImages { size, has_surface, depth, value, start, gathered, .. } = images;
         let device = recording.device;
         if has_surface {
-            // Where all of it is shown, the binding of the focus is not read.
+            // Without a focus its binding is not read.
             let focus = images.focus.unwrap_or(value);
             let buffers = [view, &self.parameters, value, depth, start, focus].map(Buffer::as_entire_binding);
             let stage = self.starts_stage(device, images.focus.is_some(), context.from);

@@ -3,7 +3,7 @@
 use std::mem::offset_of;
 use std::sync::OnceLock;
 
-use lumencut_core::math::levels::{CutSurfaceParameters, LevelPlace};
+use lumencut_core::math::levels::{CutSurfaceParameters, LevelLayout};
 use lumencut_core::pipeline::Request;
 use lumencut_core::settings::{LevelChoice, MAX_LEVELS};
 use lumencut_core::stages::Stage as Table;
@@ -17,41 +17,38 @@ use crate::recording::Recording;
 use crate::stage::Stage;
 use crate::view::groups;
 
-/// The quads side by side and the rows of a thread's tile on software, where what a thread reads should serve many pixels.
+/// Columns of quads and rows of a thread's tile on software: what a thread reads should serve many pixels.
 pub(crate) const TILE_ON_SOFTWARE: [usize; 2] = [1, 4];
-/// The same on hardware, which needs many threads: a picture has too few larger tiles to keep it busy.
+/// The same on hardware: larger tiles would be too few threads to keep it busy.
 pub(crate) const TILE_ON_HARDWARE: [usize; 2] = [1, 1];
-/// The pixels of a quad, the tiles of a group of threads, and how many of them lie side by side.
+/// The pixels of a quad, and the tiles of a workgroup in all and per row.
 pub(crate) const QUAD: usize = 4;
 pub(crate) const TILES: usize = 64;
 pub(crate) const TILES_ACROSS: usize = 4;
-/// The threads of a group that projects points.
 pub(crate) const POINT_THREADS: u32 = 64;
-/// The most groups along one side of a dispatch.
-const MOST_GROUPS: u32 = 65_535;
+/// The most workgroups along one side of a dispatch.
+const MAX_GROUPS: u32 = 65_535;
 
-/// The stages, and what they read in every view.
 #[derive(Debug)]
 pub(crate) struct CutSurfaceStages {
     projection: Stage,
     bundle: Stage,
     enclose: Stage,
     distance: Stage,
-    /// Compiled once needed.
+    /// Compiled when needed.
     focus: OnceLock<Stage>,
     focus_parameters: Buffer,
-    /// Depth by each level choice, without and with *lumen first*, without and with a sheet; compiled once needed.
+    /// By level choice, *lumen first* and sheet; compiled when needed.
     depth: [[[Option<Stage>; 2]; 2]; 2],
     parameters: Buffer,
-    /// Where the levels lie, as the shaders were last told.
-    told: Option<[LevelPlace; MAX_LEVELS + 1]>,
-    /// The pixels of a group of threads.
+    /// The layout of the levels last written.
+    written_layout: Option<[LevelLayout; MAX_LEVELS + 1]>,
+    /// The pixels of a workgroup.
     group: [usize; 2],
 }
 
 impl CutSurfaceStages {
-    /// Compiles the stages.
-    pub fn new(device: &Device) -> Self {
+    pub(crate) fn new(device: &Device) -> Self {
         let [across, rows] = tile_of(device);
         let tile = [("ACROSS", across as f64), ("ROWS", rows as f64)];
         Self {
@@ -63,23 +60,29 @@ impl CutSurfaceStages {
             focus_parameters: device.image("focus parameters", 1, size_of::<FocusParameters>()),
             depth: Default::default(),
             group: [across * QUAD * TILES_ACROSS, rows * TILES / TILES_ACROSS],
-            told: None,
+            written_layout: None,
             parameters: device.uniform::<CutSurfaceParameters>("cut surface parameters"),
         }
     }
 
-    /// Tells the shaders of a view of `levels`; where the levels lie only once.
-    pub fn look(&mut self, device: &Device, levels: &DeviceLevels, request: &Request) {
+    /// Writes the parameters of a view; the layout of the levels only once.
+    pub(crate) fn look(&mut self, device: &Device, levels: &DeviceLevels, request: &Request) {
         let parameters = levels.parameters(request.camera, request.settings);
         let bytes = bytemuck::bytes_of(&parameters);
-        let is_told = self.told.as_ref() == Some(&parameters.levels);
+        let is_told = self.written_layout.as_ref() == Some(&parameters.levels);
         let count = if is_told { offset_of!(CutSurfaceParameters, levels) } else { bytes.len() };
         device.write(&self.parameters, &bytes[..count]);
-        self.told = Some(parameters.levels);
+        self.written_layout = Some(parameters.levels);
     }
 
-    /// Projects the levels that are needed: their points, then what stands at each, then the boxes around them.
-    pub fn project(&self, recording: &mut Recording, view: &Buffer, levels: &DeviceLevels, coarsest: usize) {
+    /// Projects the needed levels: points, wedges, boxes.
+    pub(crate) fn project(
+        &self,
+        recording: &mut Recording,
+        view: &Buffer,
+        levels: &DeviceLevels,
+        coarsest: usize,
+    ) {
         let all = [view, &self.parameters, &levels.alongs, &levels.points, &levels.projected];
         let points = levels.point_count(coarsest).div_ceil(POINT_THREADS);
         recording.run(&self.projection, &all.map(Buffer::as_entire_binding), in_rows(points));
@@ -90,14 +93,18 @@ impl CutSurfaceStages {
         recording.run(&self.enclose, &all.map(Buffer::as_entire_binding), [coarsest as u32 + 1, 1]);
     }
 
-    /// The distance of every pixel to the finest level.
-    pub fn distance(&self, recording: &mut Recording, view: &Buffer, levels: &DeviceLevels, images: &Images) {
+    pub(crate) fn distance(
+        &self,
+        recording: &mut Recording,
+        view: &Buffer,
+        levels: &DeviceLevels,
+        images: &Images,
+    ) {
         let all = [view, &self.parameters, &levels.slots, &levels.boxes, &images.distance];
         recording.run(&self.distance, &all.map(Buffer::as_entire_binding), groups(images.size, self.group));
     }
 
-    /// How much of the cut surface every pixel shows around a focus.
-    pub fn focus(
+    pub(crate) fn focus(
         &self,
         recording: &mut Recording,
         view: &Buffer,
@@ -116,8 +123,8 @@ impl CutSurfaceStages {
         recording.run(stage, &all.map(Buffer::as_entire_binding), groups(images.size, self.group));
     }
 
-    /// Depth, into a buffer of its own choice, vessel and sheet of every pixel.
-    pub fn depth(
+    /// Writes depth, vessel and sheet of every pixel.
+    pub(crate) fn depth(
         &mut self,
         recording: &mut Recording,
         view: &Buffer,
@@ -136,7 +143,6 @@ impl CutSurfaceStages {
         recording.run(stage, &all.map(Buffer::as_entire_binding), groups);
     }
 
-    /// The stage `depth` for some rules.
     fn depth_stage(&mut self, device: &Device, rules: DepthRules) -> &Stage {
         let DepthRules { is_own, lumen_first, has_sheet } = rules;
         let [own, lumen, sheet] = [is_own, lumen_first, has_sheet].map(usize::from);
@@ -151,20 +157,15 @@ impl CutSurfaceStages {
     }
 }
 
-/// What the stage `depth` is compiled for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct DepthRules {
-    /// Whether the levels are those of the vessel that wins on the finest one.
     pub is_own: bool,
-    /// Whether lumen comes before all else.
     pub lumen_first: bool,
-    /// Whether the sheet is written.
     pub has_sheet: bool,
 }
 
 impl DepthRules {
-    /// The rules of a view.
-    pub fn of(request: &Request) -> Self {
+    pub(crate) fn of(request: &Request) -> Self {
         let &Request { settings, images, .. } = request;
         Self {
             is_own: settings.level_choice == LevelChoice::Own,
@@ -174,13 +175,12 @@ impl DepthRules {
     }
 }
 
-/// The tile of a thread on a GPU.
 fn tile_of(device: &Device) -> [usize; 2] {
     if device.description().is_software { TILE_ON_SOFTWARE } else { TILE_ON_HARDWARE }
 }
 
-/// The size of a dispatch of at least `groups` groups, in rows no longer than one allows.
+/// The size of a dispatch of at least `groups` workgroups, in rows of allowed length.
 fn in_rows(groups: u32) -> [u32; 2] {
-    let across = groups.min(MOST_GROUPS);
+    let across = groups.min(MAX_GROUPS);
     [across, groups.div_ceil(across)]
 }

@@ -11,49 +11,48 @@ use crate::recording::Recording;
 use crate::stage::Stage;
 use crate::view::groups;
 
-/// A 7×7 Gaussian, over the whole image or within zones.
 #[derive(Debug)]
 pub(crate) struct DepthFilter {
     stage: Stage,
-    /// Along columns and along rows, compiled once needed.
+    /// Along columns and along rows, compiled when needed.
     within_zones: OnceLock<[Stage; 2]>,
     parameters: Buffer,
 }
 
-/// What is filtered within zones, four bytes per pixel.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ZoneImages<'a> {
-    /// What is filtered.
     pub image: &'a Buffer,
-    /// The vessel of each pixel.
     pub vessel: &'a Buffer,
-    /// Written on the way.
+    /// Scratch.
     pub columns: &'a Buffer,
-    /// The result.
     pub smoothed: &'a Buffer,
 }
 
 const ROOM: &str = "stages/depth_filter";
 
 impl DepthFilter {
-    pub fn new(device: &Device) -> Self {
+    pub(crate) fn new(device: &Device) -> Self {
         let parameters = device.uniform::<DepthFilterParameters>("depth_filter parameters");
         device.write(&parameters, &[DepthFilterParameters::new()]);
         Self { stage: Stage::new(device, ROOM, &[]), within_zones: OnceLock::new(), parameters }
     }
 
-    /// Tells the shader of the settings.
-    pub fn write(&self, device: &Device, settings: &Settings) {
+    pub(crate) fn write(&self, device: &Device, settings: &Settings) {
         device.write(&self.parameters, &[DepthFilterParameters::of(settings)]);
     }
 
-    /// Writes the smoothed image.
-    pub fn record(&self, recording: &mut Recording, view: &Buffer, size: [usize; 2], from_to: [&Buffer; 2]) {
+    pub(crate) fn record(
+        &self,
+        recording: &mut Recording,
+        view: &Buffer,
+        size: [usize; 2],
+        from_to: [&Buffer; 2],
+    ) {
         self.record_as(self.stage.name, recording, view, size, from_to);
     }
 
-    /// The same as a part of the stage `name`, whose time it counts to.
-    pub fn record_as(
+    /// The same as a part of the stage `name`, which its time counts to.
+    pub(crate) fn record_as(
         &self,
         name: &'static str,
         recording: &mut Recording,
@@ -65,8 +64,8 @@ impl DepthFilter {
         recording.run_as(name, &self.stage, &buffers, groups(size, GROUP));
     }
 
-    /// Writes the image smoothed within zones: columns first, then rows.
-    pub fn record_within_zones(
+    /// Columns first, then rows.
+    pub(crate) fn record_within_zones(
         &self,
         recording: &mut Recording,
         view: &Buffer,
@@ -85,5 +84,5 @@ impl DepthFilter {
     }
 }
 
-/// The threads of a group, one pixel each, as the shaders of images have them.
+/// The threads of a workgroup, one pixel each, as in the shaders of images.
 pub(crate) const GROUP: [usize; 2] = [16, 4];

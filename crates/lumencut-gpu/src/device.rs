@@ -1,4 +1,4 @@
-//! A GPU that is ready to compute, and what went wrong on it.
+//! A GPU that is ready to compute, and its errors.
 
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -8,7 +8,7 @@ use wgpu::{Adapter, Features, Limits};
 
 use crate::adapter::{Choice, Description, choose};
 
-/// The limits that every stage stays within: those that each browser and driver has.
+/// The default limits, which every browser and driver has.
 const NEEDED: Limits = Limits::defaults();
 
 /// A GPU that is ready to compute.
@@ -25,27 +25,20 @@ pub struct Device {
 /// What the driver reported between calls.
 #[derive(Debug, Default)]
 struct Trouble {
-    /// The first error since it was last asked for.
+    /// The first error since the last check.
     error: Option<String>,
-    /// Why the device computes no more; it never comes back.
+    /// The reason of a permanent loss.
     loss: Option<String>,
-    /// Those who wait for its loss; they hear of it by the end of their channel.
+    /// Waiting for the loss; dropping a sender wakes its receiver.
     waiting: Vec<Sender<()>>,
 }
 
 impl Device {
-    /// Opens a GPU.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Device`] where there is none, or one whose limits are too small.
+    /// Opens a GPU. Fails with [`ErrorKind::Device`] if there is none, or its limits are too small.
     pub async fn open(choice: Choice) -> Result<Self> {
         Self::on(&choose(choice).await?).await
     }
 
-    /// Opens the GPU of an adapter.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Device`] where its limits are too small.
     pub(crate) async fn on(adapter: &Adapter) -> Result<Self> {
         let description = Description::of(adapter);
         check_limits(&description.name, &adapter.limits())?;
@@ -63,14 +56,12 @@ impl Device {
         Ok(Self { limits: device.limits(), device, queue, has_timestamps, description, trouble })
     }
 
-    /// What its driver says of it.
+    /// Its driver's description.
     pub fn description(&self) -> &Description {
         &self.description
     }
 
-    /// An error where something went wrong since the last call, or where the device is lost.
-    ///
-    /// # Errors
+    /// Fails if an error occurred since the last call, or if the device is lost:
     /// [`ErrorKind::Device`] with the driver's words.
     pub fn check(&self) -> Result<()> {
         let mut trouble = self.trouble.lock().unwrap_or_else(PoisonError::into_inner);
@@ -78,12 +69,12 @@ impl Device {
         words.map_or(Ok(()), |words| Err(broken(&self.description.name, &words)))
     }
 
-    /// Whether it computes no more, as far as the driver has told.
+    /// Whether the driver has reported a loss.
     pub fn is_lost(&self) -> bool {
         self.trouble.lock().unwrap_or_else(PoisonError::into_inner).loss.is_some()
     }
 
-    /// Ends once the device is lost, or is not used any more.
+    /// Completes once the device is lost or dropped.
     pub fn loss(&self) -> impl Future<Output = ()> + use<> {
         let (waiting, lost) = channel();
         let mut trouble = self.trouble.lock().unwrap_or_else(PoisonError::into_inner);
@@ -95,24 +86,24 @@ impl Device {
         }
     }
 
-    /// An error for work that the GPU did not finish.
+    /// The error for work that the GPU did not finish.
     pub(crate) fn unfinished(&self) -> Error {
         self.check().err().unwrap_or_else(|| broken(&self.description.name, "no result"))
     }
 
-    /// An error for something that is larger than the GPU allows.
+    /// The error for something larger than the GPU allows.
     pub(crate) fn too_large(&self, subject: &str, found: String, limit: &str) -> Error {
         let expected = format!("at most {limit} on {}", self.description.name);
         Error::new(ErrorKind::Device, subject, found, expected).mended_by(Mend::Cpu)
     }
 
-    /// Simulates the loss of the GPU, for tests of what follows.
+    /// Simulates the loss of the GPU, for tests.
     pub fn lose(&self) {
         self.device.destroy();
     }
 }
 
-/// Listens for what the driver reports between calls.
+/// Collects what the driver reports between calls.
 fn watch(device: &wgpu::Device, trouble: &Arc<Mutex<Trouble>>) {
     let (on_error, on_loss) = (Arc::clone(trouble), Arc::clone(trouble));
     device.on_uncaptured_error(Arc::new(move |error| {
@@ -128,12 +119,12 @@ fn watch(device: &wgpu::Device, trouble: &Arc<Mutex<Trouble>>) {
 
 fn broken(name: &str, words: &str) -> Error {
     let words = words.split_whitespace().collect::<Vec<_>>().join(" ");
-    Error::new(ErrorKind::Device, format!("GPU {name}"), words, "a GPU that computes to the end")
+    Error::new(ErrorKind::Device, format!("GPU {name}"), words, "a GPU that completes its work")
         .mend("try a smaller picture or volume")
         .mended_by(Mend::Cpu)
 }
 
-/// Refuses a GPU that has less of something than the stages need.
+/// Rejects a GPU below the limits of the stages.
 fn check_limits(name: &str, limits: &Limits) -> Result<()> {
     let mut short = Ok(());
     NEEDED.check_limits_with_fail_fn(limits, true, |limit, needed, found| {

@@ -6,7 +6,7 @@ use wgpu::Buffer;
 
 use crate::device::Device;
 
-/// The images of a view by the names that the table of stages gives them.
+/// The images by their names in the table of stages.
 #[derive(Debug)]
 pub(crate) struct Images {
     pub size: [usize; 2],
@@ -18,7 +18,7 @@ pub(crate) struct Images {
     pub leap: Buffer,
     pub focus: Buffer,
     pub value: Buffer,
-    /// The slope that silhouettes are made of; before it, the depth filtered within zones along columns alone.
+    /// The slope behind silhouettes; before that, the depth filtered within zones along columns only.
     pub raised: Buffer,
     pub strength: Buffer,
     pub start: Buffer,
@@ -27,17 +27,13 @@ pub(crate) struct Images {
     pub picture: Buffer,
 }
 
-/// The bytes of a pixel in the largest image.
-const MOST_BYTES: usize = size_of::<[f32; 4]>();
+const MAX_PIXEL_BYTES: usize = size_of::<[f32; 4]>();
 
 impl Images {
     /// Images for views of this size.
-    ///
-    /// # Errors
-    /// [`lumencut_core::error::ErrorKind::Device`] for more pixels than the GPU's buffers hold.
-    pub fn new(device: &Device, size: [usize; 2]) -> Result<Self> {
+    pub(crate) fn new(device: &Device, size: [usize; 2]) -> Result<Self> {
         let pixels = size[0] * size[1];
-        let most = device.limits.max_storage_buffer_binding_size as usize / MOST_BYTES;
+        let most = device.limits.max_storage_buffer_binding_size as usize / MAX_PIXEL_BYTES;
         if pixels > most {
             let found = format!("{} × {} pixels", size[0], size[1]);
             return Err(device.too_large("size of the camera", found, &format!("{most} pixels")));
@@ -49,21 +45,21 @@ impl Images {
             unfiltered_depth: number("unfiltered depth"),
             depth: number("depth"),
             vessel: number("vessel"),
-            sheet: device.image("sheet", pixels, MOST_BYTES),
+            sheet: device.image("sheet", pixels, MAX_PIXEL_BYTES),
             leap: number("leap"),
             focus: device.image("focus", pixels, 8),
             value: number("value"),
             raised: number("raised slope"),
             strength: number("strength"),
             start: number("start"),
-            gathered: device.image("gathered", pixels, MOST_BYTES),
+            gathered: device.image("gathered", pixels, MAX_PIXEL_BYTES),
             context: number("context"),
             picture: number("picture"),
         })
     }
 
-    /// The buffer of an image. Where nothing filters the depth, it is the depth as it is found.
-    pub fn buffer(&self, image: Image, has_filter: bool) -> &Buffer {
+    /// The buffer of an image. Without a filter the depth is the unfiltered depth.
+    pub(crate) fn buffer(&self, image: Image, has_filter: bool) -> &Buffer {
         match image {
             Image::Distance => &self.distance,
             Image::UnfilteredDepth if has_filter => &self.unfiltered_depth,
@@ -81,8 +77,7 @@ impl Images {
         }
     }
 
-    /// The number of pixels.
-    pub fn pixels(&self) -> usize {
+    pub(crate) fn pixels(&self) -> usize {
         self.size[0] * self.size[1]
     }
 }

@@ -11,7 +11,6 @@ use crate::recording::Recording;
 use crate::stage::Stage;
 use crate::view::groups;
 
-/// Neighbours between which the cut surface leaps.
 #[derive(Debug)]
 pub(crate) struct Leap {
     stage: Stage,
@@ -19,18 +18,17 @@ pub(crate) struct Leap {
 }
 
 impl Leap {
-    pub fn new(device: &Device) -> Self {
+    pub(crate) fn new(device: &Device) -> Self {
         let parameters = device.uniform::<LeapParameters>("leap parameters");
         Self { stage: Stage::new(device, "stages/leap", &[]), parameters }
     }
 
-    /// Tells the shader of a view.
-    pub fn write(&self, device: &Device, camera: &Camera) {
+    pub(crate) fn write(&self, device: &Device, camera: &Camera) {
         device.write(&self.parameters, &[LeapParameters::new(camera)]);
     }
 
-    /// Writes the leaps of a depth before its filter.
-    pub fn record(&self, recording: &mut Recording, view: &Buffer, images: &Images, depth: &Buffer) {
+    /// Writes the leaps of an unfiltered depth.
+    pub(crate) fn record(&self, recording: &mut Recording, view: &Buffer, images: &Images, depth: &Buffer) {
         let buffers = [view, &self.parameters, depth, &images.sheet, &images.leap];
         let buffers = buffers.map(Buffer::as_entire_binding);
         recording.run(&self.stage, &buffers, groups(images.size, GROUP));

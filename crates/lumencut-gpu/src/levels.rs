@@ -7,7 +7,7 @@ use lumencut_core::error::Result;
 use lumencut_core::math::chosen_slots::chosen_slots;
 use lumencut_core::math::hierarchy::{Hierarchy, NO_SLOT};
 use lumencut_core::math::lanes::{ABSENT, FAN, FAR};
-use lumencut_core::math::levels::{CutSurfaceParameters, LevelPlace};
+use lumencut_core::math::levels::{CutSurfaceParameters, LevelLayout};
 use lumencut_core::math::projection::Level;
 use lumencut_core::settings::{MAX_LEVELS, Settings};
 use wgpu::Buffer;
@@ -18,47 +18,41 @@ use crate::view::{AXIS_UNIT, power_above, split_at};
 /// `Point` of `math/projection.wgsl`.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
-pub struct Point {
+pub(crate) struct Point {
     /// From the tree's origin (mm): multiples of the tree's unit.
     pub coarse: [f32; 3],
-    /// Radius (mm).
     pub radius: f32,
     /// The rest.
     pub fine: [f32; 3],
-    /// Its place among the slots of all bundles.
+    /// Its index among the slots of all bundles.
     pub place: u32,
 }
 
 /// `Along` of `math/projection.wgsl`.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
-pub struct Along {
-    /// The next point of the vessel; the last point is its own.
+pub(crate) struct Along {
     pub next: u32,
-    /// The arc length of the point (mm).
     pub arc_length: f32,
 }
 
 /// `Span` of `math/levels.wgsl`: the slots of one vessel at one level.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
-pub struct Span {
-    /// The first slot.
+pub(crate) struct Span {
     pub first: u32,
-    /// The slot after the last.
     pub end: u32,
-    /// The first slot of its level.
     pub level: u32,
-    /// The first slot whose lumen and wall come before those of all other vessels, and the slot after the last.
+    /// The slots whose lumen and wall take precedence: the first, and the one after the last.
     pub first_chosen: u32,
     pub end_chosen: u32,
 }
 
-/// `Projected` of `math/levels.wgsl`: a point in projection, written and read on the GPU alone.
+/// `Projected` of `math/levels.wgsl`, written and read on the GPU only.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
 #[allow(missing_docs)]
-pub struct Projected {
+pub(crate) struct Projected {
     pub point: [f32; 3],
     pub radius: f32,
     pub edge: [f32; 2],
@@ -73,7 +67,7 @@ pub struct Projected {
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
 #[allow(missing_docs)]
-pub struct Slot {
+pub(crate) struct Slot {
     pub start: [f32; 2],
     pub next: [f32; 2],
     pub edge: [f32; 2],
@@ -89,7 +83,6 @@ pub struct Slot {
 }
 
 impl Slot {
-    /// A place without a slot.
     const EMPTY: Self = Self {
         start: [FAR; 2],
         next: [FAR; 2],
@@ -110,7 +103,7 @@ impl Slot {
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
 #[allow(missing_docs)]
-pub struct NodeBox {
+pub(crate) struct NodeBox {
     pub low: [f32; 2],
     pub high: [f32; 2],
     pub z: f32,
@@ -120,23 +113,21 @@ pub struct NodeBox {
 }
 
 impl NodeBox {
-    /// A node with nothing inside.
     const EMPTY: Self =
         Self { low: [FAR; 2], high: [FAR; 2], z: ABSENT, radius: 0.0, tiers: 0.0, padding: 0.0 };
 }
 
-/// A tree's levels on the GPU.
 #[derive(Debug)]
 pub(crate) struct DeviceLevels {
-    /// The spans and the points of each level and those before it.
+    /// Number of spans and of points, cumulated over levels.
     spans_up_to: Vec<u32>,
     points_up_to: Vec<u32>,
-    places: [LevelPlace; MAX_LEVELS + 1],
-    /// What points are counted from (mm, LPS), and the largest distance of a point from it.
+    places: [LevelLayout; MAX_LEVELS + 1],
+    /// The origin of points (mm, LPS), and the largest distance of a point from it.
     origin: DVec3,
     reach: f64,
     unit: f64,
-    /// The vessels that come before all others, as the GPU was last told, and all spans.
+    /// The vessels with precedence last written, and all spans.
     first: Vec<usize>,
     all_spans: Vec<Span>,
     pub spans: Buffer,
@@ -149,11 +140,7 @@ pub(crate) struct DeviceLevels {
 }
 
 impl DeviceLevels {
-    /// Uploads `levels`, finest first.
-    ///
-    /// # Errors
-    /// [`lumencut_core::error::ErrorKind::Device`] for more points than the GPU's buffers hold.
-    pub fn new(device: &Device, levels: &[Level]) -> Result<Self> {
+    pub(crate) fn new(device: &Device, levels: &[Level]) -> Result<Self> {
         let origin = middle(&levels[0].points);
         let points = levels.iter().flat_map(|level| &level.points);
         let reach = points.map(|point| point.distance(origin)).fold(1.0, f64::max);
@@ -189,9 +176,9 @@ impl DeviceLevels {
         })
     }
 
-    /// Puts lumen and wall of these vessels before those of all others, in all views from now on, from where they leave the others'
-    /// lumens; `levels` are those of the tree.
-    pub fn put_first(&mut self, device: &Device, levels: &[Level], vessels: &[usize]) {
+    /// Puts lumen and wall of these vessels before those of all others in all later views, from where they
+    /// leave the others' lumens; `levels` are those of the tree.
+    pub(crate) fn put_first(&mut self, device: &Device, levels: &[Level], vessels: &[usize]) {
         if self.first == vessels {
             return;
         }
@@ -204,17 +191,15 @@ impl DeviceLevels {
     }
 
     /// The vessels of the first levels, each counted once per level.
-    pub fn span_count(&self, coarsest: usize) -> u32 {
+    pub(crate) fn span_count(&self, coarsest: usize) -> u32 {
         self.spans_up_to[coarsest]
     }
 
-    /// The points of the first levels.
-    pub fn point_count(&self, coarsest: usize) -> u32 {
+    pub(crate) fn point_count(&self, coarsest: usize) -> u32 {
         self.points_up_to[coarsest]
     }
 
-    /// The parameters of the stages in a view of the tree.
-    pub fn parameters(&self, camera: &Camera, settings: &Settings) -> CutSurfaceParameters {
+    pub(crate) fn parameters(&self, camera: &Camera, settings: &Settings) -> CutSurfaceParameters {
         let origin = camera.view_from_world(self.origin).to_array();
         let away = origin.iter().fold(0.0, |most: f64, c| most.max(c.abs()));
         let split = origin.map(|c| split_at(c, self.unit * AXIS_UNIT));
@@ -229,18 +214,16 @@ impl DeviceLevels {
     }
 }
 
-/// The middle of the box around some points.
 fn middle(points: &[DVec3]) -> DVec3 {
     let ends = points.iter().fold((DVec3::MAX, DVec3::MIN), |(low, high), p| (low.min(*p), high.max(*p)));
     (ends.0 + ends.1) * 0.5
 }
 
-/// What is uploaded, level after level.
 #[derive(Default)]
 struct Arrays {
     spans_up_to: Vec<u32>,
     points_up_to: Vec<u32>,
-    places: [LevelPlace; MAX_LEVELS + 1],
+    places: [LevelLayout; MAX_LEVELS + 1],
     spans: Vec<Span>,
     points: Vec<Point>,
     alongs: Vec<Along>,
@@ -278,11 +261,11 @@ impl Arrays {
             self.alongs.extend((first..=last).map(along));
         }
         self.vessel_of_slot.extend(&level.vessel_of_slot);
-        let mut place = LevelPlace {
+        let mut place = LevelLayout {
             first_slot,
             first_bundle: self.bundles as u32,
             bundle_count: level.bundle_count() as u32,
-            ..LevelPlace::default()
+            ..LevelLayout::default()
         };
         for (height, boxes) in Hierarchy::new(level.bundle_count()).heights.iter().enumerate() {
             place.heights[height] = self.boxes as u32;

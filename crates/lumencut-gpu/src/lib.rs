@@ -1,6 +1,6 @@
 //! The stages of `lumencut-core` as WGSL through wgpu: Vulkan, Metal, DirectX 12, and WebGPU in the browser.
 //!
-//! Every stage is the shader beside the core's own, under the same name; the pictures are those of the CPU but for
+//! Every stage is the shader next to the core's Rust, under the same name; the pictures equal the CPU's up to
 //! rounding.
 
 pub mod adapter;

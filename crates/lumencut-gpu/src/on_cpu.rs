@@ -1,4 +1,4 @@
-//! Which stages the CPU does in the GPU's place: to find where a difference begins.
+//! The stages that the CPU computes instead of the GPU, to locate a difference.
 
 use lumencut_core::error::{Error, ErrorKind, Result};
 use lumencut_core::pipeline::CpuRenderer;
@@ -6,7 +6,6 @@ use lumencut_core::stages::Stage;
 
 use crate::stages::on_either;
 
-/// Which stages the CPU does, and what it keeps for them.
 #[derive(Debug, Default)]
 pub(crate) struct OnCpu {
     stages: Vec<Stage>,
@@ -14,11 +13,8 @@ pub(crate) struct OnCpu {
 }
 
 impl OnCpu {
-    /// The stages of these names.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Settings`] for a name that is not in [`on_either`].
-    pub fn named(names: &[String]) -> Result<Self> {
+    /// The stages of these names, which must be in [`on_either`].
+    pub(crate) fn named(names: &[String]) -> Result<Self> {
         let stages = names.iter().map(|name| {
             on_either().find(|stage| stage.name() == name.as_str()).ok_or_else(|| {
                 let known: Vec<_> = on_either().map(Stage::name).collect();
@@ -29,7 +25,7 @@ impl OnCpu {
         Ok(Self { stages: stages.collect::<Result<_>>()?, ..Self::default() })
     }
 
-    pub fn has(&self, stage: Stage) -> bool {
+    pub(crate) fn has(&self, stage: Stage) -> bool {
         self.stages.contains(&stage)
     }
 }

@@ -1,4 +1,4 @@
-//! One view: the stages in the order of the paper's Fig. 4, recorded for the GPU or done by the CPU in its place.
+//! One view: the stages in the order of the paper's Fig. 4, recorded for the GPU or computed by the CPU.
 
 use lumencut_core::error::Result;
 use lumencut_core::frame::{Frame, Timing};
@@ -28,29 +28,27 @@ use crate::stages::Stages;
 use crate::surface::SurfaceImages;
 use crate::volume::DeviceVolume;
 
-/// One view under way.
 pub(crate) struct Pass<'a> {
     pub device: &'a Device,
     pub stages: &'a mut Stages,
     #[cfg(not(target_arch = "wasm32"))]
     pub on_cpu: &'a mut OnCpu,
     pub images: &'a Images,
-    /// What is shown, and what of it is on the GPU.
+    /// What is shown, and its data on the GPU.
     pub scene: &'a Scene<'a>,
     pub levels: Option<&'a DeviceLevels>,
     pub volume: Option<&'a DeviceVolume>,
-    /// Where the pixels look; the depth of a cut surface that the GPU makes is not in it, but among the images.
+    /// The positions of the pixels; the depth of a cut surface made by the GPU is among the images instead.
     pub geometry: Geometry,
     pub request: &'a Request<'a>,
     pub recording: Recording<'a>,
     pub timings: Vec<Timing>,
-    /// The images that the stages so far have made.
+    /// The images made so far.
     pub made: ImageSet,
 }
 
 impl<'a> Pass<'a> {
-    /// Finds where the pixels look: projection, distance, depth and its filter.
-    pub async fn cut_surface(&mut self) -> Result<()> {
+    pub(crate) async fn cut_surface(&mut self) -> Result<()> {
         self.projection();
         for stage in Stage::of_cut_surface(self.request.settings, self.request.images) {
             self.run(stage).await?;
@@ -59,8 +57,7 @@ impl<'a> Pass<'a> {
         Ok(())
     }
 
-    /// Shows what is there: values, silhouettes, context, picture.
-    pub async fn look(&mut self) -> Result<()> {
+    pub(crate) async fn look(&mut self) -> Result<()> {
         let Request { settings, images, .. } = *self.request;
         for stage in Stage::of_look(settings, &self.geometry, self.made, images) {
             self.run(stage).await?;
@@ -68,11 +65,9 @@ impl<'a> Pass<'a> {
         Ok(())
     }
 
-    /// Sends depth, vessels, leaps and focus of a cut surface that was made elsewhere.
-    ///
-    /// # Panics
-    /// Where they are not those of every pixel: a mistake in the program, never in its input.
-    pub fn send_surface(&mut self, vessel: &[i32], leap: &[u32], focus: &[Shares]) {
+    /// Sends depth, vessels, leaps and focus of a cut surface that was made elsewhere; each must cover every
+    /// pixel.
+    pub(crate) fn send_surface(&mut self, vessel: &[i32], leap: &[u32], focus: &[Shares]) {
         let depth = self.geometry.depth();
         for (image, bytes) in [
             (Image::Depth, bytemuck::cast_slice::<_, u8>(depth)),
@@ -89,7 +84,6 @@ impl<'a> Pass<'a> {
         }
     }
 
-    /// Runs one stage, on the CPU where that is wanted.
     async fn run(&mut self, stage: Stage) -> Result<()> {
         #[cfg(not(target_arch = "wasm32"))]
         if self.on_cpu.has(stage) {
@@ -111,7 +105,7 @@ impl<'a> Pass<'a> {
             Stage::Silhouette => self.silhouette(),
             Stage::Context => return self.context(),
             Stage::Composite => self.composite(),
-            // Made by the CPU, sent before the view, or recorded with what they prepare.
+            // Made by the CPU, sent before the view, or recorded with another stage.
             Stage::Levels | Stage::Projection | Stage::Blocks => {}
         }
         Ok(())
@@ -222,13 +216,12 @@ impl<'a> Pass<'a> {
         composite.record(&mut self.recording, view, *size, layers, picture);
     }
 
-    /// The buffer of an image.
-    pub fn buffer(&self, image: Image) -> &'a Buffer {
+    pub(crate) fn buffer(&self, image: Image) -> &'a Buffer {
         self.images.buffer(image, self.request.settings.depth_filter)
     }
 
-    /// Runs what is recorded, and reads the images that are asked for.
-    pub async fn frame(mut self) -> Result<Frame> {
+    /// Runs what is recorded, and reads the requested images.
+    pub(crate) async fn frame(mut self) -> Result<Frame> {
         if !self.made.has(Image::Gathered) {
             self.made = self.made.without(Image::Context);
         }
@@ -258,8 +251,8 @@ impl<'a> Pass<'a> {
         screen.record(self.device, self.recording, &self.images.picture)?.await
     }
 
-    /// Runs what is recorded so far, and asks for images.
-    pub async fn finish(&mut self, wanted: &[Image]) -> Result<Results> {
+    /// Runs what is recorded so far, and requests images.
+    pub(crate) async fn finish(&mut self, wanted: &[Image]) -> Result<Results> {
         let mut recording = std::mem::replace(&mut self.recording, Recording::new(self.device));
         for image in wanted {
             recording.read(self.buffer(*image), (bytes_of(*image) * self.images.pixels()) as u64);
@@ -270,7 +263,6 @@ impl<'a> Pass<'a> {
     }
 }
 
-/// The bytes of a pixel.
 fn bytes_of(image: Image) -> usize {
     match image {
         Image::Gathered | Image::Sheet => 16,
@@ -279,7 +271,7 @@ fn bytes_of(image: Image) -> usize {
     }
 }
 
-/// Values with NaN for HUGE, as the frame has them.
+/// Replaces HUGE by NaN, as frames have it.
 pub(crate) fn with_holes(mut values: Vec<f32>) -> Vec<f32> {
     for value in &mut values {
         *value = if *value >= HUGE { f32::NAN } else { *value };

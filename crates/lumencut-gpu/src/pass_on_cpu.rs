@@ -13,7 +13,7 @@ use crate::pass::{Pass, with_holes};
 use crate::recording::Results;
 
 impl Pass<'_> {
-    /// Does a stage on the CPU: reads its images from the GPU and writes what it makes back.
+    /// Reads the images of a stage from the GPU, runs it on the CPU and sends its results back.
     pub(crate) async fn run_on_cpu(&mut self, stage: Stage) -> Result<()> {
         let read: Vec<_> = stage.reads().iter().copied().filter(|image| self.made.has(*image)).collect();
         let results = self.finish(&read).await?;
@@ -36,7 +36,6 @@ impl Pass<'_> {
         Ok(())
     }
 
-    /// A stage that finds the cut surface.
     fn find(&mut self, stage: Stage, images: &mut Images) -> Result<()> {
         let (Some(tree), settings) = (&self.scene.tree, self.request.settings) else { return Ok(()) };
         let renderer = &mut self.on_cpu.renderer;
@@ -45,7 +44,6 @@ impl Pass<'_> {
         renderer.pass(self.request).run(stage, images)
     }
 
-    /// A stage that shows the volume.
     fn show(&self, stage: Stage, images: &mut Images) -> Result<()> {
         let Some(volume) = &self.scene.volume else { return Ok(()) };
         let geometry = match &self.geometry {
@@ -68,7 +66,6 @@ impl Pass<'_> {
         Ok(())
     }
 
-    /// Sends an image, where the CPU has made it.
     fn send(&mut self, image: Image, images: &Images) {
         let bytes: &[u8] = match image {
             Image::Distance => bytemuck::cast_slice(&images.distance),
@@ -92,7 +89,6 @@ impl Pass<'_> {
     }
 }
 
-/// Takes an image that was read as the `n`th.
 fn put(images: &mut Images, image: Image, results: &Results, n: usize) {
     match image {
         Image::Distance => images.distance = results.numbers(n),
@@ -111,7 +107,7 @@ fn put(images: &mut Images, image: Image, results: &Results, n: usize) {
     }
 }
 
-/// Values with HUGE for NaN, as shaders have them.
+/// Replaces NaN by HUGE, as shaders have it.
 fn without_holes(values: &[f32]) -> Vec<u8> {
     let huge = values.iter().map(|value| if value.is_nan() { HUGE } else { *value });
     huge.flat_map(f32::to_ne_bytes).collect()

@@ -1,4 +1,4 @@
-//! A list of named stages that the GPU runs at once, how long each took, and what is read back.
+//! A list of named stages that the GPU runs at once, their times, and the readback.
 
 use bytemuck::Pod;
 use futures_channel::oneshot::Receiver;
@@ -12,10 +12,8 @@ use wgpu::{BindingResource, Buffer, BufferUsages, CommandEncoder, MapMode};
 use crate::device::Device;
 use crate::stage::Stage;
 
-/// The most stages of a recording.
-const MOST_STAGES: u32 = 64;
+const MAX_STAGES: u32 = 64;
 
-/// Stages in the order they run.
 pub(crate) struct Recording<'a> {
     pub device: &'a Device,
     encoder: CommandEncoder,
@@ -24,9 +22,9 @@ pub(crate) struct Recording<'a> {
     reads: Vec<(Buffer, u64)>,
 }
 
-/// What a recording left behind: the bytes of each buffer that was asked for, still where the GPU wrote them.
+/// The result of a recording: the bytes of each requested buffer, still mapped.
 pub(crate) struct Results {
-    /// The milliseconds of each stage, where the GPU has a clock.
+    /// The milliseconds of each stage, if the GPU has a clock.
     pub timings: Vec<Timing>,
     staging: Buffer,
     view: Option<wgpu::BufferView>,
@@ -34,41 +32,38 @@ pub(crate) struct Results {
 }
 
 impl Results {
-    /// The numbers of the buffer that was asked for as the `n`th.
-    pub fn numbers<T: Pod + Send + Sync>(&self, n: usize) -> Vec<T> {
+    pub(crate) fn numbers<T: Pod + Send + Sync>(&self, n: usize) -> Vec<T> {
         self.view.as_ref().map_or_else(Vec::new, |all| copied(&all[self.places[n].clone()]))
     }
 }
 
 impl Drop for Results {
     fn drop(&mut self) {
-        // What is mapped must not be looked at any more when it is unmapped.
+        // The view must be dropped before the buffer is unmapped.
         self.view = None;
         self.staging.unmap();
     }
 }
 
 impl<'a> Recording<'a> {
-    /// Nothing to do yet.
-    pub fn new(device: &'a Device) -> Self {
+    pub(crate) fn new(device: &'a Device) -> Self {
         let clock = device.has_timestamps.then(|| {
             device.device.create_query_set(&wgpu::QuerySetDescriptor {
                 label: Some("clock"),
                 ty: wgpu::QueryType::Timestamp,
-                count: 2 * MOST_STAGES,
+                count: 2 * MAX_STAGES,
             })
         });
         let encoder = device.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         Self { device, encoder, clock, names: Vec::new(), reads: Vec::new() }
     }
 
-    /// Runs `stage` over `groups` of threads.
-    pub fn run(&mut self, stage: &Stage, resources: &[BindingResource], groups: [u32; 2]) {
+    pub(crate) fn run(&mut self, stage: &Stage, resources: &[BindingResource], groups: [u32; 2]) {
         self.run_as(stage.name, stage, resources, groups);
     }
 
-    /// Runs `stage` as a part of the stage `name`, whose time it counts to.
-    pub fn run_as(
+    /// Runs `stage` as a part of the stage `name`, which its time counts to.
+    pub(crate) fn run_as(
         &mut self,
         name: &'static str,
         stage: &Stage,
@@ -90,17 +85,12 @@ impl<'a> Recording<'a> {
         self.names.push(name);
     }
 
-    /// Asks for the first `bytes` of a buffer as they are once all stages have run.
-    pub fn read(&mut self, buffer: &Buffer, bytes: u64) {
+    /// Requests the first `bytes` of a buffer after all stages.
+    pub(crate) fn read(&mut self, buffer: &Buffer, bytes: u64) {
         self.reads.push((buffer.clone(), bytes));
     }
 
-    /// Runs everything.
-    ///
-    /// # Errors
-    /// [`lumencut_core::error::ErrorKind::Interrupted`] once `stop` says so,
-    /// [`lumencut_core::error::ErrorKind::Device`] where the GPU failed.
-    pub async fn finish(mut self, stop: Stop<'_>) -> Result<Results> {
+    pub(crate) async fn finish(mut self, stop: Stop<'_>) -> Result<Results> {
         let times = self.names.len() as u64 * 2 * 8;
         if let Some(clock) = &self.clock {
             let usage = BufferUsages::QUERY_RESOLVE | BufferUsages::COPY_SRC;
@@ -131,7 +121,7 @@ impl<'a> Recording<'a> {
 
 #[cfg(target_arch = "wasm32")]
 impl<'a> Recording<'a> {
-    /// Draws on `view` after all stages, runs everything, and ends once the GPU is done.
+    /// Draws on `view` after all stages, runs everything, and completes once the GPU is done.
     pub fn draw(
         mut self,
         pipeline: &wgpu::RenderPipeline,
@@ -157,7 +147,7 @@ impl<'a> Recording<'a> {
         device.queue.submit([self.encoder.finish()]);
         let (done, is_done) = futures_channel::oneshot::channel();
         device.queue.on_submitted_work_done(move || {
-            // Nobody waits for it any more after an interruption.
+            // Nobody waits for it after an interruption.
             let _ = done.send(());
         });
         async move {
@@ -167,7 +157,7 @@ impl<'a> Recording<'a> {
     }
 }
 
-/// The numbers of some bytes. One thread takes longer to copy a large picture than a GPU takes to compute it.
+/// Parallel: one thread would take longer to copy a large picture than a GPU to compute it.
 #[cfg(not(target_arch = "wasm32"))]
 fn copied<T: Pod + Send + Sync>(bytes: &[u8]) -> Vec<T> {
     use rayon::prelude::*;
@@ -178,13 +168,13 @@ fn copied<T: Pod + Send + Sync>(bytes: &[u8]) -> Vec<T> {
     }
 }
 
-/// The numbers of some bytes; the worker of a page has one thread.
+/// The worker of a page has one thread.
 #[cfg(target_arch = "wasm32")]
 fn copied<T: Pod>(bytes: &[u8]) -> Vec<T> {
     bytemuck::pod_collect_to_vec(bytes)
 }
 
-/// The time between each stage's two ticks; the passes of one stage in a row count together.
+/// The time between each stage's two ticks; consecutive passes of one stage count together.
 fn timings(names: &[&'static str], ticks: &[u64], period: f64) -> Vec<Timing> {
     let mut timings: Vec<Timing> = Vec::new();
     for (stage, ticks) in names.iter().zip(ticks.chunks_exact(2)) {
@@ -198,7 +188,6 @@ fn timings(names: &[&'static str], ticks: &[u64], period: f64) -> Vec<Timing> {
 }
 
 impl Device {
-    /// A buffer of `size` bytes.
     pub(crate) fn buffer(&self, label: &str, size: u64, usage: BufferUsages) -> Buffer {
         self.device.create_buffer(&wgpu::BufferDescriptor {
             label: Some(label),
@@ -208,11 +197,11 @@ impl Device {
         })
     }
 
-    /// Waits for all work, and gives the bytes of a buffer.
+    /// Waits for all work, and returns the bytes of a buffer.
     async fn map(&self, buffer: &Buffer, stop: Stop<'_>) -> Result<wgpu::BufferView> {
         let (done, is_done) = futures_channel::oneshot::channel();
         buffer.map_async(MapMode::Read, .., move |mapped| {
-            // Nobody waits for it any more after an interruption.
+            // Nobody waits for it after an interruption.
             let _ = done.send(mapped);
         });
         match self.patience(is_done, stop).await? {
@@ -221,12 +210,12 @@ impl Device {
         }
     }
 
-    /// What is sent once the GPU has done its work; nothing where it will never be.
+    /// The message sent when the GPU is done; `None` if it never will be.
     #[cfg(not(target_arch = "wasm32"))]
     async fn patience<T>(&self, mut sent: Receiver<T>, stop: Stop<'_>) -> Result<Option<T>> {
         let start = std::time::Instant::now();
         loop {
-            // To wait within wgpu from two threads at once makes it panic now and then.
+            // Waiting inside wgpu from two threads at once sometimes panics.
             if self.device.poll(wgpu::PollType::Poll).is_err() {
                 return Err(self.unfinished());
             }
@@ -236,7 +225,7 @@ impl Device {
                 Ok(sent) => return Ok(sent),
                 Err(_) => return Ok(None),
             }
-            // A hundredth of what has passed: neither late nor busy.
+            // Sleeps for 1 % of the elapsed time: neither late nor busy.
             let nap = start.elapsed() / 100;
             std::thread::sleep(
                 nap.clamp(std::time::Duration::from_micros(20), std::time::Duration::from_millis(2)),
@@ -244,7 +233,7 @@ impl Device {
         }
     }
 
-    /// What is sent once the GPU has done its work; the browser reports it by itself.
+    /// The browser reports it by itself.
     #[cfg(target_arch = "wasm32")]
     async fn patience<T>(&self, sent: Receiver<T>, _: Stop<'_>) -> Result<Option<T>> {
         Ok(sent.await.ok())

@@ -1,4 +1,4 @@
-//! Renders views on a GPU: what does not depend on the view stays there from view to view.
+//! Renders views on a GPU; data independent of the view stays there from view to view.
 
 use std::sync::Arc;
 
@@ -23,8 +23,8 @@ use crate::stages::Stages;
 use crate::view::ViewParameters;
 use crate::volume::DeviceVolume;
 
-/// Renders views of scenes as [`lumencut_core::pipeline::CpuRenderer`] does on the CPU. A volume and a tree are
-/// sent to the GPU when they are first shown; one of each stays there, also in views that do not show it.
+/// Renders views of scenes as [`lumencut_core::pipeline::CpuRenderer`] does on the CPU. The last volume and
+/// the last tree stay on the GPU, also during views that do not show them.
 #[derive(Debug)]
 pub struct GpuRenderer {
     device: Arc<Device>,
@@ -36,14 +36,12 @@ pub struct GpuRenderer {
     images: Option<Images>,
 }
 
-/// The tree that was shown last.
 #[derive(Debug)]
 struct DeviceTree {
     levels: Arc<Vec<Level>>,
     on_device: DeviceLevels,
 }
 
-/// The volume that was shown last.
 #[derive(Debug)]
 struct ShownVolume {
     key: WeakVolumeKey,
@@ -69,15 +67,12 @@ impl GpuRenderer {
         &self.device
     }
 
-    /// The voxels of the volume that was shown last.
     #[cfg(test)]
     pub(crate) fn voxels(&self) -> Option<wgpu::TextureView> {
         self.volume.as_ref().map(|volume| volume.on_device.voxels.clone())
     }
 
-    /// Lets the CPU do some stages from now on, each with what the GPU made before it.
-    ///
-    /// # Errors
+    /// Computes some stages on the CPU from now on, each from the GPU's earlier results. Fails with
     /// [`lumencut_core::error::ErrorKind::Settings`] for a name that is not in [`crate::stages::on_either`].
     #[cfg(not(target_arch = "wasm32"))]
     pub fn force_to_cpu(&mut self, names: &[String]) -> Result<()> {
@@ -85,11 +80,8 @@ impl GpuRenderer {
         Ok(())
     }
 
-    /// One view of a scene: the whole picture; without a volume the cut surface alone, and without a tree the context
-    /// alone. `Settings::samples` is not read here.
-    ///
-    /// # Errors
-    /// As [`lumencut_core::pipeline::CpuRenderer::render`], and [`lumencut_core::error::ErrorKind::Device`] where the GPU has no room or fails.
+    /// Renders one view of a scene, as [`lumencut_core::pipeline::CpuRenderer::render`] does. Fails as there,
+    /// and [`lumencut_core::error::ErrorKind::Device`] if the GPU has no room or fails.
     pub async fn render(&mut self, scene: &Scene<'_>, request: &Request<'_>) -> Result<Frame> {
         let settings = request.settings_for(scene)?;
         let request = &Request { settings: &settings, ..*request };
@@ -100,10 +92,8 @@ impl GpuRenderer {
         self.recorded(scene, request).await?.frame().await
     }
 
-    /// The same onto a canvas, without a way back: only the picture is made. It returns once the GPU has drawn it.
-    ///
-    /// # Errors
-    /// As [`GpuRenderer::render`].
+    /// Draws the picture on a canvas without reading it back; returns once the GPU has drawn it. Fails as
+    /// [`GpuRenderer::render`].
     #[cfg(target_arch = "wasm32")]
     pub async fn draw(
         &mut self,
@@ -120,10 +110,7 @@ impl GpuRenderer {
         self.recorded(scene, request).await?.draw(screen).await
     }
 
-    /// Draws a picture that was made elsewhere on a canvas.
-    ///
-    /// # Errors
-    /// As [`GpuRenderer::draw`].
+    /// Draws a picture that was made elsewhere on a canvas. Fails as [`GpuRenderer::draw`].
     #[cfg(target_arch = "wasm32")]
     pub async fn show(&self, picture: &[[u8; 4]], size: [usize; 2], screen: &mut Screen) -> Result<()> {
         screen.fit(&self.device, size)?;
@@ -131,7 +118,6 @@ impl GpuRenderer {
         screen.record(&self.device, Recording::new(&self.device), &sent)?.await
     }
 
-    /// All stages of a view, recorded.
     async fn recorded<'a>(&'a mut self, scene: &'a Scene<'a>, request: &'a Request<'a>) -> Result<Pass<'a>> {
         let mut pass = self.pass(scene, Geometry::rays(*request.camera), request)?;
         if scene.tree.is_some() {
@@ -143,10 +129,8 @@ impl GpuRenderer {
         Ok(pass)
     }
 
-    /// Shows the volume where a frame's geometry looks, as [`lumencut_core::pipeline::CpuRenderer::look`] does.
-    ///
-    /// # Errors
-    /// As [`GpuRenderer::render`].
+    /// Shows the volume at the positions of a frame, as [`lumencut_core::pipeline::CpuRenderer::look`] does.
+    /// Fails as [`GpuRenderer::render`].
     pub async fn look(
         &mut self,
         volume: &SharedVolume<'_>,
@@ -164,7 +148,7 @@ impl GpuRenderer {
         Ok(Frame { vessel, distance, folded, ..shown }.keeping(request.images))
     }
 
-    /// The start of a view: what it reads is on the GPU.
+    /// Starts a view whose input is on the GPU.
     fn pass<'a>(
         &'a mut self,
         scene: &'a Scene<'a>,
@@ -197,7 +181,6 @@ impl GpuRenderer {
         })
     }
 
-    /// Sends what the scene has and the GPU has not.
     fn prepare(&mut self, scene: &Scene, request: &Request) -> Result<()> {
         if let Some(shared) = &scene.volume
             && self.volume.as_ref().is_none_or(|kept| !kept.key.is(&shared.key))

@@ -1,4 +1,4 @@
-//! A canvas of a page that pictures are drawn on: they never leave the GPU.
+//! A page's canvas for pictures that never leave the GPU.
 
 use std::future::Future;
 
@@ -13,17 +13,16 @@ use wgpu::{
 use crate::device::Device;
 use crate::recording::Recording;
 
-/// What every canvas of a browser can have.
+/// Every browser's canvas has it.
 const FORMAT: TextureFormat = TextureFormat::Rgba8Unorm;
 
-/// A canvas. It has as many pixels as the picture that it shows; the page stretches it.
+/// A canvas with as many pixels as its picture; the page stretches it.
 #[derive(Debug)]
 pub struct Screen {
     surface: Surface<'static>,
     drawn: Option<Drawing>,
 }
 
-/// What draws on it, for one size of pictures.
 #[derive(Debug)]
 struct Drawing {
     size: [usize; 2],
@@ -32,10 +31,8 @@ struct Drawing {
 }
 
 impl Screen {
-    /// A canvas that nothing else draws on.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Device`] where the browser lets no GPU draw on it.
+    /// A canvas that nothing else draws on. Fails with [`ErrorKind::Device`] if the browser lets no GPU draw
+    /// on it.
     pub fn new(canvas: OffscreenCanvas) -> Result<Self> {
         let instance = Instance::new(InstanceDescriptor::new_without_display_handle());
         let surface = instance
@@ -44,7 +41,7 @@ impl Screen {
         Ok(Self { surface, drawn: None })
     }
 
-    /// Gives the canvas as many pixels as the picture has.
+    /// Resizes the canvas to the picture.
     pub(crate) fn fit(&mut self, device: &Device, size: [usize; 2]) -> Result<()> {
         if self.drawn.as_ref().is_some_and(|drawing| drawing.size == size) {
             return Ok(());
@@ -84,7 +81,7 @@ impl Screen {
         device.check()
     }
 
-    /// Draws `picture` after all that is recorded; what it gives ends once the GPU is done.
+    /// Draws `picture` after all that is recorded; the future completes once the GPU is done.
     pub(crate) fn record<'a>(
         &mut self,
         device: &'a Device,
@@ -113,7 +110,7 @@ impl Screen {
 }
 
 fn not_drawn(words: &str) -> Error {
-    Error::new(ErrorKind::Device, "canvas of the page", words, "one that the GPU can draw on")
+    Error::new(ErrorKind::Device, "canvas of the page", words, "a canvas that the GPU can draw on")
 }
 
 fn pipeline(device: &Device) -> RenderPipeline {

@@ -1,6 +1,5 @@
-// A picture on a canvas: one triangle that covers it, every pixel of it read from the picture.
+// A picture on a canvas: one triangle covers it, and every pixel is read from the picture.
 
-// How many pixels the picture has along x and y; the canvas has as many.
 struct ScreenParameters {
     size: vec2u,
 }

@@ -1,19 +1,17 @@
-//! Shaders from rooms: the one import mechanism.
+//! Assembles shaders from modules by their imports.
 
 use lumencut_core::shaders::{SHADERS, Shader};
 
-/// How a line begins that names a room whose declarations a shader uses.
 const IMPORT: &str = "// import ";
 
-/// The WGSL of `room` after that of all rooms it imports, each once.
+/// The WGSL of `room` after that of all modules it imports, each once.
 ///
 /// # Panics
-/// For a room that has no shader: the rooms are written in this repository, and a test assembles all of them.
+/// For a module without a shader; a test assembles all of them.
 pub fn assemble(room: &str) -> String {
     assemble_from(SHADERS, room)
 }
 
-/// The same with other shaders.
 pub(crate) fn assemble_from(shaders: &[Shader], room: &str) -> String {
     let mut done = Vec::new();
     let mut text = String::new();

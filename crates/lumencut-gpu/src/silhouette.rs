@@ -12,7 +12,6 @@ use crate::recording::Recording;
 use crate::stage::Stage;
 use crate::view::groups;
 
-/// The lines of leaps; or the slope of the depth, filtered, as the strength of a line.
 #[derive(Debug)]
 pub(crate) struct Silhouette {
     raise: Stage,
@@ -21,23 +20,18 @@ pub(crate) struct Silhouette {
     parameters: Buffer,
 }
 
-/// The images of silhouettes, four bytes per pixel.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SilhouetteImages<'a> {
-    /// Width and height.
     pub size: [usize; 2],
-    /// Depth of the cut surface (mm).
     pub depth: &'a Buffer,
-    /// The vessel of each pixel.
     pub vessel: &'a Buffer,
-    /// Written on the way.
+    /// Scratch.
     pub raised: &'a Buffer,
-    /// The result.
     pub strength: &'a Buffer,
 }
 
 impl Silhouette {
-    pub fn new(device: &Device) -> Self {
+    pub(crate) fn new(device: &Device) -> Self {
         const ROOM: &str = "stages/silhouette";
         Self {
             raise: Stage::new(device, ROOM, &[]),
@@ -47,20 +41,17 @@ impl Silhouette {
         }
     }
 
-    /// Tells the shaders of a view.
-    pub fn write(&self, device: &Device, settings: &Settings, camera: &Camera) {
+    pub(crate) fn write(&self, device: &Device, settings: &Settings, camera: &Camera) {
         device.write(&self.parameters, &[SilhouetteParameters::new(settings, camera)]);
     }
 
-    /// Writes how much of each pixel the lines of the leaps cover.
-    pub fn record_leaps(&self, recording: &mut Recording, view: &Buffer, images: &Images) {
+    pub(crate) fn record_leaps(&self, recording: &mut Recording, view: &Buffer, images: &Images) {
         let Images { size, leap, strength, value, .. } = images;
         let buffers = [view, leap, strength, &self.parameters, value].map(Buffer::as_entire_binding);
         recording.run(&self.lines, &buffers, groups(*size, GROUP));
     }
 
-    /// Writes the strength of the silhouettes of a steep depth.
-    pub fn record(
+    pub(crate) fn record(
         &self,
         recording: &mut Recording,
         filter: &DepthFilter,

@@ -1,11 +1,11 @@
-//! A stage of the pipeline on the GPU: its shader, compiled.
+//! A stage of the pipeline on the GPU: its compiled shader.
 
 use wgpu::{BindGroup, BindGroupEntry, BindingResource, ComputePipeline};
 
 use crate::device::Device;
 use crate::shader::assemble;
 
-/// A room's entry point, ready to run. It carries the room's name, as do its label and its timings.
+/// A module's entry point, ready to run, under the module's name in labels and timings.
 #[derive(Debug)]
 pub(crate) struct Stage {
     pub name: &'static str,
@@ -16,12 +16,12 @@ pub(crate) struct Stage {
 
 impl Stage {
     /// Compiles `room`, such as `stages/depth`, with its overrides set to `constants`.
-    pub fn new(device: &Device, room: &'static str, constants: &[(&str, f64)]) -> Self {
+    pub(crate) fn new(device: &Device, room: &'static str, constants: &[(&str, f64)]) -> Self {
         Self::entry(device, room, name_of(room), constants)
     }
 
-    /// Another entry point of `room`; it counts as a part of the room's stage.
-    pub fn entry(device: &Device, room: &'static str, entry: &str, constants: &[(&str, f64)]) -> Self {
+    /// Another entry point of `room`; it counts as a part of the module's stage.
+    pub(crate) fn entry(device: &Device, room: &'static str, entry: &str, constants: &[(&str, f64)]) -> Self {
         let name = name_of(room);
         let source = wgpu::ShaderSource::Wgsl(assemble(room).into());
         let descriptor = wgpu::ShaderModuleDescriptor { label: Some(name), source };
@@ -39,13 +39,12 @@ impl Stage {
     }
 
     /// The same stage for an entry point whose bindings begin later.
-    pub fn with_first_binding(mut self, first_binding: u32) -> Self {
+    pub(crate) fn with_first_binding(mut self, first_binding: u32) -> Self {
         self.first_binding = first_binding;
         self
     }
 
-    /// Binds `resources` to the bindings of the shader, in their order.
-    pub fn bind(&self, device: &Device, resources: &[BindingResource]) -> BindGroup {
+    pub(crate) fn bind(&self, device: &Device, resources: &[BindingResource]) -> BindGroup {
         let entries: Vec<_> = (self.first_binding..)
             .zip(resources)
             .map(|(binding, resource)| BindGroupEntry { binding, resource: resource.clone() })
@@ -58,7 +57,6 @@ impl Stage {
     }
 }
 
-/// The last part of a room's path.
 fn name_of(room: &str) -> &str {
     room.rsplit('/').next().unwrap_or(room)
 }

@@ -1,4 +1,4 @@
-//! All stages, compiled, and what they read of a view.
+//! All compiled stages, and what they read of a view.
 
 use lumencut_core::geometry::Geometry;
 use lumencut_core::stages::Stage;
@@ -16,7 +16,8 @@ use crate::surface::Surface;
 use crate::view::ViewParameters;
 use crate::volume::{DeviceVolume, GridParameters};
 
-/// The stages in the order of the pipeline. Those whose shaders depend on the settings are compiled once needed.
+/// The stages in the order of the pipeline. Those whose shaders depend on the settings are compiled when
+/// needed.
 #[derive(Debug)]
 pub(crate) struct Stages {
     pub view: Buffer,
@@ -32,8 +33,7 @@ pub(crate) struct Stages {
 }
 
 impl Stages {
-    /// The stages on a GPU.
-    pub fn new(device: &Device) -> Self {
+    pub(crate) fn new(device: &Device) -> Self {
         Self {
             view: device.uniform::<ViewParameters>("view"),
             grid: device.uniform::<GridParameters>("grid"),
@@ -47,14 +47,21 @@ impl Stages {
         }
     }
 
-    /// Tells the shaders where a volume lies in the view. A curved geometry has no view: its pixels lie in the volume.
-    pub fn place(&self, device: &Device, on_device: &DeviceVolume, volume: &Volume, geometry: &Geometry) {
+    /// Writes the position of a volume in the view. The pixels of a curved geometry lie in the volume and
+    /// need no view.
+    pub(crate) fn place(
+        &self,
+        device: &Device,
+        on_device: &DeviceVolume,
+        volume: &Volume,
+        geometry: &Geometry,
+    ) {
         device.write(&self.grid, &[on_device.grid(volume, geometry.camera())]);
     }
 }
 
-/// The stages that the CPU can do in place of the GPU, to find where a difference begins: those that write images. In a
-/// browser it does none: a page that loads this crate alone need not load the kernels of the CPU.
+/// The stages that the CPU can compute instead of the GPU, to locate a difference: those that write images.
+/// In a browser it computes none, so that a page need not load the CPU's kernels.
 pub fn on_either() -> impl Iterator<Item = Stage> {
     Stage::ALL.into_iter().filter(|stage| !stage.writes().is_empty())
 }

@@ -16,29 +16,28 @@ use crate::stage::Stage;
 use crate::view::groups;
 use crate::volume::DeviceVolume;
 
-/// `CurvedPlace` of `stages/surface.wgsl`: where a pixel of a curved geometry lies in the volume.
+/// `CurvedPixel` of `stages/surface.wgsl`: a pixel of a curved geometry in the volume.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
-pub(crate) struct CurvedPlace {
-    /// Whole numbers of its continuous index.
+pub(crate) struct CurvedPixel {
+    /// The whole part of its continuous index.
     pub whole: [f32; 4],
-    /// What is to be added to them.
+    /// The remainder.
     pub part: [f32; 4],
-    /// Index per mm along the direction in which a slab is thick.
+    /// Index per mm along the slab direction.
     pub per_mm: [f32; 4],
 }
 
-impl CurvedPlace {
+impl CurvedPixel {
     /// An index outside every volume.
     const NOWHERE: Self = Self { whole: [-1e6, -1e6, -1e6, 0.0], part: [0.0; 4], per_mm: [0.0; 4] };
 
-    /// The places of all pixels.
     fn of(curved: &Curved, volume: &Volume) -> Vec<Self> {
         let to = volume.index_from_world();
         let place = |(point, direction): (&DVec3, &glam::Vec3)| {
             let index = to.transform_point3(*point);
             let per_mm = to.transform_vector3(direction.as_dvec3());
-            // Beyond this no volume reaches, and a whole number still has all its digits.
+            // No volume reaches beyond this, and whole numbers up to it are exact.
             if !index.is_finite() || !per_mm.is_finite() || index.abs().max_element() >= 1e6 {
                 return Self::NOWHERE;
             }
@@ -49,44 +48,36 @@ impl CurvedPlace {
     }
 }
 
-/// The images of the surface.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SurfaceImages<'a> {
-    /// Width and height.
     pub size: [usize; 2],
-    /// Where the pixels look.
     pub geometry: &'a Geometry,
-    /// Where a camera looks: the depth of the cut surface (mm).
+    /// For a camera: the depth of the cut surface (mm).
     pub depth: &'a Buffer,
-    /// The result.
     pub value: &'a Buffer,
 }
 
-/// The stage, for whole numbers and for floats, at depths and at places of their own; and its parameters.
+/// The stage for integers and floats, cameras and curved geometries.
 #[derive(Debug)]
 pub(crate) struct Surface {
     stages: [[Option<Stage>; 2]; 2],
     parameters: Buffer,
-    /// Bound where pixels have no places of their own, and never read.
+    /// Bound in place of a curved geometry and never read.
     nowhere: Buffer,
 }
 
 impl Surface {
-    /// Nothing compiled yet.
-    pub fn new(device: &Device) -> Self {
+    pub(crate) fn new(device: &Device) -> Self {
         Self {
             stages: Default::default(),
             parameters: device.uniform::<SurfaceParameters>("surface parameters"),
-            nowhere: device.upload("nowhere", &[CurvedPlace::NOWHERE]),
+            nowhere: device.upload("nowhere", &[CurvedPixel::NOWHERE]),
         }
     }
 
-    /// Writes the volume's value where each pixel looks, HUGE outside the volume. `on_device` is `volume`, placed in that
-    /// view.
-    ///
-    /// # Errors
-    /// As the stage of the CPU.
-    pub fn record(
+    /// Writes the volume's value at each pixel, HUGE outside the volume. `on_device` is `volume`, placed in
+    /// the view.
+    pub(crate) fn record(
         &mut self,
         recording: &mut Recording,
         [view, grid]: [&Buffer; 2],
@@ -122,12 +113,11 @@ impl Surface {
     }
 }
 
-/// Sends the places of a curved geometry.
 fn send(device: &Device, curved: &Curved, volume: &Volume) -> Result<Buffer> {
-    let most = device.limits.max_storage_buffer_binding_size as usize / size_of::<CurvedPlace>();
+    let most = device.limits.max_storage_buffer_binding_size as usize / size_of::<CurvedPixel>();
     if curved.position().len() > most {
-        let found = format!("{} pixels with places of their own", curved.position().len());
+        let found = format!("{} pixels", curved.position().len());
         return Err(device.too_large("curved geometry", found, &format!("{most} pixels")));
     }
-    Ok(device.upload("curved places", &CurvedPlace::of(curved, volume)))
+    Ok(device.upload("curved places", &CurvedPixel::of(curved, volume)))
 }

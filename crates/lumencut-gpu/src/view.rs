@@ -11,8 +11,7 @@ use crate::device::Device;
 /// `ViewParameters` of `math/view.wgsl`.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
-pub struct ViewParameters {
-    /// Pixels along x and y.
+pub(crate) struct ViewParameters {
     pub size: [u32; 2],
     /// The side of a pixel (mm): twelve digits, and the rest.
     pub spacing: [f32; 2],
@@ -23,14 +22,12 @@ pub struct ViewParameters {
 /// `Axis` of `math/view.wgsl`: a unit vector as a part of few digits and the rest.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
-pub struct Axis {
-    /// Whole multiples of 2⁻¹⁰.
+pub(crate) struct Axis {
+    /// Multiples of 2⁻¹⁰.
     pub coarse: [f32; 4],
-    /// The rest.
     pub fine: [f32; 4],
 }
 
-/// What the coarse parts of axes are multiples of.
 pub(crate) const AXIS_UNIT: f64 = 1.0 / 1024.0;
 
 impl Axis {
@@ -41,14 +38,13 @@ impl Axis {
 }
 
 impl ViewParameters {
-    /// The view of `camera`.
-    pub fn new(camera: &Camera) -> Self {
+    pub(crate) fn new(camera: &Camera) -> Self {
         let axes = [camera.right(), camera.up(), camera.direction()].map(Axis::new);
         Self { size: camera.size().map(|n| n as u32), spacing: split(camera.pixel_spacing(), 12), axes }
     }
 
-    /// The view that a geometry belongs to; of a curved one only the size means anything.
-    pub fn of(geometry: &Geometry) -> Self {
+    /// The view of a geometry; only the size of a curved one is used.
+    pub(crate) fn of(geometry: &Geometry) -> Self {
         match geometry.camera() {
             Some(camera) => Self::new(camera),
             None => Self { size: geometry.size().map(|n| n as u32), ..Self::zeroed() },
@@ -67,7 +63,7 @@ pub(crate) fn split_at(number: f64, unit: f64) -> [f32; 2] {
     [coarse as f32, (number - coarse) as f32]
 }
 
-/// The smallest power of two that is larger than the size of a number.
+/// The smallest power of two above the absolute value.
 pub(crate) fn power_above(number: f64) -> f64 {
     2f64.powi(number.abs().max(1e-30).log2().floor() as i32 + 1)
 }
@@ -79,12 +75,11 @@ impl Device {
         self.buffer(label, (pixels * bytes) as u64, usage)
     }
 
-    /// A buffer for a `T` that every thread reads.
+    /// A uniform buffer for a `T`.
     pub(crate) fn uniform<T: Pod>(&self, label: &str) -> Buffer {
         self.buffer(label, size_of::<T>() as u64, BufferUsages::UNIFORM | BufferUsages::COPY_DST)
     }
 
-    /// A buffer of `items` that stays.
     pub(crate) fn upload<T: Pod>(&self, label: &str, items: &[T]) -> Buffer {
         let bytes: &[u8] = bytemuck::cast_slice(items);
         // Bindings are never empty.
@@ -100,7 +95,7 @@ impl Device {
     }
 }
 
-/// Groups of threads that cover the pixels of a view, `across` × `down` pixels each.
+/// Workgroups that cover the pixels of a view, `across` × `down` pixels each.
 pub(crate) fn groups(size: [usize; 2], [across, down]: [usize; 2]) -> [u32; 2] {
     [size[0].div_ceil(across) as u32, size[1].div_ceil(down) as u32]
 }

@@ -1,4 +1,4 @@
-//! A volume on the GPU: its voxels as a texture of whole numbers, its blocks, and its grid in a view.
+//! A volume on the GPU: its voxels as an integer texture, its blocks, and its grid in a view.
 
 use std::sync::OnceLock;
 
@@ -19,11 +19,11 @@ use crate::blocks::DeviceBlocks;
 use crate::device::Device;
 use crate::view::{power_above, split};
 
-/// The largest value of a float that counts.
-const LARGEST: f32 = 1e30;
+/// Larger floats count as missing.
+const LARGEST_FLOAT: f32 = 1e30;
 /// The most bytes that are gathered before they are sent.
 const SLAB_BYTES: usize = 64 << 20;
-/// The digits of an `f32`, and those of each factor of a product that is to be exact.
+/// The digits of an `f32`.
 const DIGITS: i32 = 24;
 
 /// `GridParameters` of `math/sampling.wgsl`.
@@ -51,8 +51,8 @@ pub(crate) struct GridParameters {
 }
 
 impl GridParameters {
-    /// The grid of `volume` in the view of `camera`, its voxels stored `shift` lower than they are.
-    pub fn new(volume: &Volume, camera: &Camera, shift: f32) -> Self {
+    /// The grid of `volume` in the view of `camera`, its voxels stored `shift` below their values.
+    pub(crate) fn new(volume: &Volume, camera: &Camera, shift: f32) -> Self {
         let to = IndexFromView::new(volume, camera);
         let [width, height] = camera.size().map(|n| n as f64);
         let (x, y) = (to.x * camera.pixel_spacing(), to.y * camera.pixel_spacing());
@@ -60,7 +60,7 @@ impl GridParameters {
         let middle = volume.world_from_index().transform_point3(DVec3::from(last) / 2.0);
         let depth = camera.view_from_world(middle).z.round();
         let origin = to.origin + to.z * depth;
-        // Multiples of half of this, none larger than `reach`, fit a float.
+        // Multiples of half of this up to `reach` fit a float.
         let reach = (origin.abs() + x.abs() * (width / 2.0) + y.abs() * (height / 2.0)).max_element();
         let index_unit = power_above(reach) * 2f64.powi(1 - DIGITS);
         let unit = power_above(volume.longest_way()) * 2f64.powi(1 - DIGITS / 2);
@@ -88,8 +88,8 @@ impl GridParameters {
         }
     }
 
-    /// The grid of `volume` alone, for places that are indices already.
-    pub fn without_view(volume: &Volume, shift: f32) -> Self {
+    /// The grid of `volume` alone, for positions that are already indices.
+    pub(crate) fn without_view(volume: &Volume, shift: f32) -> Self {
         Self {
             last: volume.size().map(|n| (n - 1) as f32),
             shift,
@@ -99,7 +99,6 @@ impl GridParameters {
     }
 }
 
-/// A vector as multiples of a unit, and the rest.
 fn multiples(vector: DVec3, unit: f64) -> ([f32; 4], [f32; 4]) {
     let coarse = (vector / unit).round() * unit;
     (four(coarse.as_vec3().to_array()), four((vector - coarse).as_vec3().to_array()))
@@ -109,7 +108,6 @@ fn four([a, b, c]: [f32; 3]) -> [f32; 4] {
     [a, b, c, 0.0]
 }
 
-/// How voxels are stored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Texel {
     Byte,
@@ -151,18 +149,13 @@ impl Texel {
 pub(crate) struct DeviceVolume {
     texel: Texel,
     shift: f32,
-    /// The voxels.
     pub voxels: TextureView,
     blocks: OnceLock<DeviceBlocks>,
 }
 
 impl DeviceVolume {
     /// Sends the voxels of `volume` to the GPU.
-    ///
-    /// # Errors
-    /// [`lumencut_core::error::ErrorKind::Device`] where the GPU has no room for it,
-    /// [`lumencut_core::error::ErrorKind::Interrupted`] once `stop` says so.
-    pub fn new(device: &Device, volume: &Volume, stop: Stop) -> Result<Self> {
+    pub(crate) fn new(device: &Device, volume: &Volume, stop: Stop) -> Result<Self> {
         let (texel, size) = (Texel::of(volume.voxels()), volume.size());
         let side = device.limits.max_texture_dimension_3d;
         if size.iter().any(|n| *n > side as usize) {
@@ -190,13 +183,11 @@ impl DeviceVolume {
         Ok(Self { texel, shift, voxels, blocks: OnceLock::new() })
     }
 
-    /// Whether the stages have to read floats.
-    pub fn is_float(&self) -> bool {
+    pub(crate) fn is_float(&self) -> bool {
         self.texel == Texel::Float
     }
 
-    /// The grid of `volume`, which is this one, in the view of `camera`, or by itself.
-    pub fn grid(&self, volume: &Volume, camera: Option<&Camera>) -> GridParameters {
+    pub(crate) fn grid(&self, volume: &Volume, camera: Option<&Camera>) -> GridParameters {
         camera.map_or_else(
             || GridParameters::without_view(volume, self.shift),
             |camera| GridParameters::new(volume, camera, self.shift),
@@ -204,10 +195,7 @@ impl DeviceVolume {
     }
 
     /// The blocks of `shared`, which is this volume, made and sent at the first call.
-    ///
-    /// # Errors
-    /// As [`DeviceVolume::new`].
-    pub fn blocks(&self, device: &Device, shared: &SharedVolume, stop: Stop) -> Result<&DeviceBlocks> {
+    pub(crate) fn blocks(&self, device: &Device, shared: &SharedVolume, stop: Stop) -> Result<&DeviceBlocks> {
         if let Some(blocks) = self.blocks.get() {
             return Ok(blocks);
         }
@@ -221,7 +209,7 @@ fn extent(size: [usize; 3]) -> Extent3d {
     Extent3d { width, height, depth_or_array_layers }
 }
 
-/// Sends the voxels slab by slab: never is all of the volume in memory once more.
+/// Sends the voxels slab by slab, so that memory never holds a second copy of the volume.
 fn send(device: &Device, texture: &Texture, texel: Texel, volume: &Volume, stop: Stop) -> Result<()> {
     let [ni, nj, nk] = volume.size();
     let slice = ni * nj * texel.bytes();
@@ -239,8 +227,8 @@ fn send(device: &Device, texture: &Texture, texel: Texel, volume: &Volume, stop:
             Voxels::U16(voxels) => gather(volume, voxels, first, bytes, |v| (v ^ 0x8000) as i16),
             other => with_voxels!(other, voxels => gather(volume, voxels, first, bytes, |v| {
                 let value = v.real().to_f32();
-                // NaN is not within the bounds either.
-                if value.abs() <= LARGEST { value } else { HUGE }
+                // NaN also fails the comparison.
+                if value.abs() <= LARGEST_FLOAT { value } else { HUGE }
             })),
         }
         let mut copy = texture.as_image_copy();
@@ -251,7 +239,7 @@ fn send(device: &Device, texture: &Texture, texel: Texel, volume: &Volume, stop:
             rows_per_image: Some(nj as u32),
         };
         device.queue.write_texture(copy, bytes, layout, extent([ni, nj, count]));
-        // What was written waits in memory until the next submission.
+        // Written data stays in memory until the next submission.
         device.queue.submit([]);
         device.check()?;
     }

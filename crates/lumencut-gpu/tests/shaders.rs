@@ -1,4 +1,4 @@
-//! Every shader parses and validates, with the rooms that it imports, and stays within what every GPU has.
+//! Every shader parses and validates with its imports, and stays within the limits of every GPU.
 
 use std::path::{Path, PathBuf};
 
@@ -7,10 +7,10 @@ use lumencut_gpu::shader::assemble;
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 use naga::{AddressSpace, GlobalVariable, Handle, Module};
 
-/// Rooms without Rust of the same name: the view is the camera's in the core.
+/// Modules without Rust of the same name: the view is the core's camera.
 const WITHOUT_RUST: [&str; 1] = ["math/view"];
 
-/// The room that is no stage of the method but runs as one.
+/// The module that is no stage of the method but runs as one.
 const PROJECTION: &str = "math/projection";
 
 /// The most storage buffers of a stage that every GPU allows.
@@ -33,7 +33,6 @@ fn core_sources() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../lumencut-core/src")
 }
 
-/// The rooms of all `.wgsl` files below a folder.
 fn rooms_on_disk(folder: &Path, root: &Path, rooms: &mut Vec<String>) {
     for entry in std::fs::read_dir(folder).expect("the core's sources") {
         let path = entry.expect("an entry").path();
@@ -61,7 +60,7 @@ fn the_shader_of_the_screen_is_valid() {
     parsed("screen", include_str!("../src/screen.wgsl"));
 }
 
-/// The compilers of browsers ask for parentheses where an operator of bits stands beside a shift; naga does not.
+/// The compilers of browsers require parentheses where a bit operator stands next to a shift; naga does not.
 #[test]
 fn shifts_stand_in_parentheses() {
     let screen = include_str!("../src/screen.wgsl");
@@ -74,7 +73,7 @@ fn shifts_stand_in_parentheses() {
     assert!(!mixes_bits_and_shifts("a | (b << 8u)") && !mixes_bits_and_shifts("a |= f(b, c) << (d + 1u)"));
 }
 
-/// Whether one pair of parentheses holds a shift and `&`, `|` or `^` beside each other.
+/// Whether one pair of parentheses holds both a shift and `&`, `|` or `^`.
 fn mixes_bits_and_shifts(line: &str) -> bool {
     let words = line.replace("&&", " ").replace("||", " ").replace("|=", " ").replace("&=", " ");
     let mut open = vec![(false, false)];
@@ -145,7 +144,7 @@ fn bindings_are_the_first_of_group_0_with_few_storage_buffers() {
             assert!(bound.iter().all(|(place, _)| place.group == 0), "{name}");
             let mut bindings: Vec<_> = bound.iter().map(|(place, _)| place.binding).collect();
             bindings.sort_unstable();
-            // What only arranges points does not ask for pixels.
+            // Entry points that only arrange points need no pixels.
             let first = match entry.name.as_str() {
                 "bundle" => 2,
                 "enclose" => 1,
@@ -168,7 +167,7 @@ fn bindings_are_the_first_of_group_0_with_few_storage_buffers() {
     }
 }
 
-/// The words of WGSL, comments left out, that stand for what is not a finite number.
+/// The words of WGSL, without comments, that stand for a non-finite number.
 fn not_finite(text: &str) -> Vec<&str> {
     text.lines()
         .flat_map(|line| line.split("//").next())

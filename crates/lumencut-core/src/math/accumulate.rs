@@ -1,4 +1,4 @@
-//! What rays make of their samples: colours and opacities, from near to far.
+//! Accumulates the samples of rays from near to far: colours and opacities.
 
 use super::blocks::{HUGE, Range};
 use super::context_parameters::ContextParameters;
@@ -6,42 +6,36 @@ use super::lanes::{FAN, larger, smaller, smallest};
 use super::thickness::of_thickness;
 use super::transfer::Colors;
 
-/// The opacity from which on nothing behind is seen, unless it is brighter than all before: less than half a grey
-/// value of what is behind is left.
+/// Accumulated opacity from which on only brighter samples matter: less than half a grey value remains.
 pub const OPAQUE: f32 = 1.0 - 1.0 / 1024.0;
 
-/// Colours times opacity, and opacity, of sixteen pixels, channel by channel, 0 to 1.
-pub type Rgba = [[f32; FAN]; 4];
+/// Premultiplied colours and opacity of sixteen pixels, channel by channel, 0 to 1.
+pub(crate) type Rgba = [[f32; FAN]; 4];
 
-/// Sixteen samples, one of each ray.
 #[derive(Clone, Copy, Debug)]
-pub struct Samples<'a> {
-    /// The values, where present.
+pub(crate) struct Samples<'a> {
     pub value: &'a [f32; FAN],
-    /// 1 where the ray has this sample, else 0: a number, so that the compiler keeps to vectors.
+    /// 1 where the ray has this sample, else 0; a number instead of `bool` keeps the compiler's vectors.
     pub present: &'a [f32; FAN],
-    /// How much of the ray each sample stands for (mm).
+    /// Length of ray that each sample stands for (mm).
     pub thickness: &'a [f32; FAN],
 }
 
-/// How light falls on sixteen samples; asked only where one of them can be seen.
-pub trait Light {
-    /// What each colour is multiplied by, and what is added to it.
+/// Light on sixteen samples; evaluated only where one of them is visible.
+pub(crate) trait Light {
+    /// The factor on each colour, and the term added to it.
     fn shade(&self) -> [[f32; FAN]; 2];
 }
 
-/// How intensities look.
 #[derive(Clone, Debug)]
-pub struct Palette {
-    /// Colour and opacity.
+pub(crate) struct Palette {
     pub colors: Colors,
-    /// Window and weights.
     pub parameters: ContextParameters,
 }
 
-/// DVR, MIDA and what lies between them and MIP (Bruckner and Gröller 2009, doi:10.1111/j.1467-8659.2009.01474.x).
+/// DVR, MIDA, MIP and blends (Bruckner and Gröller 2009, doi:10.1111/j.1467-8659.2009.01474.x).
 #[derive(Clone, Debug)]
-pub struct Blend<'a> {
+pub(crate) struct Blend<'a> {
     palette: &'a Palette,
     /// 1 + min(γ, 0): how far a brighter sample pushes back what was gathered before it.
     push: f32,
@@ -49,16 +43,15 @@ pub struct Blend<'a> {
     mix: f32,
     color: [[f32; FAN]; 3],
     opacity: [f32; FAN],
-    /// The largest sample so far in the window, 0 to 1.
     most: [f32; FAN],
     brightest: Brightest<'a>,
 }
 
 impl<'a> Blend<'a> {
-    /// Nothing yet; rays that are not `active` ask for no samples.
+    /// Rays that are not `active` take no samples.
     #[inline(always)]
-    pub fn new(palette: &'a Palette, active: &[bool; FAN]) -> Self {
-        // What is transparent changes nothing before the first visible sample, which is brighter than all of it.
+    pub(crate) fn new(palette: &'a Palette, active: &[bool; FAN]) -> Self {
+        // Transparent samples matter only until the first visible one, which is brighter than all of them.
         let most = palette.parameters.most;
         Self {
             palette,
@@ -71,18 +64,16 @@ impl<'a> Blend<'a> {
         }
     }
 
-    /// Whether samples with values in a range would change nothing.
     #[inline(always)]
-    pub fn ignores(&self, range: Range) -> bool {
+    pub(crate) fn ignores(&self, range: Range) -> bool {
         let unseen = smallest(&self.opacity) >= OPAQUE || self.palette.colors.is_transparent(range);
         unseen
             && (self.push == 0.0 || self.palette.parameters.window.at(range.high) <= smallest(&self.most))
             && (self.mix == 0.0 || self.brightest.ignores(range))
     }
 
-    /// Takes the next samples, from near to far.
     #[inline(always)]
-    pub fn add(&mut self, samples: &Samples, light: &impl Light) {
+    pub(crate) fn add(&mut self, samples: &Samples, light: &impl Light) {
         let mut own = self.palette.colors.opacity(samples.value);
         let mut keep = [1.0; FAN];
         let mut any = 0;
@@ -119,9 +110,8 @@ impl<'a> Blend<'a> {
         }
     }
 
-    /// The pixels.
     #[inline(always)]
-    pub fn finish(&self) -> Rgba {
+    pub(crate) fn finish(&self) -> Rgba {
         let brightest = self.brightest.finish();
         let mut pixels = [self.color[0], self.color[1], self.color[2], self.opacity];
         for (c, channel) in pixels.iter_mut().enumerate() {
@@ -134,7 +124,7 @@ impl<'a> Blend<'a> {
     }
 }
 
-/// The largest of the samples, towards which a blend with γ > 0 moves.
+/// The largest sample, towards which a blend with γ > 0 moves.
 #[derive(Clone, Debug)]
 struct Brightest<'a> {
     colors: &'a Colors,
@@ -151,7 +141,7 @@ impl<'a> Brightest<'a> {
 
     #[inline(always)]
     fn ignores(&self, range: Range) -> bool {
-        // Beyond the last control point the colour stays the same.
+        // The colour is constant beyond the last control point.
         smaller(range.high, self.colors.last()) <= smallest(&self.best)
     }
 
@@ -174,9 +164,8 @@ impl<'a> Brightest<'a> {
     }
 }
 
-/// Opaque pixels where something was found, else nothing.
 #[inline(always)]
-pub fn opaque(color: [[f32; FAN]; 3], found: &[bool; FAN]) -> Rgba {
+pub(crate) fn opaque(color: [[f32; FAN]; 3], found: &[bool; FAN]) -> Rgba {
     let mut pixels = [color[0], color[1], color[2], [1.0; FAN]];
     for channel in &mut pixels {
         for l in 0..FAN {

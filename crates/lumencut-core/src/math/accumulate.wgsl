@@ -1,4 +1,4 @@
-// What rays make of their samples: colours and opacities, from near to far.
+// Accumulates the samples of rays from near to far: colours and opacities.
 // import math/lanes
 // import math/light
 // import math/thickness
@@ -7,15 +7,12 @@
 
 override SHADED: bool = false;
 
-// The opacity from which on nothing behind is seen, unless it is brighter than all before.
 const OPAQUE: f32 = 1.0 - 1.0 / 1024.0;
 
 struct Gathered {
     color: vec3f,
     opacity: f32,
-    // The largest sample so far in the window, 0 to 1.
     most: f32,
-    // The largest sample so far.
     best: f32,
 }
 
@@ -23,17 +20,14 @@ fn nothing() -> Gathered {
     return Gathered(vec3f(), 0.0, parameters.most, -HUGE);
 }
 
-// Whether samples with values in a range would change nothing.
 fn ignores(gathered: Gathered, range: vec2f) -> bool {
-    // Beyond the last control point the colour stays the same.
     let is_no_brighter = min(range.y, parameters.last) <= gathered.best;
     return (parameters.push == 0.0 || ramp_at(parameters.window, range.y) <= gathered.most)
         && (parameters.mix == 0.0 || is_no_brighter)
         && (gathered.opacity >= OPAQUE || is_transparent(range));
 }
 
-// Takes the next sample: DVR, MIDA and what lies between them and MIP.
-fn gather(gathered: ptr<function, Gathered>, value: f32, place: Place, thickness: f32) {
+fn gather(gathered: ptr<function, Gathered>, value: f32, place: GridPosition, thickness: f32) {
     let intensity = ramp_at(parameters.window, value);
     let push = max(intensity - (*gathered).most, 0.0) * parameters.push;
     let is_seen = push > 0.0 || (*gathered).opacity < OPAQUE;
@@ -55,13 +49,11 @@ fn gather(gathered: ptr<function, Gathered>, value: f32, place: Place, thickness
     (*gathered).opacity += share;
 }
 
-// The pixel: its colour times its opacity, and its opacity.
 fn finished(gathered: Gathered) -> vec4f {
     let blended = vec4f(gathered.color, gathered.opacity);
     return blended + (brightest(gathered.best) - blended) * parameters.mix;
 }
 
-// The colour of the largest value.
 fn brightest(best: f32) -> vec4f {
     return select(vec4f(), vec4f(color_of(best), 1.0), best > -HUGE);
 }

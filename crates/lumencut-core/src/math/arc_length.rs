@@ -1,8 +1,8 @@
-//! Arc length: how far along a line of points each of them lies, and what lies at an arc length.
+//! Arc length of the points of a polyline, and interpolation at an arc length.
 
 use glam::DVec3;
 
-/// The length of a line from its first point to each of its points (in their unit).
+/// Arc length from the first point to each point, in the unit of the points.
 pub fn arc_lengths(points: &[DVec3]) -> Vec<f64> {
     let mut lengths = vec![0.0; points.len()];
     for i in 1..points.len() {
@@ -11,25 +11,23 @@ pub fn arc_lengths(points: &[DVec3]) -> Vec<f64> {
     lengths
 }
 
-/// A place on a line of points: on the segment from point `segment` to the next one, after this `share` of it (0 to 1).
+/// A position on a polyline: at `share` (0 to 1) of the segment from point `segment` to the next one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LinePlace {
-    /// The number of the point before the place.
+    /// Index of the point before the position.
     pub segment: usize,
-    /// How much of the segment lies before the place.
+    /// Share of the segment before the position.
     pub share: f64,
 }
 
-/// The segment at arc length `at` of a line whose points have the rising arc lengths `lengths`, of which there is one at least:
-/// beyond the ends the first or the last one, at a point the one after it. All that lies at an arc length is found by this.
-pub fn segment_at(lengths: &[f64], at: f64) -> usize {
+/// The segment at arc length `at`: beyond the ends the first or last one, at a point the one after it.
+pub(crate) fn segment_at(lengths: &[f64], at: f64) -> usize {
     let last = lengths.len() - 1;
     lengths.partition_point(|length| *length <= at).clamp(1, last.max(1)) - 1
 }
 
 impl LinePlace {
-    /// The place at arc length `at` of a line whose points have the rising arc lengths `lengths`, of which there is one at
-    /// least, on the segment of [`segment_at`]: beyond the ends of the line its nearer end.
+    /// The position at arc length `at`; beyond the ends of the line its nearer end.
     pub fn at(lengths: &[f64], at: f64) -> Self {
         let last = lengths.len() - 1;
         let segment = segment_at(lengths, at);
@@ -38,20 +36,19 @@ impl LinePlace {
         Self { segment, share }
     }
 
-    /// The point there.
+    /// The interpolated point.
     pub fn point(self, points: &[DVec3]) -> DVec3 {
         let before = points[self.segment];
         points.get(self.segment + 1).map_or(before, |after| before.lerp(*after, self.share))
     }
 
-    /// What lies between the values of both points there.
+    /// The interpolated value.
     pub fn value(self, values: &[f64]) -> f64 {
         let before = values[self.segment];
         values.get(self.segment + 1).map_or(before, |after| self.between([before, *after]))
     }
 
-    /// What lies between a value of the point before the place and one of the point after it. At one of both points it is
-    /// the value there, also where the other one is unknown (NaN).
+    /// Interpolates two values. At share 0 or 1 the other value may be unknown (NaN).
     pub fn between(self, [before, after]: [f64; 2]) -> f64 {
         match self.share {
             share if share <= 0.0 => before,
@@ -61,7 +58,7 @@ impl LinePlace {
     }
 }
 
-/// The point of a line at an arc length, with the arc lengths of its points: beyond the ends of the line its nearer end.
+/// The point of a line at an arc length; beyond the ends of the line its nearer end.
 pub fn point_at(points: &[DVec3], lengths: &[f64], at: f64) -> DVec3 {
     LinePlace::at(lengths, at).point(points)
 }

@@ -1,4 +1,4 @@
-//! The smallest and the largest value of each block of the volume: what a ray cannot see there it need not sample.
+//! The smallest and largest value of each block of the volume, so that rays skip blocks they cannot see.
 
 use rayon::prelude::*;
 
@@ -13,44 +13,37 @@ pub const SIDE_BITS: u32 = 2;
 /// The side of a block (cells between neighbouring voxels).
 pub const SIDE: usize = 1 << SIDE_BITS;
 
-/// The most blocks along an axis that are asked one by one; for more, larger blocks are asked.
-const MOST_ASKED: i32 = 3;
+/// More blocks than this along an axis are looked up at a coarser level.
+const MAX_LOOKUPS: i32 = 3;
 
-/// More than trilinear interpolation rounds, as a share of the larger end of a range.
+/// A bound on the rounding of trilinear interpolation, relative to the larger end of a range.
 const ROUNDING: f32 = 1e-6;
 
-/// Beyond every value; what is larger in a volume of `f64`, or infinite, counts as this.
+/// Beyond every value; larger and infinite values of an `f64` volume count as this.
 pub const HUGE: f32 = 3e38;
 
-/// A range that holds nothing: every value widens it.
+/// An empty range, which every value widens.
 const NOTHING: Range = Range { low: HUGE, high: -HUGE };
 
-/// The values between two voxels, both included.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Range {
-    /// The smallest.
     pub low: f32,
-    /// The largest.
     pub high: f32,
 }
 
 impl Range {
-    /// Every value.
     pub const ALL: Self = Self { low: -HUGE, high: HUGE };
 
-    /// The range between two voxels.
     fn between<T: Voxel>(low: T, high: T) -> Self {
         let [low, high] = [low, high].map(|v| smaller(larger(v.real().to_f32(), -HUGE), HUGE));
         Self { low, high }
     }
 
-    /// The range of the same values with the other sign.
     #[inline(always)]
     pub fn negated(self) -> Self {
         Self { low: -self.high, high: -self.low }
     }
 
-    /// The range that holds both.
     #[inline(always)]
     fn with(self, other: Self) -> Self {
         Self { low: smaller(self.low, other.low), high: larger(self.high, other.high) }
@@ -63,15 +56,14 @@ impl Range {
     }
 }
 
-/// The ranges of all blocks of a volume. Block b holds the values of all samples whose lower corner is one of the
-/// voxels from 4·b to 4·b + 3 along each axis; voxels that are NaN are left out. Above them lie larger blocks, each of
-/// two along each axis, up to one that holds all.
+/// The ranges of all blocks of a volume. Block b holds the values of all samples whose lower corner is a
+/// voxel from 4·b to 4·b + 3 along each axis; NaN voxels are left out. Each coarser level joins two blocks
+/// along each axis, up to one block that holds everything.
 #[derive(Debug)]
 pub struct Blocks {
     levels: Vec<Level>,
 }
 
-/// Blocks of one size.
 #[derive(Debug)]
 struct Level {
     size: [usize; 3],
@@ -79,10 +71,6 @@ struct Level {
 }
 
 impl Blocks {
-    /// Reads the volume once.
-    ///
-    /// # Errors
-    /// [`crate::error::ErrorKind::Interrupted`] once `stop` says so.
     pub fn new(volume: &Volume, stop: Stop) -> Result<Self> {
         let size = volume.size().map(|n| (n.max(2) - 1).div_ceil(SIDE));
         let mut ranges = vec![NOTHING; size.iter().product()];
@@ -101,18 +89,18 @@ impl Blocks {
         Ok(Self { levels })
     }
 
-    /// The blocks along each axis and the range of each, i fastest, level by level, the smallest blocks first.
+    /// The number of blocks along each axis and their ranges, i fastest, the finest level first.
     pub fn levels(&self) -> impl Iterator<Item = ([usize; 3], &[Range])> {
         self.levels.iter().map(|level| (level.size, &level.ranges[..]))
     }
 
-    /// The range of the samples whose lower corners lie between two voxels, both included, or a wider one.
+    /// A range that holds the samples whose lower corners lie between two voxels, both included.
     #[inline(always)]
     pub fn range(&self, first: [i32; 3], last: [i32; 3]) -> Range {
         let side = SIDE as i32;
         let (mut first, mut last) = (first.map(|c| c / side), last.map(|c| c / side));
         let mut level = 0;
-        while (0..3).any(|a| last[a] - first[a] >= MOST_ASKED) {
+        while (0..3).any(|a| last[a] - first[a] >= MAX_LOOKUPS) {
             (first, last) = (first.map(|b| b / 2), last.map(|b| b / 2));
             level += 1;
         }
@@ -131,7 +119,6 @@ impl Blocks {
 }
 
 impl Level {
-    /// The blocks of twice the size; none above the one that holds all.
     fn coarser(&self) -> Option<Self> {
         let size = self.size.map(|n| n.div_ceil(2));
         let mut ranges = vec![NOTHING; size.iter().product()];
@@ -146,7 +133,6 @@ impl Level {
     }
 }
 
-/// The ranges of the blocks along i at (`j`, `k`).
 fn row_of_blocks<T: Voxel>(voxels: &[T], volume: &Volume, [j, k]: [usize; 2], ranges: &mut [Range]) {
     let (size, strides) = (volume.size(), volume.strides());
     let reach = |block: usize, n: usize| block * SIDE..((block + 1) * SIDE + 1).min(n);
@@ -170,7 +156,7 @@ fn row_of_blocks<T: Voxel>(voxels: &[T], volume: &Volume, [j, k]: [usize; 2], ra
     }
 }
 
-/// Widens the ranges of a line of voxels by another line. NaN is neither smaller nor larger: it is left out.
+/// Widens the ranges of a line of voxels by another line; comparisons leave out NaN.
 #[inline(always)]
 fn widen<'a, T: Voxel>(low: &mut [T], high: &mut [T], line: impl Iterator<Item = &'a T>) {
     for ((low, high), voxel) in low.iter_mut().zip(high).zip(line) {

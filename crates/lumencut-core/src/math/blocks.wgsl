@@ -1,38 +1,34 @@
-// The smallest and the largest value of each block of the volume: what a ray cannot see there it need not sample.
+// The smallest and largest value of each block of the volume, so that rays skip blocks they cannot see.
 // import math/sampling
 // import math/context_parameters
 
-// The side of the smallest block is 2 to this power (cells).
 const SIDE_BITS = 2u;
-// Every value.
 const ALL = vec2f(-HUGE, HUGE);
 // Beyond every volume (voxels), and more than the samples of a ray.
 const FARTHEST: f32 = 1e6;
 
 @group(0) @binding(4) var<storage, read> blocks: array<vec2f>;
 
-// The number of times that the side of a block of a level is doubled from that of a cell.
 fn side_bits(level: u32) -> u32 {
     return SIDE_BITS + parameters.finest + level;
 }
 
-// The range of the block that holds a voxel as the lower corner of a sample.
 fn range_at(level: u32, voxel: vec3i) -> vec2f {
     let size = parameters.levels[level];
     let block = vec3u(voxel) >> vec3u(side_bits(level));
     return blocks[size.w + (block.z * size.y + block.y) * size.x + block.x];
 }
 
-// How many more samples surely lie in the block of a place, when each is `way` further.
+// A lower bound on the further samples within the block, if each step moves by `way`.
 fn samples_left(level: u32, cell: Cell, way: vec3f) -> i32 {
     let bits = vec3u(side_bits(level));
     let block = vec3u(cell.voxel) >> bits;
     let first = vec3i(block << bits);
     let beyond = vec3i((block + 1u) << bits);
-    // The outermost blocks go on for ever.
+    // The outermost blocks extend without end.
     let up = select(vec3f(beyond - cell.voxel) - cell.share, vec3f(FARTHEST), beyond > grid.low);
     let down = select(vec3f(cell.voxel - first) + cell.share, vec3f(FARTHEST), first == vec3i());
     let room = select(down, up, way > vec3f());
-    let steps = (min(room, vec3f(FARTHEST)) - PLACE_ROUNDING) / max(abs(way), vec3f(1.0 / FARTHEST));
+    let steps = (min(room, vec3f(FARTHEST)) - POSITION_ROUNDING) / max(abs(way), vec3f(1.0 / FARTHEST));
     return i32(clamp(min(min(steps.x, steps.y), steps.z), 0.0, FARTHEST));
 }

@@ -7,16 +7,14 @@ use super::tile::{Area, Tile};
 
 /// Pairs of a part and a slot: bit 16·part + slot.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Candidates {
-    /// Stripes that can win.
+pub(crate) struct Candidates {
     pub stripes: u32,
-    /// Wedges, half-planes and planes that can win.
     pub wedges: u32,
 }
 
 /// The pieces of `bundle` whose smallest key in a part is within the part's limit; no other can win there.
 #[inline(always)]
-pub fn candidates<const LUMEN_FIRST: bool>(
+pub(crate) fn candidates<const LUMEN_FIRST: bool>(
     tile: &Tile,
     bundle: &Bundle,
     rule: &Rule,
@@ -31,25 +29,21 @@ pub fn candidates<const LUMEN_FIRST: bool>(
     found
 }
 
-/// Which pieces of a slot may cover a pixel of an area, and what that was found by.
 #[derive(Clone, Copy, Debug)]
-pub struct Cover {
-    /// Whether the stripe may.
+pub(crate) struct Cover {
     pub in_stripe: bool,
-    /// Whether what stands at the point may.
     pub in_wedge: bool,
     /// (q − p)·e at the middle q of the area.
     start: f32,
-    /// The most that it differs from that over the area.
+    /// The largest difference from that over the area.
     along: f32,
-    /// Half the sides of the area, and more than the rounding of all products.
+    /// Half the sides of the area, plus a bound on the rounding of all products.
     sides: [f32; 2],
 }
 
 impl Cover {
-    /// Of a slot whose stripe has these two ends, with the edge along it and the edge before it.
     #[inline(always)]
-    pub fn new(area: &Area, ends: [[f32; 2]; 2], [ex, ey]: [f32; 2], [fx, fy]: [f32; 2]) -> Self {
+    pub(crate) fn new(area: &Area, ends: [[f32; 2]; 2], [ex, ey]: [f32; 2], [fx, fy]: [f32; 2]) -> Self {
         let ([cx, cy], [hx, hy]) = (area.center, area.half);
         let (ux, uy) = (cx - ends[0][0], cy - ends[0][1]);
         let (wx, wy) = (cx - ends[1][0], cy - ends[1][1]);
@@ -63,8 +57,7 @@ impl Cover {
     }
 }
 
-/// Bounds from below on the keys of a bundle's stripes and wedges in an area; [`ABSENT`] where a piece covers
-/// none of it.
+/// Lower bounds on the keys of stripes and wedges in an area; [`ABSENT`] where a piece covers none of it.
 #[inline(always)]
 fn smallest_keys<const LUMEN_FIRST: bool>(
     area: &Area,
@@ -89,7 +82,7 @@ fn smallest_keys<const LUMEN_FIRST: bool>(
         let stripe_key = rule.bound::<LUMEN_FIRST>(near, across, widest, bundle.tiers[s]);
         stripe[s] = if in_stripe { stripe_key } else { ABSENT };
 
-        // The distance from the point is at least that across its edge, and that from the box.
+        // The distance from the point is at least that across its edge, and at least that from the box.
         let (gx, gy) = (larger(ux.abs() - hx, 0.0), larger(uy.abs() - hy, 0.0));
         let away = larger(across, (gx * gx + gy * gy).sqrt());
         let wedge_key = rule.bound::<LUMEN_FIRST>(bundle.wedge_z[s], away, r0, bundle.tiers[s]);

@@ -4,15 +4,12 @@
 // import math/cost
 // import math/pieces
 
-// Bounds from below on the keys of a slot's stripe and of its wedge in the tile; ABSENT where a piece covers none of it.
 fn smallest_keys(tile: Tile, slot: Slot) -> vec2f {
     let u = tile.center - slot.start;
     let w = tile.center - slot.next;
     let edge = slot.edge;
-    // Half the sides, and more than the rounding of all products below.
     let sides = tile.half + 1e-5 * max(abs(u), abs(w));
     let start = dot(u, edge);
-    // The most that it differs over the tile from its value at the middle.
     let along = dot(sides, abs(edge));
     let in_stripe = start + along >= 0.0 && dot(w, edge) - along <= 0.0;
     let in_wedge = dot(u, slot.before) + dot(sides, abs(slot.before)) >= 0.0 && start - along <= 0.0;
@@ -24,7 +21,6 @@ fn smallest_keys(tile: Tile, slot: Slot) -> vec2f {
     let across = (abs(u.x * edge.y - u.y * edge.x) - dot(sides, abs(edge.yx))) * inverse;
     let stripe = key_bound(near, across, max(slot.radius, slot.radius + slot.radius_change), slot.tiers);
 
-    // The distance from the point is at least that across its edge, and that from the box.
     let away = max(across, length(max(abs(u) - tile.half, vec2f(0.0))));
     let wedge = key_bound(slot.wedge_z, away, slot.radius, slot.tiers);
     return select(vec2f(ABSENT), vec2f(stripe, wedge), vec2<bool>(in_stripe, in_wedge));

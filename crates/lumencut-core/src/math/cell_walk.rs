@@ -1,5 +1,5 @@
-//! Rays through the volume cell by cell: from each plane of voxel centres that a ray crosses to the next one, the volume along
-//! it is a cubic. So the largest value and the mean are those of the ray itself, not of samples.
+//! Rays through the volume cell by cell: between two planes of voxel centres the volume along a ray is a
+//! cubic. So the largest value and the mean are exact, not sampled.
 
 use super::cubic::{Corners, Cubic, Weights};
 use super::lanes::{FAN, Kernel, larger, smaller};
@@ -12,19 +12,16 @@ pub const NO_MEETING: f32 = 1e9;
 /// A ray that moves less than this along an axis runs along its planes (voxels).
 pub const ALONG_PLANE: f32 = 1e-9;
 
-/// What becomes of the cubics along sixteen rays.
-pub trait Fold<R> {
-    /// Whether cells with corners up to `top`, one for each ray, can change anything; `length` is as in [`Fold::take`].
+pub(crate) trait Fold<R> {
+    /// Whether cells with corners up to `top` can change anything; `length` is as in [`Fold::take`].
     fn asks(&self, top: &[f32; FAN], length: &[f32; FAN]) -> bool;
-    /// Takes the cubics of the rays whose corners reach up to `top`; `length` is how much of each ray they take (mm), 0 where
-    /// it has ended.
+    /// Takes cubics with corners up to `top`; `length` is their length along each ray (mm), 0 after its end.
     fn take(&mut self, cubic: &Cubic<R, FAN>, top: &[f32; FAN], length: &[f32; FAN]);
 }
 
-/// The largest values so far.
 #[derive(Debug)]
-pub struct Largest<'a> {
-    /// The largest values; beyond all where nothing is asked for.
+pub(crate) struct Largest<'a> {
+    /// The largest values so far; HUGE for rays that ask for nothing.
     pub best: &'a mut [f32; FAN],
     /// The value from which on a larger one makes no difference.
     pub limit: f32,
@@ -43,7 +40,7 @@ impl<R: Real> Fold<R> for Largest<'_> {
     #[inline(always)]
     fn take(&mut self, cubic: &Cubic<R, FAN>, top: &[f32; FAN], length: &[f32; FAN]) {
         self.widen(&cubic.largest_end(), top, length);
-        // Most cubics rise nowhere above what is known: their local maximum is not asked for.
+        // Most cubics stay below the largest value so far and need no search for a local maximum.
         let (bound, mut rises) = (cubic.bound(), 0);
         for l in 0..FAN {
             let bound = smaller(bound[l].to_f32(), self.limit);
@@ -56,12 +53,11 @@ impl<R: Real> Fold<R> for Largest<'_> {
 }
 
 impl Largest<'_> {
-    /// Takes the values where rays have a length.
     #[inline(always)]
     fn widen<R: Real>(&mut self, value: &[R; FAN], top: &[f32; FAN], length: &[f32; FAN]) {
         for l in 0..FAN {
             let value = value[l].to_f32();
-            // No interpolated value is larger than all corners; rounding must not make one so.
+            // No interpolated value exceeds all corners; this removes the rounding that would.
             let value = if value > top[l] { top[l] } else { value };
             let value = if value > self.limit { self.limit } else { value };
             let is_larger = (length[l] > 0.0) & (value > self.best[l]);
@@ -70,9 +66,9 @@ impl Largest<'_> {
     }
 }
 
-/// The values so far times the length of each (mm), and the sum of the lengths.
+/// Σ value · length (mm), and Σ length.
 #[derive(Debug)]
-pub struct Sums<'a>(pub &'a mut [[f64; FAN]; 2]);
+pub(crate) struct Sums<'a>(pub &'a mut [[f64; FAN]; 2]);
 
 impl<R: Real> Fold<R> for Sums<'_> {
     #[inline(always)]
@@ -97,19 +93,15 @@ impl<R: Real> Fold<R> for Sums<'_> {
     }
 }
 
-/// A walk through the cells of a stretch, whose voxels count times `sign`.
-pub struct CellWalk<'a, T, F> {
-    /// The grid and its voxels.
+/// A walk through the cells along `stretch`; voxels are multiplied by `sign`.
+pub(crate) struct CellWalk<'a, T, F> {
     pub grid: &'a Grid,
-    /// The voxels.
     pub voxels: &'a [T],
-    /// A voxel before all cells.
     pub base: [i32; 3],
     /// Where the rays go, counted from there.
     pub stretch: &'a RaySpan,
     /// −1 turns the smallest into the largest.
     pub sign: f32,
-    /// What becomes of the cubics.
     pub fold: F,
 }
 
@@ -122,14 +114,12 @@ impl<T: Voxel, F: Fold<T::Real>> Kernel for CellWalk<'_, T, F> {
     }
 }
 
-/// Where sixteen rays are.
 struct Walkers {
-    /// The cell of each, axis by axis: −1 and the last voxel where it is in the half voxel beyond the outermost centres.
+    /// Cell of each ray, axis by axis: −1 or the last voxel in the half voxel beyond the outermost centres.
     cell: [[i32; FAN]; 3],
     /// The next plane, and the share of the stretch that one voxel takes; 0 along a plane.
     plane: [[f32; FAN]; 3],
     per_voxel: [[f32; FAN]; 3],
-    /// What share of the stretch each has gone.
     gone: [f32; FAN],
 }
 
@@ -145,7 +135,7 @@ impl Walkers {
         for a in 0..3 {
             for l in 0..FAN {
                 let (start, way) = (stretch.start[a][l], stretch.way[a][l]);
-                // Rounded down: no place lies more than half a voxel before the base.
+                // Rounds down: no position lies more than half a voxel before the base.
                 let cell = (start + 1.0) as i32 - 1;
                 walkers.cell[a][l] = cell;
                 walkers.plane[a][l] = (cell + i32::from(way > 0.0)) as f32;
@@ -157,7 +147,6 @@ impl Walkers {
         walkers
     }
 
-    /// What share of the stretch each ray has gone where it meets its next plane along an axis.
     #[inline(always)]
     fn meeting(&self, stretch: &RaySpan, a: usize) -> [f32; FAN] {
         let mut meeting = [NO_MEETING; FAN];
@@ -169,10 +158,9 @@ impl Walkers {
     }
 }
 
-/// So many cells of each ray are found before the voxels of the first are read.
-const AHEAD: usize = 2;
+/// This many cells of each ray are found before the voxels of the first are read.
+const CELLS_AHEAD: usize = 2;
 
-/// A cell of each ray, counted from the base, and the shares of the stretch at which the ray enters it and leaves it.
 #[derive(Clone, Copy)]
 struct Passed {
     cell: [[f32; FAN]; 3],
@@ -187,12 +175,12 @@ impl<T: Voxel, F: Fold<T::Real>> CellWalk<'_, T, F> {
         let voxels = &self.voxels[self.grid.offset_of(self.base)..];
         let nowhere = Passed { cell: [[0.0; FAN]; 3], enter: [0.0; FAN], leave: [0.0; FAN] };
         loop {
-            let (mut passed, mut offset) = ([nowhere; AHEAD], [[O::default(); FAN]; AHEAD]);
-            for n in 0..AHEAD {
+            let (mut passed, mut offset) = ([nowhere; CELLS_AHEAD], [[O::default(); FAN]; CELLS_AHEAD]);
+            for n in 0..CELLS_AHEAD {
                 passed[n] = self.go_on(&mut walkers, &mut offset[n]);
             }
             let rows = self.grid.rows(voxels, &offset);
-            for n in 0..AHEAD {
+            for n in 0..CELLS_AHEAD {
                 self.pass(&passed[n], [&rows[0][n], &rows[1][n], &rows[2][n], &rows[3][n]]);
             }
             let mut goes_on = 0;
@@ -205,7 +193,6 @@ impl<T: Voxel, F: Fold<T::Real>> CellWalk<'_, T, F> {
         }
     }
 
-    /// Moves the rays on to their next cells. Those at their end stay there.
     #[inline(always)]
     fn go_on<O: Offset>(&self, walkers: &mut Walkers, offset: &mut [O; FAN]) -> Passed {
         let stretch = self.stretch;
@@ -224,7 +211,6 @@ impl<T: Voxel, F: Fold<T::Real>> CellWalk<'_, T, F> {
         passed
     }
 
-    /// Moves the rays on along an axis where they leave their cell through its plane.
     #[inline(always)]
     fn step<O: Offset>(
         &self,
@@ -248,7 +234,6 @@ impl<T: Voxel, F: Fold<T::Real>> CellWalk<'_, T, F> {
         }
     }
 
-    /// Takes the cubics of the rays through a cell each, whose rows of corners are given.
     #[inline(always)]
     fn pass(&mut self, passed: &Passed, rows: [&[T::Pair; FAN]; 4]) {
         let mut length = [0.0; FAN];
@@ -283,10 +268,9 @@ impl<T: Voxel, F: Fold<T::Real>> CellWalk<'_, T, F> {
         self.fold.take(&cubic, &top, &length);
     }
 
-    /// The weights of the farther corners where the rays have gone a share of the stretch.
     #[inline(always)]
     fn weights(&self, cell: &[[f32; FAN]; 3], gone: &[f32; FAN]) -> Weights<T::Real, FAN> {
-        // Axis by axis: in a loop over the axes the compiler would take those for its vectors.
+        // A loop over the axes would make the compiler vectorise over them instead of over the rays.
         [
             self.weights_along(0, cell, gone),
             self.weights_along(1, cell, gone),

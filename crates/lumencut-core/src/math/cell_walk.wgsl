@@ -1,22 +1,19 @@
-// Rays through the volume cell by cell: between two planes of voxel centres the volume along a ray is a cubic.
+// Rays through the volume cell by cell: between two planes of voxel centres the volume along a ray is a
+// cubic.
 // import math/cubic
 // import math/ray
 
-// Longer than every stretch, as a share of it.
 const NO_MEETING: f32 = 1e9;
-// A direction that moves less than this along an axis runs along its planes (voxels).
 const ALONG_PLANE: f32 = 1e-9;
 
-// What was found along a ray.
 struct Found {
-    // The largest value, or the smallest with the other sign.
+    // The largest value, or the negated smallest one.
     best: f32,
-    // The values times the shares of the stretch that they take, and the shares.
+    // Σ value · share of the stretch, and Σ share.
     sum: f32,
     share: f32,
 }
 
-// The corners in a cell times `sign`; HUGE where one of them has no value.
 fn corners_at(voxel: vec3i, sign: f32) -> Corners {
     let corners = corners_in(voxel);
     if FLOAT_VOXELS && largest_corner(corners) >= HUGE {
@@ -25,9 +22,8 @@ fn corners_at(voxel: vec3i, sign: f32) -> Corners {
     return Corners(corners.near * sign, corners.far * sign);
 }
 
-// Follows a ray from a place on, `way` voxels far. It finds what is larger than `so_far`, or with `wants_mean` sums everything
-// up.
-fn walk_cells(start: Place, way: vec3f, sign: f32, limit: f32, wants_mean: bool, so_far: f32) -> Found {
+// Follows a ray over `way` voxels: finds values above `so_far`, or sums all with `wants_mean`.
+fn walk_cells(start: GridPosition, way: vec3f, sign: f32, limit: f32, wants_mean: bool, so_far: f32) -> Found {
     let carry = floor(start.part);
     let first = start.whole + carry;
     let place = start.part - carry;

@@ -1,4 +1,4 @@
-//! The centerline of one vessel as a curve: a polyline that is walked along by its arc length.
+//! The centerline of one vessel as a curve: a polyline parametrised by arc length.
 
 use glam::DVec3;
 
@@ -9,10 +9,9 @@ use crate::math::centerline_smoothing::smooth_centerlines;
 use crate::math::same_place::REPEATED_POINT;
 use crate::vessel_tree::{Vessel, VesselTree};
 
-/// How strongly a path can be smoothed.
 const SMOOTHING: Limits = Limits::new(0.0, 1e3, "mm");
 
-/// A polyline without repeated points. Beyond both ends it goes on straight.
+/// A polyline without repeated points, extended straight beyond both ends.
 #[derive(Clone, Debug)]
 pub struct CenterlinePath {
     points: Vec<DVec3>,
@@ -21,11 +20,9 @@ pub struct CenterlinePath {
 }
 
 impl CenterlinePath {
-    /// The centerline of a vessel, smoothed along its arc length by a Gaussian with a standard deviation of `smoothing` mm;
-    /// 0 leaves it as it is. Both ends stay where they are.
-    ///
-    /// # Errors
-    /// [`ErrorKind::VesselTree`] for a vessel without length, [`ErrorKind::Settings`] for a smoothing outside 0 to 1000 mm.
+    /// The centerline of a vessel, smoothed along its arc length by a Gaussian with a standard deviation of
+    /// `smoothing` mm (0: unchanged). Both ends stay fixed. Fails with [`ErrorKind::VesselTree`] for a vessel
+    /// without length, [`ErrorKind::Settings`] for a smoothing outside 0 to 1000 mm.
     pub fn new(vessel: &Vessel, smoothing: f64) -> Result<Self> {
         SMOOTHING.check("smoothing of the centerline", smoothing)?;
         let smoothed = if smoothing > 0.0 { smoothed(vessel, smoothing)? } else { vessel.clone() };
@@ -36,8 +33,8 @@ impl CenterlinePath {
             }
         }
         if points.len() < 2 {
-            let found = "a vessel without length: all of its points lie at one place";
-            let expected = "points at two places at least";
+            let found = "a vessel without length: all of its points coincide";
+            let expected = "points at two or more positions";
             return Err(Error::new(ErrorKind::VesselTree, "points of the vessel", found, expected));
         }
         let direction: Vec<_> = points.windows(2).map(|ends| (ends[1] - ends[0]).normalize()).collect();
@@ -50,12 +47,12 @@ impl CenterlinePath {
         &self.points
     }
 
-    /// The length of the path from its first point to each point (mm).
+    /// Arc length of each point (mm).
     pub fn arc_length(&self) -> &[f64] {
         &self.arc_length
     }
 
-    /// The unit vectors along the segments, one less than points.
+    /// The unit vectors along the segments, one fewer than points.
     pub fn direction(&self) -> &[DVec3] {
         &self.direction
     }
@@ -65,19 +62,18 @@ impl CenterlinePath {
         self.arc_length[self.arc_length.len() - 1]
     }
 
-    /// The segment at arc length `t` (mm), the first or the last one beyond the ends.
+    /// The segment at arc length `t` (mm); beyond the ends the first or last one.
     pub fn segment(&self, t: f64) -> usize {
         segment_at(&self.arc_length, t)
     }
 
-    /// The point at arc length `t` (mm); beyond both ends it lies straight on.
+    /// The point at arc length `t` (mm), extrapolated straight beyond both ends.
     pub fn at(&self, t: f64) -> DVec3 {
         let segment = self.segment(t);
         self.points[segment] + self.direction[segment] * (t - self.arc_length[segment])
     }
 }
 
-/// The vessel smoothed as quiet centerlines are, by one length everywhere.
 fn smoothed(vessel: &Vessel, length: f64) -> Result<Vessel> {
     let points = vessel.points().to_vec();
     let lengths = vec![length; points.len()];

@@ -1,26 +1,27 @@
-//! Quiet centerlines: each vessel smoothed along its arc length by a Gaussian as wide as some of its radii.
+//! Smoothed centerlines: each vessel is averaged along its arc length by a Gaussian whose σ is a multiple of
+//! its radius.
 //!
-//! What is averaged is the polyline itself, not its points, so their spacing does not matter. Beyond the ends of a
-//! stretch the curve goes on by point reflection, p(−s) = 2·p(0) − p(s): its ends stay where they are, and straight
+//! The average is over the polyline, not its points, so their spacing does not matter. Beyond the ends of a
+//! stretch the curve continues by point reflection, p(−s) = 2·p(0) − p(s): ends stay fixed and straight
 //! stretches stay straight.
 
 use glam::DVec3;
 use rayon::prelude::*;
 
-use crate::math::place_map::PlaceMap;
+use crate::math::position_map::PositionMap;
 use crate::math::same_place::VESSEL_END;
 use crate::vessel_tree::{MAX_COORDINATE, Vessel, VesselTree};
 
-/// How many layers one Gaussian is cut into.
+/// Number of box layers that approximate the Gaussian.
 const LAYERS: usize = 16;
 
 /// Where the Gaussian is cut off (σ).
-const CUT_OFF: f64 = 4.0;
+const CUT_OFF_SIGMAS: f64 = 4.0;
 
 /// `tree` with centerlines smoothed by a Gaussian whose σ at each point is `radii` times the radius there.
 ///
-/// Ends, points where another vessel ends, and points whose radius is 0 or not known stay as they are to the bit.
-/// Radii stay, and so do number and order of the points.
+/// Ends, points where another vessel ends, and points of unknown or zero radius stay as they are to the bit.
+/// Radii and the number and order of points do not change.
 pub fn smooth_centerlines(tree: &VesselTree, radii: f64) -> VesselTree {
     if radii <= 0.0 {
         return tree.clone();
@@ -30,8 +31,7 @@ pub fn smooth_centerlines(tree: &VesselTree, radii: f64) -> VesselTree {
     VesselTree::from_checked(smoothed.collect())
 }
 
-/// One vessel, each stretch between two points that stay by itself.
-fn smooth(vessel: &Vessel, radii: f64, ends: &PlaceMap<()>, layers: &[Layer]) -> Vessel {
+fn smooth(vessel: &Vessel, radii: f64, ends: &PositionMap<()>, layers: &[Layer]) -> Vessel {
     let Some(radius) = vessel.radius() else { return vessel.clone() };
     let (points, last) = (vessel.points(), vessel.points().len() - 1);
     let mut smoothed = points.to_vec();
@@ -50,16 +50,16 @@ fn smooth(vessel: &Vessel, radii: f64, ends: &PlaceMap<()>, layers: &[Layer]) ->
     Vessel::from_checked(smoothed, Some(radius.to_vec()))
 }
 
-/// A part of the Gaussian with σ = 1: `height` from −`reach` to `reach`.
+/// A layer of the Gaussian with σ = 1: `height` from −`reach` to `reach`.
 #[derive(Clone, Copy, Debug)]
 struct Layer {
     reach: f64,
     height: f64,
 }
 
-/// The Gaussian as layers, one on top of the other: a sum of means over boxes. Its integral is 1 and its variance is 1.
+/// The Gaussian as a sum of boxes with integral 1 and variance 1.
 fn gaussian() -> [Layer; LAYERS] {
-    let step = CUT_OFF / LAYERS as f64;
+    let step = CUT_OFF_SIGMAS / LAYERS as f64;
     // The density in the middle of each step; beyond the last one it is 0.
     let density = |k: usize| if k < LAYERS { (-0.5 * ((k as f64 + 0.5) * step).powi(2)).exp() } else { 0.0 };
     let layers: [Layer; LAYERS] =
@@ -70,14 +70,13 @@ fn gaussian() -> [Layer; LAYERS] {
     layers.map(|l| Layer { reach: l.reach / scale, height: l.height * scale / integral })
 }
 
-/// A polyline between two points that stay, as its chord and what it is off the chord.
+/// A polyline between two fixed points, as its chord and the offset from the chord.
 struct FixedRun<'a> {
     points: &'a [DVec3],
-    /// Arc length from the start to each point (mm).
     arc: Vec<f64>,
     /// From the chord to each point, at equal shares of the length.
     offset: Vec<DVec3>,
-    /// Half of what the offset changes by along each segment (per mm).
+    /// Half of the change of the offset along each segment (per mm).
     half_slope: Vec<DVec3>,
     /// The integral of the offset from the start to each point, over arc length.
     integral: Vec<DVec3>,
@@ -87,7 +86,7 @@ impl<'a> FixedRun<'a> {
     fn new(points: &'a [DVec3]) -> Self {
         let count = points.len();
         let (zeros, mut arc) = (vec![DVec3::ZERO; count], vec![0.0; count]);
-        // Not taken from the vessel: summed from here on, it is that of a vessel cut here, to the bit.
+        // Summed from here, so that it equals that of a vessel cut here, to the bit.
         for i in 1..count {
             arc[i] = arc[i - 1] + points[i].distance(points[i - 1]);
         }
@@ -107,14 +106,12 @@ impl<'a> FixedRun<'a> {
         self.arc[self.arc.len() - 1]
     }
 
-    /// The place of point `i` on the straight line between the ends.
     fn chord(&self, i: usize) -> DVec3 {
         let share = if self.length() > 0.0 { self.arc[i] / self.length() } else { 0.0 };
         self.points[0].lerp(self.points[self.points.len() - 1], share)
     }
 
-    /// The mean around point `i`. That of the chord is the chord at `i`, as layers are symmetric; that of the offset is
-    /// added.
+    /// The mean around point `i`: the chord at `i`, since layers are symmetric, plus the mean of the offset.
     fn mean(&self, i: usize, sigma: f64, layers: &[Layer]) -> DVec3 {
         if self.length() <= 0.0 {
             return self.points[i];
@@ -130,9 +127,8 @@ impl<'a> FixedRun<'a> {
         (self.chord(i) + mean).clamp(-bound, bound)
     }
 
-    /// The integral of the offset from the start to arc length `s`, which may lie beyond the ends. The offset goes on by
-    /// point reflection about both of them; its integral is therefore the same on both sides of an end. `segment` is
-    /// where the search begins and where it ended.
+    /// The integral of the offset from the start to arc length `s`, symmetric about both ends by reflection.
+    /// `segment` is where the search starts and where it ended.
     fn integral_to(&self, s: f64, segment: &mut usize) -> DVec3 {
         let s = folded(s, self.length());
         *segment = self.segment(s, *segment);
@@ -140,7 +136,7 @@ impl<'a> FixedRun<'a> {
         self.integral[j] + (self.offset[j] + self.half_slope[j] * along) * along
     }
 
-    /// The segment that holds arc length `s`, by steps away from `near` that double.
+    /// The segment that holds arc length `s`, found from `near` by doubling steps.
     fn segment(&self, s: f64, near: usize) -> usize {
         let arc = &self.arc;
         let (mut low, mut high, mut step) = (near, near + 1, 1);
@@ -154,16 +150,15 @@ impl<'a> FixedRun<'a> {
     }
 }
 
-/// Where a walk of `s` ends that turns back at 0 and at `length`.
+/// Reflects `s` at 0 and at `length`.
 fn folded(s: f64, length: f64) -> f64 {
     let (s, turn) = (s.abs(), 2.0 * length);
     let s = if s > turn { s % turn } else { s };
     s.min(turn - s)
 }
 
-/// The ends of all vessels.
-fn ends_of(tree: &VesselTree) -> PlaceMap<()> {
-    let mut ends = PlaceMap::new(VESSEL_END);
+fn ends_of(tree: &VesselTree) -> PositionMap<()> {
+    let mut ends = PositionMap::new(VESSEL_END);
     for points in tree.vessels().iter().map(Vessel::points) {
         for end in [points[0], points[points.len() - 1]] {
             ends.add(end, &());

@@ -1,7 +1,7 @@
-//! Which part of a chosen vessel comes before all others.
+//! Which part of a chosen vessel takes precedence over all others.
 //!
-//! The centerline of a branch begins in the middle of its parent, with the parent's radius. There its disc is no part of the branch:
-//! before all others it would lie across the parent as a round patch.
+//! The centerline of a branch begins in the middle of its parent, with the parent's radius. With precedence,
+//! that first disc would cover the parent as a round patch, so it is left out.
 
 use std::ops::Range;
 
@@ -9,9 +9,9 @@ use glam::DVec3;
 
 use super::projection::Level;
 
-/// The slots of each vessel that come before those of all others where some vessels are chosen: none of a vessel that is not
-/// chosen, and of one that is all from where its centerline first leaves the lumens of the others to where it last enters one.
-/// One that never leaves them keeps all of its slots.
+/// The slots of each vessel that take precedence. A chosen vessel has them from where its centerline first
+/// leaves the lumens of the other vessels to where it last enters one; all of them if it never leaves. Others
+/// have none.
 pub fn chosen_slots(level: &Level, vessels: &[usize]) -> Vec<Range<u32>> {
     let count = level.first_slot.len() - 1;
     let mut is_chosen = vec![false; count];
@@ -28,7 +28,7 @@ pub fn chosen_slots(level: &Level, vessels: &[usize]) -> Vec<Range<u32>> {
             return all.start..all.start;
         }
         let [first, last] = [all.clone().find(is_outside), all.clone().rev().find(is_outside)];
-        // What stands at the last slot reaches to the end of the vessel alone; before it, segments end at the last one outside.
+        // The half-plane at the last slot reaches to the end of the vessel; others end at the last outside.
         let end = last.map_or(all.end, |last| if last + 1 == all.end { all.end } else { last });
         let first = first.unwrap_or(all.start);
         if first < end { first..end } else { all }
@@ -36,7 +36,6 @@ pub fn chosen_slots(level: &Level, vessels: &[usize]) -> Vec<Range<u32>> {
     (0..count).map(of_vessel).collect()
 }
 
-/// Whether a point lies in the lumen of the vessel with these slots, whose radius is linear along each segment.
 fn is_within(level: &Level, slots: Range<u32>, point: DVec3) -> bool {
     let last = slots.end.saturating_sub(1) as usize;
     slots.map(|slot| slot as usize).any(|slot| {

@@ -1,4 +1,4 @@
-//! The parameters of the context, as the shaders read them.
+//! The parameters of the context, in the layout of the shaders.
 
 use bytemuck::{Pod, Zeroable};
 
@@ -8,30 +8,25 @@ use super::window::Ramp;
 use crate::settings::{Context, ContextFrom, ContextMode, MAX_POINTS, Settings};
 
 /// The most rises and gaps between the control points of a transfer function.
-const MOST_RISES: usize = MAX_POINTS - 1;
-const MOST_GAPS: usize = MAX_POINTS / 2 + 1;
-/// The most sizes of blocks: the largest one holds a volume of any size.
-pub const MOST_BLOCK_LEVELS: usize = 16;
+const MAX_RISES: usize = MAX_POINTS - 1;
+const MAX_GAPS: usize = MAX_POINTS / 2 + 1;
+/// The most sizes of blocks; with them the largest block holds a volume of any size.
+pub(crate) const MAX_BLOCK_LEVELS: usize = 16;
 
-/// Changes over two voxels that are half shaded, as a share of the context window: noise within a vessel stays below,
-/// the borders of vessels and bones are far above.
+/// Change over two voxels that is half shaded (share of the window): above the noise, below all borders.
 const HALF_SHADED: f64 = 0.1;
 
-/// What becomes of a ray.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Gathering {
-    /// Colours and opacities: DVR, MIDA and what lies between them and MIP.
+    /// Colours and opacities: DVR, MIDA and the blends between them and MIP.
     Blend,
-    /// The largest value: MIP.
     Brightest,
-    /// The smallest value.
     Darkest,
-    /// The mean.
     Average,
 }
 
 impl Gathering {
-    /// What a mode gathers; a blend that is all maximum is the maximum alone.
+    /// The gathering of a mode; a blend with γ = 1 is plain MIP.
     pub fn of(mode: ContextMode) -> Self {
         match mode {
             mode if mode.is_sampled() => Self::Blend,
@@ -41,7 +36,6 @@ impl Gathering {
         }
     }
 
-    /// What is kept of the values along a ray; none where samples are blended.
     pub fn reduction(self) -> Option<Reduction> {
         match self {
             Self::Blend => None,
@@ -51,49 +45,41 @@ impl Gathering {
         }
     }
 
-    /// The number by which the shaders know it.
     pub const fn code(self) -> u32 {
         self as u32
     }
 }
 
-/// A rise of the transfer function: what is added to all before it.
+/// A rise of the transfer function: the amount added after all rises before it.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
 pub struct RiseParameters {
-    /// What it adds to the colour.
     pub color: [f32; 3],
-    /// What it adds to the opacity.
     pub opacity: f32,
-    /// The intensity at which it begins.
     pub start: f32,
-    /// The share of it that one unit of intensity makes.
+    /// Share of the rise per unit of intensity.
     pub per_intensity: f32,
-    /// Fills the structure as the shaders' rules of layout want it.
     pub padding: [f32; 2],
 }
 
-/// How the blocks of a volume lie in one buffer of a GPU, the smallest first; the CPU has them size by size.
+/// The layout of a volume's blocks in one GPU buffer, the smallest first.
 #[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
 #[repr(C)]
-pub struct BlockPlaces {
-    /// The number of sizes.
+pub struct BlockLayout {
     pub level_count: u32,
-    /// By how much the smallest blocks there are larger than the volume's smallest: 2 to this power.
+    /// log2 of the ratio of the smallest blocks there to the volume's smallest.
     pub finest: u32,
-    /// Blocks along each axis and the place of the first one's range, size by size.
-    pub levels: [[u32; 4]; MOST_BLOCK_LEVELS],
+    /// Blocks along each axis and the index of the first one's range, per size.
+    pub levels: [[u32; 4]; MAX_BLOCK_LEVELS],
 }
 
-/// What the rays of a context need to know besides the view and the volume's grid.
+/// What the rays of a context need besides the view and the volume's grid.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
 pub struct ContextParameters {
-    /// The intensities from 0 to 1.
     pub window: Ramp,
-    /// The opacity of the cut surface.
     pub opacity: Ramp,
-    /// Parts of a ray per mm, at least.
+    /// Minimum number of parts of a ray per mm.
     pub per_step: f32,
     /// How far behind a transparent cut surface rays start (mm).
     pub behind: f32,
@@ -101,42 +87,32 @@ pub struct ContextParameters {
     pub push: f32,
     /// max(γ, 0): the share of the maximum in the finished pixel.
     pub mix: f32,
-    /// In the window, what is brighter than all that is transparent before the first visible sample.
+    /// In the window, a value above all that is transparent before the first visible sample.
     pub most: f32,
-    /// The black end of the window.
     pub black: f32,
     /// The square of a change that is half shaded.
     pub noise: f32,
-    /// The intensity from which on the colour stays the same.
+    /// The intensity from which on the colour is constant.
     pub last: f32,
-    /// The colour before the first rise of the transfer function.
     pub first_color: [f32; 3],
-    /// The opacity before the first rise.
     pub first_opacity: f32,
-    /// The number of rises.
     pub rise_count: u32,
-    /// The number of gaps.
     pub gap_count: u32,
-    /// How the blocks lie.
     pub level_count: u32,
-    /// The size of the smallest blocks, as [`BlockPlaces`] says.
     pub finest: u32,
-    /// The rises of the transfer function.
-    pub rises: [RiseParameters; MOST_RISES],
+    pub rises: [RiseParameters; MAX_RISES],
     /// The ranges of intensity without opacity: from the first to the second number.
-    pub gaps: [[f32; 4]; MOST_GAPS],
-    /// Blocks along each axis and the place of the first one's range, size by size.
-    pub levels: [[u32; 4]; MOST_BLOCK_LEVELS],
+    pub gaps: [[f32; 4]; MAX_GAPS],
+    pub levels: [[u32; 4]; MAX_BLOCK_LEVELS],
 }
 
 impl ContextParameters {
-    /// The parameters of `context`, whose transfer function is `colors`, sampled at least every `step` mm.
     pub fn new(
         settings: &Settings,
         context: &Context,
         colors: &Colors,
         step: f64,
-        blocks: &BlockPlaces,
+        blocks: &BlockLayout,
     ) -> Self {
         let window = Ramp::grey(context.window);
         let gamma = match context.mode {
@@ -175,19 +151,15 @@ impl ContextParameters {
     }
 }
 
-/// What decides where rays start; it is a part of [`ContextParameters`].
+/// The part of [`ContextParameters`] that decides where rays start.
 #[derive(Clone, Copy, Debug)]
 pub struct StartParameters {
-    /// The opacity of the cut surface.
     pub opacity: Ramp,
-    /// How far behind a transparent cut surface rays start (mm): behind its slab.
     pub behind: f32,
-    /// Whether rays around a focus start at the cut surface.
     pub from_cut: bool,
 }
 
 impl StartParameters {
-    /// The parameters of `settings`.
     pub fn new(settings: &Settings) -> Self {
         let behind = settings.slab.map_or(0.0, |slab| slab.thickness / 2.0) as f32;
         let from_cut = settings.context.as_ref().is_none_or(|context| context.from == ContextFrom::Cut);

@@ -1,10 +1,8 @@
-// The cost that decides which piece of the cut surface a pixel sees (paper Eq. 2), and its *lumen first* variant.
+// The cost that decides which piece of the cut surface a pixel sees (paper Eq. 2); see cost.rs.
 // import math/levels
 
 override LUMEN_FIRST: bool = false;
 
-// The keys of a piece at depths `z` with lumen radii `r`, at distances `d` from its own centerline. Under *lumen first* its lumen
-// and its wall come `tiers` before those of other vessels.
 fn keys(z: vec4f, d: vec4f, r: vec4f, tiers: f32) -> vec4f {
     let beyond = d - r;
     let cost = z + parameters.weight * max(beyond, vec4f(0.0));
@@ -15,29 +13,22 @@ fn keys(z: vec4f, d: vec4f, r: vec4f, tiers: f32) -> vec4f {
     return cost;
 }
 
-// How far a piece at distance `d` from its centerline, of radius `r`, lies beyond its vessel's wall (mm); under *lumen
-// first* the key tells whether it does at all.
 fn beyond_wall(key: f32, d: f32, r: f32) -> f32 {
-    // Surroundings have keys of half a mm above -lift/2 and more, walls of half a mm below it and less.
     if LUMEN_FIRST && key < -0.5 * parameters.lift {
         return 0.0;
     }
     return max(d - r - parameters.margin, 0.0);
 }
 
-// Whether a piece at distance `d` from its centerline, of radius `r`, shows its lumen; under *lumen first* the key tells.
 fn is_lumen(key: f32, d: f32, r: f32) -> bool {
-    // The keys of a tier lie within half a lift around it, and half a mm away from its borders.
     let is_beside = key >= -1.5 * parameters.lift || (is_first(key) && key >= -3.5 * parameters.lift);
     return select(d - r <= 0.0, !is_beside, LUMEN_FIRST);
 }
 
-// Whether a key is that of the lumen or the wall of a chosen vessel.
 fn is_first(key: f32) -> bool {
     return LUMEN_FIRST && key < -2.5 * parameters.lift;
 }
 
-// A key that nothing at depth ≥ `z` with radius ≤ `r` and no more `tiers` falls below from a distance ≥ `d`.
 fn key_bound(z: f32, d: f32, r: f32, tiers: f32) -> f32 {
     let beyond = d - parameters.distance_slack - r;
     let nearest = z - parameters.depth_slack;
@@ -49,7 +40,6 @@ fn key_bound(z: f32, d: f32, r: f32, tiers: f32) -> f32 {
     return cost;
 }
 
-// The bound beyond which nothing can beat or tie with `key`.
 fn key_limit(key: f32) -> f32 {
     return key + parameters.depth_slack + abs(key) * 4e-7;
 }

@@ -1,30 +1,28 @@
-//! The volume along a ray within one cell. Trilinear interpolation along a straight line is a cubic; here it has the form
-//! of Bernstein, whose four coefficients are averages of interpolated values.
+//! The volume along a ray within one cell: a cubic in Bernstein form, whose coefficients average interpolated
+//! values.
 
 use super::lanes::larger;
 use crate::volume::Real;
 
-/// A number that is no divisor.
+/// Smaller divisors count as 0.
 pub const TINY: f32 = 1e-30;
 
 /// The values at the corners of the cells of N rays, i fastest, then j, then k.
-pub type Corners<R, const N: usize> = [[R; N]; 8];
+pub(crate) type Corners<R, const N: usize> = [[R; N]; 8];
 /// Where N rays meet a cell: weights of its farther corners, axis by axis.
-pub type Weights<R, const N: usize> = [[R; N]; 3];
+pub(crate) type Weights<R, const N: usize> = [[R; N]; 3];
 
-/// The volume along N rays from where each enters a cell to where it leaves it: the coefficients of Bernstein's form.
+/// The volume along N rays between entering and leaving a cell: Bernstein coefficients.
 #[derive(Clone, Copy, Debug)]
-pub struct Cubic<R, const N: usize>([[R; N]; 4]);
+pub(crate) struct Cubic<R, const N: usize>([[R; N]; 4]);
 
 impl<R: Real, const N: usize> Cubic<R, N> {
-    /// The cubic between two places of each ray. Its coefficients are the trilinear form with the weights of the one
-    /// place along some axes and those of the other along the rest.
+    /// The cubic between two positions of each ray: trilinear forms with weights of either position per axis.
     #[inline(always)]
-    pub fn between(corners: &Corners<R, N>, enter: &Weights<R, N>, leave: &Weights<R, N>) -> Self {
+    pub(crate) fn between(corners: &Corners<R, N>, enter: &Weights<R, N>, leave: &Weights<R, N>) -> Self {
         let third = R::from_weight(1.0 / 3.0);
         let mut form = [[R::from_f32(0.0); N]; 4];
-        // In each name the first letter is the place along i, the second along j, the third along k: e where the ray
-        // enters, l where it leaves.
+        // In each name the letters stand for i, j and k: e where the ray enters, l where it leaves.
         for n in 0..N {
             let [e, l] = [enter, leave].map(|place| [place[0][n], place[1][n], place[2][n]]);
             let [xe, xl] = [e[0], l[0]].map(|x| {
@@ -42,9 +40,9 @@ impl<R: Real, const N: usize> Cubic<R, N> {
         Self(form)
     }
 
-    /// A number that the cubic does not exceed: it lies within the hull of its coefficients.
+    /// An upper bound: the cubic lies within the hull of its coefficients.
     #[inline(always)]
-    pub fn bound(&self) -> [R; N] {
+    pub(crate) fn bound(&self) -> [R; N] {
         let mut bound = self.0[0];
         for form in &self.0[1..] {
             for n in 0..N {
@@ -54,9 +52,8 @@ impl<R: Real, const N: usize> Cubic<R, N> {
         bound
     }
 
-    /// The larger of the values at both ends.
     #[inline(always)]
-    pub fn largest_end(&self) -> [R; N] {
+    pub(crate) fn largest_end(&self) -> [R; N] {
         let mut largest = self.0[0];
         for n in 0..N {
             largest[n] = larger(largest[n], self.0[3][n]);
@@ -64,9 +61,9 @@ impl<R: Real, const N: usize> Cubic<R, N> {
         largest
     }
 
-    /// The value at the local maximum; a smaller one where there is none between both ends.
+    /// The value at the local maximum; a smaller one if there is none between both ends.
     #[inline(always)]
-    pub fn at_summit(&self) -> [R; N] {
+    pub(crate) fn at_summit(&self) -> [R; N] {
         let mut value = self.0[0];
         for n in 0..N {
             let form = [self.0[0][n], self.0[1][n], self.0[2][n], self.0[3][n]];
@@ -75,9 +72,9 @@ impl<R: Real, const N: usize> Cubic<R, N> {
         value
     }
 
-    /// The mean value, as Simpson's rule gives it: exact for a cubic.
+    /// The mean value by Simpson's rule, which is exact for a cubic.
     #[inline(always)]
-    pub fn mean(&self) -> [R; N] {
+    pub(crate) fn mean(&self) -> [R; N] {
         let (mut mean, quarter) = (self.0[0], R::from_f32(0.25));
         for n in 0..N {
             mean[n] = ((self.0[0][n] + self.0[3][n]) + (self.0[1][n] + self.0[2][n])) * quarter;
@@ -86,19 +83,18 @@ impl<R: Real, const N: usize> Cubic<R, N> {
     }
 }
 
-/// Where a cubic in Bernstein's form has its local maximum, from 0 to 1; any place where it has none there.
+/// Where a Bernstein cubic has its local maximum, from 0 to 1; arbitrary if it has none.
 #[inline(always)]
 fn summit<R: Real>([b0, b1, b2, b3]: [R; 4]) -> R {
     let (zero, one, tiny) = (R::from_f32(0.0), R::from_f32(1.0), R::from_f32(TINY));
-    // A third of the derivative is d0·(1 − u)² + 2·d1·u·(1 − u) + d2·u²; divided by the largest of the three, so that no
-    // square overflows.
+    // A third of the derivative is d0·(1 − u)² + 2·d1·u·(1 − u) + d2·u², scaled so that no square overflows.
     let (d0, d1, d2) = (b1 - b0, b2 - b1, b3 - b2);
     let size = |d: R| larger(d, zero - d);
     let scale = one / larger(larger(size(d0), size(d1)), larger(size(d2), tiny));
     let (d0, d1, d2) = (d0 * scale, d1 * scale, d2 * scale);
     let (curve, bend) = (d0 - d1 - d1 + d2, d1 - d0);
     let root = larger(d1 * d1 - d0 * d2, zero).square_root();
-    // Of the two roots that where the derivative falls, without a difference of almost equal numbers.
+    // The root where the derivative falls, without a difference of almost equal numbers.
     let above = if bend > zero { zero - (bend + root) } else { d0 };
     let below = if bend > zero { curve } else { root - bend };
     let below = if size(below) > tiny { below } else { tiny };
@@ -107,7 +103,6 @@ fn summit<R: Real>([b0, b1, b2, b3]: [R; 4]) -> R {
     if u < one { u } else { one }
 }
 
-/// The value of a cubic in Bernstein's form at `u`, by de Casteljau's scheme.
 #[inline(always)]
 fn at<R: Real>([b0, b1, b2, b3]: [R; 4], u: R) -> R {
     let mix = |a: R, b: R| a + (b - a) * u;
@@ -119,12 +114,10 @@ fn at<R: Real>([b0, b1, b2, b3]: [R; 4], u: R) -> R {
 mod tests {
     use super::*;
 
-    /// The largest value of one cubic.
     fn largest_of<R: Real>(cubic: &Cubic<R, 1>) -> R {
         larger(cubic.largest_end()[0], cubic.at_summit()[0])
     }
 
-    /// Numbers from −1 to 1 without order.
     fn numbers() -> impl FnMut() -> f64 {
         let mut state = 88_172_645_463_325_252u64;
         move || {
@@ -167,7 +160,6 @@ mod tests {
             let [bound] = cubic.bound();
             assert!(found <= bound + 1e-9);
             inside += u32::from(found > values[0].max(values[steps as usize]) + 1e-9);
-            // Simpson's rule with one interval.
             let simpson = (values[0] + 4.0 * values[steps as usize / 2] + values[steps as usize]) / 6.0;
             assert!((cubic.mean()[0] - simpson).abs() < 1e-9);
         }

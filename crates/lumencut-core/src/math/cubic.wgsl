@@ -1,7 +1,6 @@
-// The volume along a ray within one cell: a cubic in Bernstein's form.
+// The volume along a ray within one cell: a cubic in Bernstein form.
 // import math/sampling
 
-// A number that is no divisor.
 const TINY: f32 = 1e-30;
 
 fn largest_corner(corners: Corners) -> f32 {
@@ -9,10 +8,7 @@ fn largest_corner(corners: Corners) -> f32 {
     return max(max(four.x, four.y), max(four.z, four.w));
 }
 
-// The coefficients of the cubic between two places, given by the weights of the farther corners.
 fn cubic_between(corners: Corners, enter: vec3f, leave: vec3f) -> vec4f {
-    // In each name the first letter is the place along i, the second along j, the third along k: e where the ray enters, l
-    // where it leaves.
     let step = corners.far - corners.near;
     let e = corners.near + step * enter.x;
     let l = corners.near + step * leave.x;
@@ -31,7 +27,6 @@ fn cubic_between(corners: Corners, enter: vec3f, leave: vec3f) -> vec4f {
     );
 }
 
-// The largest value.
 fn largest_of(cubic: vec4f) -> f32 {
     let ends = max(cubic.x, cubic.w);
     if max(cubic.y, cubic.z) <= ends {
@@ -40,7 +35,6 @@ fn largest_of(cubic: vec4f) -> f32 {
     return max(ends, value_at(cubic, summit(cubic)));
 }
 
-// Where the cubic has its local maximum, from 0 to 1; any place where it has none there.
 fn summit(cubic: vec4f) -> f32 {
     let d = cubic.yzw - cubic.xyz;
     let size = abs(d);
@@ -48,7 +42,6 @@ fn summit(cubic: vec4f) -> f32 {
     let curve = s.x - 2.0 * s.y + s.z;
     let bend = s.y - s.x;
     let root = sqrt(max(s.y * s.y - s.x * s.z, 0.0));
-    // Of the two roots that where the derivative falls, without a difference of almost equal numbers.
     let above = select(s.x, -(bend + root), bend > 0.0);
     let below = select(root - bend, curve, bend > 0.0);
     if abs(below) <= TINY {
@@ -57,14 +50,12 @@ fn summit(cubic: vec4f) -> f32 {
     return clamp(above / below, 0.0, 1.0);
 }
 
-// The value at `u`, by de Casteljau's scheme.
 fn value_at(cubic: vec4f, u: f32) -> f32 {
     let three = cubic.xyz + (cubic.yzw - cubic.xyz) * u;
     let two = three.xy + (three.yz - three.xy) * u;
     return two.x + (two.y - two.x) * u;
 }
 
-// The mean value, as Simpson's rule gives it.
 fn mean_of(cubic: vec4f) -> f32 {
     return ((cubic.x + cubic.w) + (cubic.y + cubic.z)) * 0.25;
 }

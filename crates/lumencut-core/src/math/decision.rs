@@ -1,4 +1,4 @@
-//! What the winner of a pixel decides: its vessel, its place along it, and how far beyond the wall it lies.
+//! What the winning piece of a pixel decides: the vessel, the arc length, and the distance beyond the wall.
 
 use super::cost::Rule;
 use super::lanes::{PART_PIXELS, PIXELS};
@@ -6,30 +6,23 @@ use super::pieces::{Envelope, Stripe, Wedge};
 use super::projection::Projected;
 use super::tile::{Area, Tile};
 
-/// What was decided for each pixel of a tile, once, on the finest level.
+/// The decision for each pixel of a tile, made once, on the finest level.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
-pub struct Decision {
-    /// The vessel.
+pub(crate) struct Decision {
     pub vessel: [i32; PIXELS],
-    /// Where along it the pixel looks (mm).
     pub arc_length: [f32; PIXELS],
-    /// How far the pixel lies beyond the vessel's wall (mm); 0 within.
     pub beyond_wall: [f32; PIXELS],
-    /// The radius of the vessel there (mm).
     pub radius: [f32; PIXELS],
-    /// Whether the pixel shows the lumen of the vessel.
     pub is_lumen: [bool; PIXELS],
-    /// Whether the pixel shows a chosen vessel before all others.
     pub is_first: [bool; PIXELS],
-    /// How the depth changes to the right and upwards (mm per mm).
+    /// Change of depth to the right and upwards (mm per mm).
     pub slope: [[f32; PIXELS]; 2],
 }
 
 impl Decision {
-    /// What the winners of a level decide.
     #[inline(always)]
-    pub fn of<const LUMEN_FIRST: bool>(
+    pub(crate) fn of<const LUMEN_FIRST: bool>(
         winners: &Envelope,
         projected: &[Projected],
         tile: &Tile,
@@ -45,14 +38,14 @@ impl Decision {
             is_first: [false; PIXELS],
             slope: [zero; 2],
         };
-        // First all that is read from here and there, then all that is computed: the second in vectors.
+        // Gather first, then compute: only then does the second part vectorise.
         let (mut starts, mut ends) = (Gathered::new(), Gathered::new());
         for l in 0..PIXELS {
             let (slot, is_stripe) = (winners.piece[l] / 2, winners.piece[l] % 2);
             let here = &projected[slot as usize];
             decision.vessel[l] = here.vessel;
             starts.put(l, here);
-            // What stands at a point ends where it starts.
+            // A wedge ends where it starts.
             ends.put(l, &projected[(slot + is_stripe) as usize]);
         }
         for l in 0..PIXELS {
@@ -79,14 +72,13 @@ impl Decision {
 }
 
 impl Decision {
-    /// The radius as a sheet holds it: negative beside the lumen.
+    /// The radius in the encoding of a sheet: negative outside the lumen.
     #[inline(always)]
-    pub fn sheet_radius(&self, l: usize) -> f32 {
+    pub(crate) fn sheet_radius(&self, l: usize) -> f32 {
         if self.is_lumen[l] { self.radius[l] } else { -self.radius[l] }
     }
 }
 
-/// One point for each pixel of a tile, field by field.
 #[repr(C, align(64))]
 struct Gathered {
     x: [f32; PIXELS],
@@ -122,25 +114,19 @@ impl Gathered {
     }
 }
 
-/// The pixels of a part of a tile, and what was decided for them.
 #[derive(Clone, Copy)]
-pub struct Part<'a> {
-    /// The box around them.
+pub(crate) struct Part<'a> {
     pub area: &'a Area,
-    /// View x and y (mm).
     pub x: &'a [f32; PART_PIXELS],
     #[allow(missing_docs)]
     pub y: &'a [f32; PART_PIXELS],
-    /// The vessel.
     pub vessel: &'a [i32; PART_PIXELS],
-    /// Where along it the pixel looks (mm).
     pub arc_length: &'a [f32; PART_PIXELS],
 }
 
 impl Decision {
-    /// Part `p` of the tile.
     #[inline(always)]
-    pub fn part<'a>(&'a self, tile: &'a Tile, p: usize) -> Part<'a> {
+    pub(crate) fn part<'a>(&'a self, tile: &'a Tile, p: usize) -> Part<'a> {
         Part {
             area: &tile.parts[p],
             x: &tile.x.as_chunks().0[p],

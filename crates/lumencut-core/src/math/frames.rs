@@ -1,20 +1,18 @@
-//! A frame that moves along a path without turning about it: rotation-minimising, by double reflection (Wang, Jüttler,
-//! Zheng, Liu: Computation of Rotation Minimizing Frames, ACM Transactions on Graphics 27(1), 2008,
-//! doi:10.1145/1330511.1330513).
+//! A rotation-minimising frame along a path, by double reflection (Wang, Jüttler, Zheng, Liu: Computation of
+//! Rotation Minimizing Frames, ACM Transactions on Graphics 27(1), 2008, doi:10.1145/1330511.1330513).
 //!
-//! A segment has its own direction in its middle. About each inner point of the path the direction turns from that of one
-//! segment to that of the next, along a great circle and at an even rate, from half of the shorter segment before the point
-//! to as much after it, and no farther than [`CORNER`]. So the tangent never jumps, and straight runs are crossed at right
-//! angles.
+//! A segment has its own direction in its middle. About each inner point the direction turns along a great
+//! circle at an even rate, over half of the shorter segment on both sides and at most `MAX_CORNER_MM`. So the
+//! tangent never jumps, and straight runs are crossed at right angles.
 
 use glam::{DQuat, DVec3};
 
 use super::centerline_path::CenterlinePath;
 
-/// How far before and after a point of the path its corner is rounded (mm), at most.
-pub const CORNER: f64 = 5.0;
+/// The longest rounding of a corner before and after a point (mm).
+pub(crate) const MAX_CORNER_MM: f64 = 5.0;
 
-/// Two directions that differ by less than this sine are one.
+/// Two directions that differ by less than this sine are equal.
 const SAME_DIRECTION: f64 = 1e-12;
 
 /// A right-handed set of unit vectors: `across` × `tangent` = `ahead`.
@@ -29,16 +27,14 @@ pub struct MovingFrame {
 }
 
 impl MovingFrame {
-    /// The frame with this tangent (a unit vector) that looks along `ahead` as far as that is perpendicular to it, and in any
-    /// direction where it is parallel.
+    /// The frame with this unit tangent whose `ahead` is the perpendicular part of the given one, if any.
     pub fn looking(tangent: DVec3, ahead: DVec3) -> Self {
         let perpendicular = ahead.reject_from_normalized(tangent).try_normalize();
         let ahead = perpendicular.unwrap_or_else(|| tangent.any_orthonormal_vector());
         Self { tangent, across: tangent.cross(ahead), ahead }
     }
 
-    /// The frame turned about its tangent: the viewer moves to the right, as with cameras, by an angle whose sine and cosine
-    /// are given.
+    /// The frame turned about its tangent by this sine and cosine; the viewer moves to the right.
     #[must_use]
     pub fn turned(self, [sine, cosine]: [f64; 2]) -> Self {
         let Self { tangent, across, ahead } = self;
@@ -50,20 +46,19 @@ impl MovingFrame {
     }
 }
 
-/// A place on the path from which on the frame turns at an even rate.
+/// A position on the path from which on the frame turns at an even rate.
 #[derive(Clone, Copy, Debug)]
 pub struct Station {
     /// Arc length (mm).
     pub at: f64,
     /// The frame here.
     pub frame: MovingFrame,
-    /// The axis about which the frame turns from here to the next station, as long as it turns radians per mm.
+    /// Rotation vector per mm up to the next station (radians per mm).
     pub turn: DVec3,
 }
 
 impl Station {
-    /// The frame at arc length `t`, between here and the next station.
-    pub fn frame_at(&self, t: f64) -> MovingFrame {
+    pub(crate) fn frame_at(&self, t: f64) -> MovingFrame {
         if self.turn == DVec3::ZERO {
             return self.frame;
         }
@@ -87,7 +82,7 @@ impl Frames {
                 continue;
             }
             let [before, at, after] = [-1, 0, 1].map(|n| path.arc_length()[i.wrapping_add_signed(n)]);
-            let reach = CORNER.min((at - before).min(after - at) / 2.0);
+            let reach = MAX_CORNER_MM.min((at - before).min(after - at) / 2.0);
             let frame = stations[stations.len() - 1].frame;
             let [start, end] = [at - reach, at + reach];
             stations.push(Station { at: start, frame, turn: turn(frame, to) / (end - start) });
@@ -97,8 +92,7 @@ impl Frames {
         Self { stations }
     }
 
-    /// The places between which the frame turns at an even rate, by rising arc length. It stays as it is before the first and
-    /// after the last.
+    /// The stations by rising arc length. The frame is constant before the first and after the last.
     pub fn stations(&self) -> &[Station] {
         &self.stations
     }
@@ -114,23 +108,21 @@ impl Frames {
     }
 }
 
-/// The smallest turn of a frame that brings its tangent to `to`: its axis, as long as its angle (radians). A path that goes
-/// straight back turns about the direction of view.
+/// The smallest rotation vector (radians) that brings the tangent to `to`; a reversal turns about the view.
 fn turn(frame: MovingFrame, to: DVec3) -> DVec3 {
     let axis = frame.tangent.cross(to);
     let angle = axis.length().atan2(frame.tangent.dot(to));
     axis.try_normalize().filter(|_| axis.length() >= SAME_DIRECTION).unwrap_or(frame.ahead) * angle
 }
 
-/// The frame with the tangent `to` after a step along `chord`: both are reflected in the plane across the chord, then in the
-/// plane that brings the reflected tangent to the new one.
+/// The frame with the tangent `to` after a step along `chord`, by reflection in two planes.
 pub fn double_reflection(frame: MovingFrame, chord: DVec3, to: DVec3) -> MovingFrame {
     let [tangent, ahead] = [frame.tangent, frame.ahead].map(|vector| reflected(vector, chord));
     let ahead = reflected(ahead, to - tangent);
     MovingFrame::looking(to, ahead)
 }
 
-/// A vector reflected in the plane across `normal`, of any length; itself where that has no length.
+/// A vector reflected in the plane across `normal`, of any length; unchanged if that is zero.
 fn reflected(vector: DVec3, normal: DVec3) -> DVec3 {
     let square = normal.length_squared();
     if square < SAME_DIRECTION * SAME_DIRECTION {

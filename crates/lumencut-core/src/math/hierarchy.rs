@@ -1,8 +1,8 @@
-//! The hierarchy over the slots of one level: bundles of sixteen slots that lie close together in space, and
-//! boxes around sixteen bundles, around sixteen boxes, and so on to one root.
+//! The hierarchy over the slots of one level: bundles of sixteen slots that lie close together in space,
+//! boxes around sixteen bundles, and so on to one root.
 //!
-//! Which slots share a bundle is decided once per tree, in world space. A view only projects the slots
-//! ([`super::projection`]) and draws the boxes anew.
+//! Bundles are chosen once per tree in world space. A view only projects the slots ([`super::projection`])
+//! and recomputes the boxes.
 
 use glam::DVec3;
 
@@ -14,8 +14,8 @@ use super::tile::{Area, Tile};
 /// An entry of the order that holds no slot.
 pub const NO_SLOT: u32 = u32::MAX;
 
-/// Sixteen nodes of one height, field by field: the box around a node's segments in the view plane, its
-/// nearest depth, its largest radius (mm), and its most tiers ([`Rule::key`]).
+/// Sixteen nodes of one height: the box in the view plane, nearest depth, largest radius (mm), most tiers
+/// (`Rule::key`).
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
 pub struct Boxes {
@@ -29,7 +29,6 @@ pub struct Boxes {
 }
 
 impl Boxes {
-    /// Sixteen nodes with nothing inside.
     pub const EMPTY: Self = Self {
         low_x: [FAR; FAN],
         high_x: [FAR; FAN],
@@ -40,7 +39,6 @@ impl Boxes {
         tiers: [0.0; FAN],
     };
 
-    /// Sets node `n` to hold all slots of `bundle`.
     fn enclose_bundle(&mut self, n: usize, bundle: &Bundle) {
         let mut one = Node::NOTHING;
         for s in (0..FAN).filter(|s| bundle.slot[*s] != NO_SLOT) {
@@ -56,7 +54,6 @@ impl Boxes {
         self.set(n, one);
     }
 
-    /// Sets node `n` to hold all nodes of `inner`.
     fn enclose_boxes(&mut self, n: usize, inner: &Boxes) {
         let mut one = Node::NOTHING;
         for s in (0..FAN).filter(|s| inner.low_x[*s] < FAR) {
@@ -90,21 +87,18 @@ impl Boxes {
         squared
     }
 
-    /// The largest radius in each node (mm).
     #[inline(always)]
-    pub fn largest_radii(&self) -> &[f32; FAN] {
+    pub(crate) fn largest_radii(&self) -> &[f32; FAN] {
         &self.radius
     }
 
-    /// Whether each node has slots of chosen vessels.
     #[inline(always)]
-    pub fn has_first(&self, n: usize) -> bool {
+    pub(crate) fn has_first(&self, n: usize) -> bool {
         self.tiers[n] > 0.0
     }
 
-    /// The smallest key that each node's pieces can reach in the tile.
     #[inline(always)]
-    pub fn key_bounds<const LUMEN_FIRST: bool>(&self, tile: &Tile, rule: &Rule) -> [f32; FAN] {
+    pub(crate) fn key_bounds<const LUMEN_FIRST: bool>(&self, tile: &Tile, rule: &Rule) -> [f32; FAN] {
         let mut bounds = self.squared_distances(&tile.area);
         for n in 0..FAN {
             bounds[n] = rule.bound::<LUMEN_FIRST>(self.z[n], bounds[n].sqrt(), self.radius[n], self.tiers[n]);
@@ -129,18 +123,14 @@ impl Node {
         Self { low_x: FAR, high_x: -FAR, low_y: FAR, high_y: -FAR, z: ABSENT, radius: 0.0, tiers: 0.0 };
 }
 
-/// The slots of a level in bundles, and the boxes above them; `heights[0]` encloses the bundles, the last
-/// height is one set of boxes.
+/// Slots in bundles, and the boxes above them: `heights[0]` encloses the bundles, the last one is the root.
 #[derive(Clone, Debug)]
 pub struct Hierarchy {
-    /// The slots in projection.
-    pub bundles: Vec<Bundle>,
-    /// The boxes, bottom up.
+    pub(crate) bundles: Vec<Bundle>,
     pub heights: Vec<Vec<Boxes>>,
 }
 
 impl Hierarchy {
-    /// An empty hierarchy over `bundles` bundles.
     pub fn new(bundles: usize) -> Self {
         let mut heights = Vec::new();
         let mut nodes = bundles;
@@ -153,7 +143,7 @@ impl Hierarchy {
         }
     }
 
-    /// Takes depths and radii away from all pieces: what is left is how they lie in the image.
+    /// Removes depths and radii from all pieces, so that only their position in the image counts.
     pub fn flatten(&mut self) {
         for bundle in &mut self.bundles {
             for s in 0..FAN {
@@ -166,7 +156,6 @@ impl Hierarchy {
         self.enclose();
     }
 
-    /// Makes all radii larger by this length (mm).
     pub fn widen(&mut self, by: f32) {
         for bundle in &mut self.bundles {
             for s in 0..FAN {
@@ -176,7 +165,6 @@ impl Hierarchy {
         self.enclose();
     }
 
-    /// Draws all boxes anew around the bundles.
     pub fn enclose(&mut self) {
         for (n, bundle) in self.bundles.iter().enumerate() {
             self.heights[0][n / FAN].enclose_bundle(n % FAN, bundle);
@@ -190,9 +178,9 @@ impl Hierarchy {
     }
 }
 
-/// The order in which slots go into bundles: entry `16·b + s` is the slot in place `s` of bundle `b`, or
-/// [`NO_SLOT`]. Recursive median splits along the longest side keep bundles and boxes compact.
-pub fn spatial_order(centers: &[DVec3]) -> Vec<u32> {
+/// The order of slots in bundles: entry `16·b + s` is slot `s` of bundle `b`, or [`NO_SLOT`]. Recursive
+/// median splits along the longest side keep bundles and boxes compact.
+pub(crate) fn spatial_order(centers: &[DVec3]) -> Vec<u32> {
     let mut order: Vec<u32> = (0..centers.len() as u32).collect();
     split(&mut order, centers);
     order.resize(centers.len().div_ceil(FAN) * FAN, NO_SLOT);

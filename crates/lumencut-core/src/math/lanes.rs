@@ -1,5 +1,5 @@
-//! Lanes and instruction sets: the kernels are written once over small arrays, compiled once per instruction
-//! set, and picked at run time.
+//! Lanes and instruction sets: kernels are written once over small arrays, compiled once per instruction set,
+//! and chosen at run time.
 //!
 //! The compiler never fuses a multiplication with an addition here and every square root is correctly
 //! rounded, so all instruction sets give the same bits.
@@ -8,27 +8,23 @@
 pub const COLUMNS: usize = 16;
 /// The height of a tile (pixels).
 pub const ROWS: usize = 8;
-/// The pixels of a tile.
 pub const PIXELS: usize = COLUMNS * ROWS;
 /// The children of a node of the hierarchy and the slots of a bundle, tested together.
 pub const FAN: usize = 16;
-/// The side of a part of a tile (pixels).
-pub const PART_SIDE: usize = 8;
-/// The pixels of a part, evaluated together.
-pub const PART_PIXELS: usize = PART_SIDE * PART_SIDE;
-/// The parts of a tile.
+pub(crate) const PART_SIDE: usize = 8;
+pub(crate) const PART_PIXELS: usize = PART_SIDE * PART_SIDE;
 pub const PARTS: usize = PIXELS / PART_PIXELS;
 
 /// A key no piece reaches: the pixel has no winner yet. Finite, so that no kernel ever meets inf or NaN.
 pub const UNSET: f32 = 1e30;
-/// The depth of a piece that is not there; beyond [`UNSET`] whatever is added.
+/// The depth of a missing piece; stays beyond [`UNSET`] after any addition.
 pub const ABSENT: f32 = 3e30;
-/// Where slots without a point lie (mm): beyond every scene, and its square is still finite.
+/// Where slots without a point lie (mm): beyond every scene, with a finite square.
 pub const FAR: f32 = 1e9;
-/// A key that no piece beats: the pixel does not take part.
-pub const SETTLED: f32 = -1e30;
+/// A key that no piece beats: the pixel takes no part.
+pub const EXCLUDED: f32 = -1e30;
 
-/// The larger of two numbers, the second where the first is NaN: one instruction, where `f32::max` needs three.
+/// The larger of two numbers, the second if the first is NaN: one instruction, where `f32::max` needs three.
 #[inline(always)]
 pub fn larger<R: PartialOrd>(a: R, b: R) -> R {
     if a > b { a } else { b }
@@ -40,20 +36,18 @@ pub fn smaller(a: f32, b: f32) -> f32 {
     if a < b { a } else { b }
 }
 
-/// An integer that orders as the number does; integers are what the compiler reduces in vectors.
+/// An integer with the order of the number; the compiler vectorises reductions of integers only.
 #[inline(always)]
 fn ordered(number: f32) -> i32 {
     let bits = number.to_bits() as i32;
     bits ^ ((bits >> 31) & i32::MAX)
 }
 
-/// The number that [`ordered`] came from.
 #[inline(always)]
 fn number(ordered: i32) -> f32 {
     f32::from_bits((ordered ^ ((ordered >> 31) & i32::MAX)) as u32)
 }
 
-/// The largest of some numbers, none of them NaN.
 #[inline(always)]
 pub fn largest<const N: usize>(numbers: &[f32; N]) -> f32 {
     let mut most = i32::MIN;
@@ -73,13 +67,12 @@ pub fn smallest(numbers: &[f32; FAN]) -> f32 {
     number(least)
 }
 
-/// The bit of each lane, for masks as integers.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
 pub struct Bits([u32; FAN]);
 
 impl Bits {
-    /// Bit n for lane n. The compiler is kept from knowing it: with constants it takes the vectors apart.
+    /// Bit n for lane n, hidden from the compiler: with constants it splits the vectors.
     #[inline(always)]
     pub fn new() -> Self {
         let mut bits = [1; FAN];
@@ -89,7 +82,7 @@ impl Bits {
         Self(std::hint::black_box(bits))
     }
 
-    /// Bit n tells whether number n is no larger than `limit`.
+    /// Bit n is set where number n is at most `limit`.
     #[inline(always)]
     pub fn within(&self, numbers: &[f32; FAN], limit: f32) -> u32 {
         let mut all = 0;
@@ -106,7 +99,6 @@ impl Default for Bits {
     }
 }
 
-/// The places of the bits set, lowest first.
 #[inline(always)]
 pub fn places(mut bits: u32) -> impl Iterator<Item = usize> {
     std::iter::from_fn(move || {
@@ -123,10 +115,9 @@ pub fn gap(low: f32, high: f32, center: f32, half: f32) -> f32 {
     larger(larger(low - center, center - high) - half, 0.0)
 }
 
-/// An instruction set that the kernels are compiled for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Isa {
-    /// What every processor of the target has (SSE2, NEON, wasm simd128 where enabled).
+    /// What every processor of the target has (SSE2, NEON, wasm simd128 if enabled).
     Baseline,
     /// x86-64 with AVX2.
     #[cfg(target_arch = "x86_64")]
@@ -137,7 +128,6 @@ pub enum Isa {
 }
 
 impl Isa {
-    /// The instruction sets this processor has, the widest last.
     pub fn available() -> Vec<Self> {
         #[allow(unused_mut)]
         let mut sets = vec![Self::Baseline];
@@ -153,7 +143,6 @@ impl Isa {
         sets
     }
 
-    /// The widest instruction set this processor has.
     pub fn widest() -> Self {
         static WIDEST: std::sync::OnceLock<Isa> = std::sync::OnceLock::new();
         *WIDEST.get_or_init(|| Self::available().pop().unwrap_or(Self::Baseline))
@@ -170,15 +159,15 @@ fn has(feature: &str) -> bool {
     }
 }
 
-/// Work to be compiled for every instruction set; `run` and all it calls must be `#[inline(always)]`.
+/// Work compiled for every instruction set; `run` and all it calls must be `#[inline(always)]`.
 pub trait Kernel {
-    /// What the work gives.
+    /// The result.
     type Output;
     /// Does the work.
     fn run(self) -> Self::Output;
 }
 
-/// Runs `kernel` as compiled for `isa`, which must be one of [`Isa::available`] (others run as baseline).
+/// Runs `kernel` as compiled for `isa`, one of [`Isa::available`] (others run as baseline).
 pub fn dispatch<K: Kernel>(isa: Isa, kernel: K) -> K::Output {
     match isa {
         Isa::Baseline => baseline(kernel),
@@ -187,8 +176,7 @@ pub fn dispatch<K: Kernel>(isa: Isa, kernel: K) -> K::Output {
     }
 }
 
-/// Where there are other instruction sets, a function of its own as theirs are: within its callers the kernel would be optimised
-/// again with each of them, which is a third of what compiling this crate costs.
+/// A separate function: inlined, the kernel would be optimised in each caller, a third of the compile time.
 #[cfg_attr(target_arch = "x86_64", inline(never))]
 fn baseline<K: Kernel>(kernel: K) -> K::Output {
     kernel.run()
@@ -208,9 +196,9 @@ mod x86 {
         kernel.run()
     }
 
-    /// The one place where the crate promises the compiler something it cannot check.
+    /// The only `unsafe` code of the crate.
     #[allow(unsafe_code)]
-    pub fn dispatch<K: Kernel>(isa: Isa, kernel: K) -> K::Output {
+    pub(super) fn dispatch<K: Kernel>(isa: Isa, kernel: K) -> K::Output {
         let widest = Isa::widest();
         match isa {
             // SAFETY: `widest` was detected on this processor and includes the narrower sets.

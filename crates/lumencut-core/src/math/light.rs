@@ -8,40 +8,32 @@ use super::sampling::{Around, Places};
 
 /// The share of its colour that a surface keeps edge on.
 pub const AMBIENT: f32 = 0.4;
-/// What a surface gains on that towards the viewer.
+/// The additional share of a surface that faces the viewer.
 pub const DIFFUSE: f32 = 0.6;
 /// White mirrored straight towards the viewer; it falls off with the sixteenth power of the cosine.
 pub const SPECULAR: f32 = 0.2;
-/// A change within what can be squared.
+/// Changes are clamped to this so that they can be squared.
 pub const STEEPEST: f32 = 1e12;
-/// What a colour without shading is multiplied by, and what is added to it.
 pub const UNSHADED: [f32; 2] = [1.0, 0.0];
 
-/// How strongly changes are shaded.
 #[derive(Clone, Copy, Debug)]
-pub struct Shading {
-    /// The square of a change that is half shaded.
+pub(crate) struct Shading {
     pub noise: f32,
 }
 
-/// A change within what can be squared; NaN stays.
+/// Clamps a change to ±[`STEEPEST`]; NaN stays.
 #[inline(always)]
 fn bounded(change: f32) -> f32 {
     let change = if change > STEEPEST { STEEPEST } else { change };
     if change < -STEEPEST { -STEEPEST } else { change }
 }
 
-/// Light on sixteen places of a volume.
-pub struct Headlight<'a> {
-    /// Without it everything keeps its colour.
+pub(crate) struct Headlight<'a> {
     pub shading: Option<Shading>,
-    /// The volume.
     pub sampler: &'a dyn Sampler,
-    /// From view to index.
     pub index_from_view: &'a IndexFromView,
-    /// The voxel from which the places are counted.
+    /// The voxel from which the positions are counted.
     pub base: [i32; 3],
-    /// The places.
     pub places: Places,
 }
 
@@ -52,7 +44,7 @@ impl Light for Headlight<'_> {
         let Some(shading) = self.shading else {
             return [lit, shine];
         };
-        // One voxel more room towards the first voxels, where there is one.
+        // One more voxel of room towards the first voxels, if there is one.
         let base = self.base.map(|b| (b - 1).max(0));
         let shift = [0, 1, 2].map(|a| (self.base[a] - base[a]) as f32);
         let value = self.sampler.around(base, &Around::new(self.places, shift));
@@ -63,7 +55,7 @@ impl Light for Headlight<'_> {
             let along = |axis: [f32; 3]| change[0] * axis[0] + change[1] * axis[1] + change[2] * axis[2];
             let (gx, gy, gz) = (along(x), along(y), along(z));
             let square = gx * gx + gy * gy + gz * gz;
-            // Where nothing changes, or a neighbour has no value, there is no surface to shade.
+            // Without change, or with a neighbour of no value, there is no surface to shade.
             let cosine = if square > 0.0 { gz.abs() / square.sqrt() } else { 0.0 };
             let contrast = change[0] * change[0] + change[1] * change[1] + change[2] * change[2];
             let surface = if square > 0.0 { contrast / (contrast + shading.noise) } else { 0.0 };

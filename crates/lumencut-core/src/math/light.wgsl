@@ -1,16 +1,12 @@
-// Shading by the gradient of the volume, with light from the viewer.
+// Shading by the gradient of the volume, with light from the viewer; light.rs explains the constants.
 // import math/sampling
 // import math/context_parameters
 
-// The share of its colour that a surface keeps edge on, and what it gains towards the viewer.
 const AMBIENT: f32 = 0.4;
 const DIFFUSE: f32 = 0.6;
-// White mirrored straight towards the viewer; it falls off with the sixteenth power of the cosine.
 const SPECULAR: f32 = 0.2;
-// A change within what can be squared.
 const STEEPEST: f32 = 1e12;
 
-// What a colour is multiplied by, and what is added to it.
 struct Light {
     lit: f32,
     shine: f32,
@@ -18,17 +14,15 @@ struct Light {
 
 const UNSHADED = Light(1.0, 0.0);
 
-fn value_beside(place: Place, by: vec3f) -> f32 {
-    return value_in(cell_of(Place(place.whole + by, place.part)));
+fn value_beside(place: GridPosition, by: vec3f) -> f32 {
+    return value_in(cell_of(GridPosition(place.whole + by, place.part)));
 }
 
-// The light on a place of the volume.
-fn shade(place: Place) -> Light {
+fn shade(place: GridPosition) -> Light {
     var change: vec3f;
     for (var a = 0; a < 3; a++) {
         let side = vec3f(vec3i(a) == vec3i(0, 1, 2));
         let ends = vec2f(value_beside(place, side), value_beside(place, -side));
-        // Where a neighbour has no value, there is no surface to shade.
         if FLOAT_VOXELS && any(ends >= vec2f(HUGE)) {
             return UNSHADED;
         }

@@ -4,9 +4,8 @@ use super::lanes::{FAN, FAR, PIXELS, larger, smaller, smallest};
 use super::pieces::Bundle;
 use super::tile::Tile;
 
-/// Lowers each pixel's squared distance (mm²) to the segment of slot `s` where it is nearer.
 #[inline(always)]
-pub fn lower_distance(tile: &Tile, squared: &mut [f32; PIXELS], bundle: &Bundle, s: usize) {
+pub(crate) fn lower_distance(tile: &Tile, squared: &mut [f32; PIXELS], bundle: &Bundle, s: usize) {
     let (x, y) = (bundle.x[s], bundle.y[s]);
     let (ex, ey) = (bundle.edge_x[s], bundle.edge_y[s]);
     let per_square = bundle.inverse_length[s] * bundle.inverse_length[s];
@@ -18,39 +17,37 @@ pub fn lower_distance(tile: &Tile, squared: &mut [f32; PIXELS], bundle: &Bundle,
     }
 }
 
-/// The point of the segments met so far that is nearest to the middle of a tile.
+/// The nearest point so far to the middle of a tile, on the segments met.
 #[derive(Clone, Copy, Debug)]
-pub struct NearestPoint {
-    /// Its distance from the middle (mm), and a little more than its rounding.
+pub(crate) struct NearestPoint {
+    /// Its distance from the middle, plus a bound on its rounding (mm).
     pub distance: f32,
     x: f32,
     y: f32,
 }
 
 impl NearestPoint {
-    /// No segment met yet.
     #[inline(always)]
-    pub fn unknown() -> Self {
+    pub(crate) fn unknown() -> Self {
         Self { distance: FAR, x: FAR, y: FAR }
     }
 
-    /// The same point as seen from the middle of another tile.
     #[inline(always)]
-    pub fn seen_from(&self, tile: &Tile) -> Self {
+    pub(crate) fn seen_from(&self, tile: &Tile) -> Self {
         let [cx, cy] = tile.area.center;
         let (dx, dy) = (cx - self.x, cy - self.y);
         let distance = (dx * dx + dy * dy).sqrt() * 1.000_01 + slack(tile, self.x, self.y);
         Self { distance, ..*self }
     }
 
-    /// Meets the segments of a bundle; tells whether one of them is nearer.
+    /// Meets the segments of a bundle; returns whether one of them is nearer.
     #[inline(always)]
-    pub fn approach(&mut self, tile: &Tile, bundle: &Bundle) -> bool {
+    pub(crate) fn approach(&mut self, tile: &Tile, bundle: &Bundle) -> bool {
         let [cx, cy] = tile.area.center;
         let squared = squared_distances_to_segments(bundle, cx, cy);
         let least = smallest(&squared);
         let s = tile.bits.within(&squared, least).trailing_zeros() as usize % FAN;
-        // From the segment, not from the tile: a far tile would round the point away from its segment.
+        // From the segment, not the tile: a far tile would round the point away from its segment.
         let t = foot(bundle, s, cx - bundle.x[s], cy - bundle.y[s]);
         let (x, y) = (bundle.x[s] + t * bundle.edge_x[s], bundle.y[s] + t * bundle.edge_y[s]);
         let distance = least.sqrt() * 1.000_01 + slack(tile, x, y);
@@ -63,12 +60,12 @@ impl NearestPoint {
 
     /// The segments of a bundle that may be nearer than this point to some pixel of the tile.
     ///
-    /// The places nearer to a point than to a segment form a convex region (an intersection of half-planes):
-    /// where it holds all four corners of the tile, it holds the tile. With the point known to ε, a segment
-    /// must be farther by ε: (d + ε)² ≤ (1 + 10⁻⁵)·d² + (1 + 10⁵)·ε². This margin, too, is kept between the corners,
-    /// because the difference of squared distances is concave there.
+    /// The positions nearer to a point than to a segment form a convex region (an intersection of
+    /// half-planes): if it holds all four corners of the tile, it holds the tile. With the point known to ε,
+    /// a segment must be farther by ε: (d + ε)² ≤ (1 + 10⁻⁵)·d² + (1 + 10⁵)·ε². This margin also holds
+    /// between the corners, because the difference of squared distances is concave there.
     #[inline(always)]
-    pub fn rivals(&self, tile: &Tile, bundle: &Bundle) -> u32 {
+    pub(crate) fn rivals(&self, tile: &Tile, bundle: &Bundle) -> u32 {
         let ([cx, cy], [hx, hy]) = (tile.area.center, tile.area.half);
         let epsilon = slack(tile, self.x, self.y);
         let margin = 1.1e5 * epsilon * epsilon;
@@ -86,16 +83,15 @@ impl NearestPoint {
     }
 }
 
-/// More than the rounding of distances between a tile and the point (x, y): it grows with their coordinates (mm).
+/// A bound on the rounding of distances between a tile and the point (x, y) (mm).
 #[inline(always)]
 fn slack(tile: &Tile, x: f32, y: f32) -> f32 {
     let ([cx, cy], [hx, hy]) = (tile.area.center, tile.area.half);
     1e-6 * (cx.abs() + cy.abs() + hx + hy + x.abs() + y.abs()) + 1e-6
 }
 
-/// The squared distances (mm²) of (x, y) to the segments of a bundle.
 #[inline(always)]
-pub fn squared_distances_to_segments(bundle: &Bundle, x: f32, y: f32) -> [f32; FAN] {
+pub(crate) fn squared_distances_to_segments(bundle: &Bundle, x: f32, y: f32) -> [f32; FAN] {
     let mut squared = [0.0; FAN];
     for s in 0..FAN {
         let (dx, dy) = to_segment(bundle, s, x, y);
@@ -104,7 +100,6 @@ pub fn squared_distances_to_segments(bundle: &Bundle, x: f32, y: f32) -> [f32; F
     squared
 }
 
-/// From the nearest point of the segment in slot `s` to (x, y).
 #[inline(always)]
 fn to_segment(bundle: &Bundle, s: usize, x: f32, y: f32) -> (f32, f32) {
     let (ux, uy) = (x - bundle.x[s], y - bundle.y[s]);
@@ -112,7 +107,7 @@ fn to_segment(bundle: &Bundle, s: usize, x: f32, y: f32) -> (f32, f32) {
     (ux - t * bundle.edge_x[s], uy - t * bundle.edge_y[s])
 }
 
-/// Where along the segment in slot `s`, from 0 to 1, it is nearest to the place (ux, uy) from its start.
+/// Where along the segment in slot `s`, from 0 to 1, it is nearest to the offset (ux, uy) from its start.
 #[inline(always)]
 fn foot(bundle: &Bundle, s: usize, ux: f32, uy: f32) -> f32 {
     let per_square = bundle.inverse_length[s] * bundle.inverse_length[s];

@@ -3,22 +3,18 @@
 // import math/pieces
 // import math/hierarchy
 
-// The smallest squared distance (mm²) of each pixel of the tile so far.
 var<private> least_square: array<vec4f, MAX_QUADS>;
 
-// Where along a segment, from 0 to 1, it is nearest to the place `u` from its start.
 fn foot(slot: Slot, u: vec2f) -> f32 {
     return clamp(dot(u, slot.edge) * slot.inverse_length * slot.inverse_length, 0.0, 1.0);
 }
 
-// The squared distance from the middle of a tile to a segment.
 fn square_to_segment(tile: Tile, slot: Slot) -> f32 {
     let u = tile.center - slot.start;
     let d = u - foot(slot, u) * slot.edge;
     return dot(d, d);
 }
 
-// Lowers each pixel's squared distance to the segment where it is nearer.
 fn lower_distance(slot: Slot) {
     let per_square = slot.inverse_length * slot.inverse_length;
     for (var a = 0u; a < ACROSS; a++) {
@@ -34,7 +30,6 @@ fn lower_distance(slot: Slot) {
     }
 }
 
-// More than the rounding of distances between a tile and a segment near it (mm).
 fn slack(tile: Tile) -> f32 {
     return 4e-6 * (abs(tile.center.x) + abs(tile.center.y) + tile.half.x + tile.half.y) + 4e-6;
 }

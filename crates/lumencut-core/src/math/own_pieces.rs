@@ -1,46 +1,43 @@
-//! The pieces of the winner's own vessel at coarser levels: the one whose arc length is nearest to the winner's.
+//! The pieces of the winner's own vessel at coarser levels whose arc length is nearest to the winner's.
 
 use super::candidates::Cover;
 use super::cost::Rule;
 use super::decision::Part;
-use super::lanes::{PART_PIXELS, SETTLED, UNSET, larger, largest};
+use super::lanes::{EXCLUDED, PART_PIXELS, UNSET, larger, largest};
 use super::pieces::Foot;
 use super::projection::{Level, Projected};
 
-/// How many slots to each side of the first one are searched for a whole group of pixels.
+/// Slots to each side of the first one that a group of pixels searches together.
 const GROUP_SLOTS: usize = 8;
 
-/// For each pixel of a part, the piece of its own vessel at a level so far whose arc length is nearest.
+/// For each pixel of a part, the piece of its vessel at a level whose arc length is nearest so far.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
-pub struct NearestPieces {
-    /// How far the piece is from the winner along the vessel (mm).
+pub(crate) struct NearestPieces {
+    /// Distance of the piece from the winner along the vessel (mm).
     apart: [f32; PART_PIXELS],
     /// From the winner to the piece along the vessel (mm).
     pub along: [f32; PART_PIXELS],
-    /// What the piece costs, for pieces equally far.
     cost: [f32; PART_PIXELS],
-    /// Twice its slot, plus 1 for the stripe: the order of the pieces that cost the same.
+    /// Twice its slot, plus 1 for the stripe: decides between equal costs.
     piece: [u32; PART_PIXELS],
-    /// Its depth (mm).
     pub z: [f32; PART_PIXELS],
-    /// How the depth changes to the right and upwards (mm per mm), where a sheet is made.
+    /// Change of depth to the right and upwards (mm per mm), if a sheet is made.
     pub slope: [[f32; PART_PIXELS]; 2],
 }
 
 impl NearestPieces {
-    /// None yet where the level has weight; nothing is looked for elsewhere.
+    /// Pixels without weight at this level search nothing.
     #[inline(always)]
-    pub fn new(weight: &[f32; PART_PIXELS]) -> Self {
+    pub(crate) fn new(weight: &[f32; PART_PIXELS]) -> Self {
         let zero = [0.0; PART_PIXELS];
         let mut apart = zero;
         for l in 0..PART_PIXELS {
-            apart[l] = if weight[l] > 0.0 { UNSET } else { SETTLED };
+            apart[l] = if weight[l] > 0.0 { UNSET } else { EXCLUDED };
         }
         Self { apart, along: zero, cost: zero, piece: [u32::MAX; PART_PIXELS], z: zero, slope: [zero; 2] }
     }
 
-    /// Takes a piece at pixel `l` where it is covered and nearer than the one so far.
     #[inline(always)]
     fn offer<const SHEET: bool>(&mut self, l: usize, covered: bool, offered: Offered) {
         let Offered { along, cost, piece, z, slope } = offered;
@@ -58,14 +55,14 @@ impl NearestPieces {
         }
     }
 
-    /// Between which arc lengths (mm) a piece can still be nearer to a member, and a little more than rounding.
+    /// The arc lengths (mm) between which a piece can still be nearer to a member, plus a bound on rounding.
     #[inline(always)]
     fn reach(&self, part: &Part, is_member: &[bool; PART_PIXELS]) -> [f32; 2] {
-        let (mut low, mut high) = ([SETTLED; PART_PIXELS], [SETTLED; PART_PIXELS]);
+        let (mut low, mut high) = ([EXCLUDED; PART_PIXELS], [EXCLUDED; PART_PIXELS]);
         for l in 0..PART_PIXELS {
             let (s, apart) = (part.arc_length[l], self.apart[l]);
-            low[l] = if is_member[l] { apart - s } else { SETTLED };
-            high[l] = if is_member[l] { apart + s } else { SETTLED };
+            low[l] = if is_member[l] { apart - s } else { EXCLUDED };
+            high[l] = if is_member[l] { apart + s } else { EXCLUDED };
         }
         let (low, high) = (largest(&low), largest(&high));
         let slack = 1e-6 * larger(low.abs(), high.abs());
@@ -73,7 +70,6 @@ impl NearestPieces {
     }
 }
 
-/// A piece that is offered to a pixel.
 #[derive(Clone, Copy)]
 struct Offered {
     along: f32,
@@ -83,34 +79,26 @@ struct Offered {
     slope: [f32; 2],
 }
 
-/// Pixels of one vessel that look at about the same place on it.
 struct Group {
     vessel: i32,
     /// The first slot of the vessel, and the one after its last.
     first: usize,
     end: usize,
-    /// The slot that the search begins at.
     middle: usize,
-    /// The arc lengths that belong to the group (mm).
     low: f32,
     high: f32,
 }
 
-/// The pieces of all vessels at one level, in their order.
 #[derive(Clone, Copy)]
-pub struct OwnPieces<'a> {
-    /// The level.
+pub(crate) struct OwnPieces<'a> {
     pub level: &'a Level,
-    /// Its slots in projection.
     pub projected: &'a [Projected],
-    /// The rule that says what pieces cost.
     pub rule: &'a Rule,
 }
 
 impl OwnPieces<'_> {
-    /// Finds for every wanted pixel the piece of its own vessel whose arc length is nearest.
     #[inline(always)]
-    pub fn find<const SHEET: bool>(&self, part: &Part, nearest: &mut NearestPieces) {
+    pub(crate) fn find<const SHEET: bool>(&self, part: &Part, nearest: &mut NearestPieces) {
         let mut is_open = [false; PART_PIXELS];
         for l in 0..PART_PIXELS {
             is_open[l] = nearest.apart[l] > 0.0;
@@ -123,14 +111,13 @@ impl OwnPieces<'_> {
                 is_member[l] = is_open[l] & (vessel == group.vessel) & (s >= group.low) & (s <= group.high);
                 is_open[l] &= !is_member[l];
             }
-            // Whatever the rounding at the ends of the group.
+            // Independent of the rounding at the ends of the group.
             is_member[seed] = true;
             is_open[seed] = false;
             self.search::<SHEET>(part, &group, &is_member, nearest);
         }
     }
 
-    /// The slots around the place of one pixel on its vessel.
     #[inline(always)]
     fn group(&self, part: &Part, seed: usize) -> Group {
         let (vessel, s) = (part.vessel[seed], part.arc_length[seed]);
@@ -143,7 +130,7 @@ impl OwnPieces<'_> {
         Group { vessel, first, end, middle, low, high }
     }
 
-    /// Offers slots from the middle of a group outwards, until no slot farther out can be nearer to any member.
+    /// Offers slots from the middle of a group outwards, until none farther out can be nearer to any member.
     #[inline(always)]
     fn search<const SHEET: bool>(
         &self,
@@ -177,7 +164,6 @@ impl OwnPieces<'_> {
         }
     }
 
-    /// Offers those pieces of a slot that may cover a pixel of the part; tells whether there was one.
     #[inline(always)]
     fn offer_within<const SHEET: bool>(&self, part: &Part, slot: usize, nearest: &mut NearestPieces) -> bool {
         let here = &self.projected[slot];
@@ -196,7 +182,7 @@ impl OwnPieces<'_> {
 
     /// Offers every piece of every slot: the reference.
     #[inline(always)]
-    pub fn offer_all<const SHEET: bool>(&self, part: &Part, nearest: &mut NearestPieces) {
+    pub(crate) fn offer_all<const SHEET: bool>(&self, part: &Part, nearest: &mut NearestPieces) {
         for (slot, here) in self.projected.iter().enumerate() {
             let mut is_wanted = false;
             for l in 0..PART_PIXELS {

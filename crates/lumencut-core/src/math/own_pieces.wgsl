@@ -1,5 +1,5 @@
-// What the winner of a pixel decides, and the pieces of its own vessel at coarser levels: the one whose arc length is nearest
-// to the winner's. Each pixel is looked up by itself.
+// The pieces of the winner's own vessel at coarser levels: the one whose arc length is nearest to the
+// winner's. Each pixel searches on its own.
 // import math/lanes
 // import math/levels
 // import math/cost
@@ -7,31 +7,23 @@
 @group(0) @binding(8) var<storage, read> projected: array<Projected>;
 @group(0) @binding(9) var<storage, read> spans: array<Span>;
 
-// What was decided for a pixel, once, on the finest level.
+// The decision for a pixel, made once, on the finest level; decision.rs explains the fields.
 struct Decision {
     vessel: i32,
-    // Where along the vessel the pixel looks (mm).
     arc_length: f32,
-    // How far it lies beyond the vessel's wall (mm); 0 within.
     beyond_wall: f32,
-    // The radius of the vessel there (mm), as a sheet holds it: negative beside the lumen.
+    // Negative outside the lumen.
     sheet_radius: f32,
-    // How the depth changes to the right and upwards (mm per mm).
     slope: vec2f,
-    // Whether the pixel shows a chosen vessel before all others.
     is_first: bool,
 }
 
-// How a pixel lies to a stripe.
 struct Foot {
     covered: bool,
-    // Where along the stripe its foot is, from 0 to 1 where it is covered.
     t: f32,
-    // Its distance from the line of the stripe (mm).
     distance: f32,
 }
 
-// How the pixel at `q` lies to the stripe from one point to the next.
 fn foot(here: Projected, next: Projected, q: vec2f) -> Foot {
     let u = q - here.point.xy;
     let w = q - next.point.xy;
@@ -42,12 +34,10 @@ fn foot(here: Projected, next: Projected, q: vec2f) -> Foot {
     return Foot(after_start >= 0.0 && beyond_end <= 0.0, t, abs(u.x * unit.y - u.y * unit.x));
 }
 
-// How the depth of the stripe from one point to the next changes to the right and upwards (mm per mm).
 fn slope_of(here: Projected, next: Projected) -> vec2f {
     return here.edge * (here.inverse_length * here.inverse_length * (next.point.z - here.point.z));
 }
 
-// What a winner of a level decides for the pixel at `q`.
 fn decide(level: u32, key: f32, piece: u32, vessel: i32, q: vec2f) -> Decision {
     let i = parameters.levels[level].first_slot + piece / 2u;
     let here = projected[i];
@@ -63,25 +53,20 @@ fn decide(level: u32, key: f32, piece: u32, vessel: i32, q: vec2f) -> Decision {
     return Decision(vessel, s, beyond, sheet_radius, slope_of(here, next), is_first(key));
 }
 
-// The piece of a pixel's vessel so far whose arc length is nearest.
+// The nearest piece so far; own_pieces.rs explains the fields.
 struct NearestPiece {
-    // From the winner to the piece along the vessel (mm), and how far that is.
     along: f32,
     apart: f32,
-    // What the piece costs, for pieces equally far, and its order for those that cost the same.
     cost: f32,
     piece: u32,
-    // Its depth (mm), and how that changes to the right and upwards (mm per mm).
     z: f32,
     slope: vec2f,
 }
 
-// What a piece at a depth costs, at a distance from its centerline of some radius.
 fn cost_of(z: f32, d: f32, r: f32) -> f32 {
     return z + parameters.weight * max(d - r, 0.0);
 }
 
-// The nearer of two pieces.
 fn nearer_of(a: NearestPiece, b: NearestPiece) -> NearestPiece {
     let is_first = b.cost < a.cost || (b.cost == a.cost && b.piece < a.piece);
     if b.apart < a.apart || (b.apart == a.apart && is_first) {
@@ -90,7 +75,6 @@ fn nearer_of(a: NearestPiece, b: NearestPiece) -> NearestPiece {
     return a;
 }
 
-// The nearest piece so far, or a piece of point `i` if it is nearer and covers the pixel at `q`.
 fn with_pieces_of(i: u32, q: vec2f, s: f32, so_far: NearestPiece) -> NearestPiece {
     var nearest = so_far;
     let here = projected[i];
@@ -105,7 +89,7 @@ fn with_pieces_of(i: u32, q: vec2f, s: f32, so_far: NearestPiece) -> NearestPiec
             nearest = nearer_of(nearest, offered);
         }
     }
-    // Written out as in `foot`, so that both neighbours of a border read the same number.
+    // Written out as in `foot`, so that both neighbours of a border compute the same number.
     let u = q - here.point.xy;
     let beyond_before = u.x * here.before.x + u.y * here.before.y;
     let after_start = u.x * here.edge.x + u.y * here.edge.y;
@@ -117,7 +101,6 @@ fn with_pieces_of(i: u32, q: vec2f, s: f32, so_far: NearestPiece) -> NearestPiec
     return nearest;
 }
 
-// The last point of a span whose arc length is no larger than `s`, or its first one.
 fn point_at(span: Span, s: f32) -> u32 {
     var low = span.first;
     var high = span.end;
@@ -132,8 +115,6 @@ fn point_at(span: Span, s: f32) -> u32 {
     return low;
 }
 
-// The piece of a vessel at a level whose arc length is nearest to `s` among those that cover the pixel at `q`: from the
-// middle outwards, until no point farther out can be nearer.
 fn nearest_piece(level: u32, decision: Decision, q: vec2f) -> NearestPiece {
     let span = spans[level * parameters.vessel_count + u32(decision.vessel)];
     let s = decision.arc_length;

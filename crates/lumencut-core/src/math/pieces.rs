@@ -1,20 +1,20 @@
-//! The pieces of a local surface (stripe, wedge, end half-plane, full plane) and their evaluation over a tile.
+//! The pieces of a local surface (stripe, wedge, end half-plane, full plane) and their evaluation over a
+//! tile.
 //!
-//! Every piece belongs to a *slot*, one per point of a level: the stripe from this point to the next, and
-//! what stands at the point itself. Wedge, half-plane and full plane are one form: with edges f before and e
-//! after the point p, a pixel q is covered when (q − p)·f ≥ 0 and (q − p)·e ≤ 0, and an edge that is not
-//! there is zero. A stripe reads the same two numbers at its ends that its neighbours read, so that whatever
-//! the rounding, no pixel falls between them: (q − p₀)·e₀ ≤ 0 is the first half-plane, else stripe 0
-//! takes the pixel unless (q − p₁)·e₀ > 0, else the wedge at p₁ does unless (q − p₁)·e₁ > 0, and so on.
+//! Every piece belongs to a *slot*, one per point of a level: the stripe from this point to the next, and the
+//! wedge at the point. Wedge, half-plane and full plane are one form: with edges f before and e after the
+//! point p, a pixel q is covered if (q − p)·f ≥ 0 and (q − p)·e ≤ 0; a missing edge is zero. A stripe uses
+//! the same two numbers at its ends as its neighbours, so no pixel falls between them by rounding: (q −
+//! p₀)·e₀ ≤ 0 is the first half-plane, else stripe 0 takes the pixel unless (q − p₁)·e₀ > 0, else the wedge
+//! at p₁ does unless (q − p₁)·e₁ > 0, and so on.
 
 use super::cost::Rule;
-use super::lanes::{ABSENT, FAN, FAR, PART_PIXELS, PIXELS, SETTLED, UNSET, smaller};
+use super::lanes::{ABSENT, EXCLUDED, FAN, FAR, PART_PIXELS, PIXELS, UNSET, smaller};
 use super::tile::Tile;
 
-/// Sixteen slots in projection, field by field.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
-pub struct Bundle {
+pub(crate) struct Bundle {
     /// The slot's point, view x and y (mm).
     pub x: [f32; FAN],
     #[allow(missing_docs)]
@@ -23,11 +23,11 @@ pub struct Bundle {
     pub next_x: [f32; FAN],
     #[allow(missing_docs)]
     pub next_y: [f32; FAN],
-    /// e: the edge to the next point, zero where it is collinear with the view or not there.
+    /// e: the edge to the next point, zero where it is missing or collinear with the view.
     pub edge_x: [f32; FAN],
     #[allow(missing_docs)]
     pub edge_y: [f32; FAN],
-    /// f: the edge before the point, zero where it is not there.
+    /// f: the edge before the point, zero where it is missing.
     pub before_x: [f32; FAN],
     #[allow(missing_docs)]
     pub before_y: [f32; FAN],
@@ -35,23 +35,19 @@ pub struct Bundle {
     pub inverse_length: [f32; FAN],
     /// Depth of the stripe at its start (mm), [`ABSENT`] without stripe.
     pub stripe_z: [f32; FAN],
-    /// Change of depth along the stripe (mm).
     pub stripe_dz: [f32; FAN],
-    /// Depth of what stands at the point (mm), [`ABSENT`] where nothing does.
+    /// Depth of the wedge (mm), [`ABSENT`] without one.
     pub wedge_z: [f32; FAN],
-    /// Radius at the point (mm).
     pub radius: [f32; FAN],
-    /// Change of radius along the stripe (mm).
     pub radius_change: [f32; FAN],
-    /// How many tiers lumen and wall come before those of other vessels ([`Rule::key`]): 2 for chosen vessels, else 0.
+    /// Tiers before lumen and wall of other vessels ([`Rule::key`]): 2 for chosen vessels, else 0.
     pub tiers: [f32; FAN],
-    /// The slot's number in its level: rises along each vessel and from vessel to vessel.
+    /// The slot's number in its level; rises along each vessel and from vessel to vessel.
     pub slot: [u32; FAN],
 }
 
 impl Bundle {
-    /// A bundle without pieces.
-    pub const EMPTY: Self = Self {
+    pub(crate) const EMPTY: Self = Self {
         x: [FAR; FAN],
         y: [FAR; FAN],
         next_x: [FAR; FAN],
@@ -71,32 +67,27 @@ impl Bundle {
     };
 }
 
-/// The winner of each pixel of a tile so far.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
-pub struct Envelope {
-    /// Its key.
+pub(crate) struct Envelope {
     pub key: [f32; PIXELS],
-    /// Its depth (mm).
     pub z: [f32; PIXELS],
     /// Twice its slot, plus 1 for the stripe: the order of the pieces on a tie.
     pub piece: [u32; PIXELS],
 }
 
 impl Envelope {
-    /// No winner yet where the level has weight, settled elsewhere.
     #[inline(always)]
-    pub fn new(weight: &[f32; PIXELS]) -> Self {
-        let mut key = [SETTLED; PIXELS];
+    pub(crate) fn new(weight: &[f32; PIXELS]) -> Self {
+        let mut key = [EXCLUDED; PIXELS];
         for l in 0..PIXELS {
-            key[l] = if weight[l] > 0.0 { UNSET } else { SETTLED };
+            key[l] = if weight[l] > 0.0 { UNSET } else { EXCLUDED };
         }
         Self { key, z: [0.0; PIXELS], piece: [u32::MAX; PIXELS] }
     }
 
-    /// The winners of part `p` and its pixels.
     #[inline(always)]
-    pub fn part<'a>(&'a mut self, tile: &'a Tile, p: usize) -> Pixels<'a, PART_PIXELS> {
+    pub(crate) fn part<'a>(&'a mut self, tile: &'a Tile, p: usize) -> Pixels<'a, PART_PIXELS> {
         Pixels {
             x: &tile.x.as_chunks().0[p],
             y: &tile.y.as_chunks().0[p],
@@ -106,15 +97,14 @@ impl Envelope {
         }
     }
 
-    /// The winners of the whole tile and its pixels.
     #[inline(always)]
-    pub fn whole<'a>(&'a mut self, tile: &'a Tile) -> Pixels<'a, PIXELS> {
+    pub(crate) fn whole<'a>(&'a mut self, tile: &'a Tile) -> Pixels<'a, PIXELS> {
         Pixels { x: &tile.x, y: &tile.y, key: &mut self.key, z: &mut self.z, piece: &mut self.piece }
     }
 }
 
 /// Some pixels of a tile (view x and y, mm) and their winners so far.
-pub struct Pixels<'a, const N: usize> {
+pub(crate) struct Pixels<'a, const N: usize> {
     x: &'a [f32; N],
     y: &'a [f32; N],
     key: &'a mut [f32; N],
@@ -123,7 +113,6 @@ pub struct Pixels<'a, const N: usize> {
 }
 
 impl<const N: usize> Pixels<'_, N> {
-    /// Takes the piece at pixel `l` where it is covered and wins.
     #[inline(always)]
     fn offer(&mut self, l: usize, covered: bool, key: f32, z: f32, piece: u32) {
         let (old_key, old_z, old_piece) = (self.key[l], self.z[l], self.piece[l]);
@@ -133,9 +122,8 @@ impl<const N: usize> Pixels<'_, N> {
         self.piece[l] = if wins { piece } else { old_piece };
     }
 
-    /// Offers the stripe of slot `s` to every pixel.
     #[inline(always)]
-    pub fn offer_stripe<const LUMEN_FIRST: bool>(&mut self, bundle: &Bundle, s: usize, rule: &Rule) {
+    pub(crate) fn offer_stripe<const LUMEN_FIRST: bool>(&mut self, bundle: &Bundle, s: usize, rule: &Rule) {
         let stripe = Stripe::new(
             [bundle.x[s], bundle.y[s]],
             [bundle.next_x[s], bundle.next_y[s]],
@@ -153,9 +141,8 @@ impl<const N: usize> Pixels<'_, N> {
         }
     }
 
-    /// Offers the wedge, half-plane or plane of slot `s` to every pixel.
     #[inline(always)]
-    pub fn offer_wedge<const LUMEN_FIRST: bool>(&mut self, bundle: &Bundle, s: usize, rule: &Rule) {
+    pub(crate) fn offer_wedge<const LUMEN_FIRST: bool>(&mut self, bundle: &Bundle, s: usize, rule: &Rule) {
         let wedge = Wedge {
             point: [bundle.x[s], bundle.y[s]],
             before: [bundle.before_x[s], bundle.before_y[s]],
@@ -171,7 +158,6 @@ impl<const N: usize> Pixels<'_, N> {
     }
 }
 
-/// Where a stripe lies in the view plane.
 #[derive(Clone, Copy, Debug)]
 pub struct Stripe {
     start: [f32; 2],
@@ -181,26 +167,21 @@ pub struct Stripe {
     per_square: f32,
 }
 
-/// How a pixel lies to a stripe.
 #[derive(Clone, Copy, Debug)]
 pub struct Foot {
-    /// Whether the stripe covers the pixel.
     pub covered: bool,
-    /// Where along the stripe its foot is, from 0 to 1 where it is covered.
+    /// Share along the stripe, 0 to 1 if it is covered.
     pub t: f32,
-    /// Its distance from the line of the stripe (mm).
     pub distance: f32,
 }
 
 impl Stripe {
-    /// The stripe from `start` along `edge` to `end` (view x and y, mm), with 1 / |edge|.
     #[inline(always)]
-    pub fn new(start: [f32; 2], end: [f32; 2], edge: [f32; 2], inverse_length: f32) -> Self {
+    pub(crate) fn new(start: [f32; 2], end: [f32; 2], edge: [f32; 2], inverse_length: f32) -> Self {
         let unit = [edge[0] * inverse_length, edge[1] * inverse_length];
         Self { start, end, edge, unit, per_square: inverse_length * inverse_length }
     }
 
-    /// How the pixel at (x, y) lies to it.
     #[inline(always)]
     pub fn foot(&self, x: f32, y: f32) -> Foot {
         let [ex, ey] = self.edge;
@@ -216,19 +197,17 @@ impl Stripe {
     }
 }
 
-/// Where a wedge, half-plane or plane lies in the view plane (mm).
 #[derive(Clone, Copy, Debug)]
 pub struct Wedge {
-    /// The point it stands at.
     pub point: [f32; 2],
-    /// f: the edge before the point, zero where it is not there.
+    /// f: the edge before the point, zero where it is missing.
     pub before: [f32; 2],
-    /// e: the edge after the point, zero where it is not there.
+    /// e: the edge after the point, zero where it is missing.
     pub edge: [f32; 2],
 }
 
 impl Wedge {
-    /// Whether it covers the pixel at (x, y), and how far from the point that is (mm).
+    /// Whether it covers the pixel at (x, y), and the distance from the point (mm).
     #[inline(always)]
     pub fn cover(&self, x: f32, y: f32) -> (bool, f32) {
         let (ux, uy) = (x - self.point[0], y - self.point[1]);

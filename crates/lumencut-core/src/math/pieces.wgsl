@@ -1,40 +1,30 @@
-// The pieces of a local surface (stripe, wedge, end half-plane, full plane) over the pixels of a tile.
+// The pieces of a local surface (stripe, wedge, end half-plane, full plane) over the pixels of a tile;
+// pieces.rs explains the fields.
 // import math/lanes
 // import math/tile
 // import math/cost
 
-// A slot in projection (mm): the stripe from its point to the next, and what stands at the point itself. FAN slots that lie
-// close together make a bundle.
 struct Slot {
-    // The point, and the next one; the same point without stripe.
     start: vec2f,
     next: vec2f,
-    // e: the edge to the next point, zero where it is collinear with the view or not there.
     edge: vec2f,
-    // f: the edge before the point, zero where it is not there.
     before: vec2f,
-    // 1 / |e|, zero with e.
     inverse_length: f32,
-    // Depth of the stripe at its start, ABSENT without stripe, and its change along the stripe.
     stripe_z: f32,
     stripe_dz: f32,
-    // Depth of what stands at the point, ABSENT where nothing does.
     wedge_z: f32,
-    // Radius at the point, and its change along the stripe.
     radius: f32,
     radius_change: f32,
-    // The slot's number in its level; NO_SLOT where a bundle is not full.
+    // NO_SLOT where a bundle is not full.
     slot: u32,
-    // How many tiers lumen and wall come before those of other vessels: 2 for chosen vessels, else 0.
     tiers: f32,
 }
 
-// The winner of each pixel of the tile so far: its key, its depth (mm), and twice its slot, plus 1 for the stripe.
+// The winner of each pixel so far: key, depth (mm), and twice its slot, plus 1 for the stripe.
 var<private> winner_key: array<vec4f, MAX_QUADS>;
 var<private> winner_z: array<vec4f, MAX_QUADS>;
 var<private> winner_piece: array<vec4u, MAX_QUADS>;
 
-// Takes a piece at the pixels of a quad where it is covered and wins.
 fn offer(q: u32, covered: vec4<bool>, key: vec4f, z: vec4f, piece: u32) {
     let old_key = winner_key[q];
     let pieces = vec4u(piece);
@@ -44,7 +34,6 @@ fn offer(q: u32, covered: vec4<bool>, key: vec4f, z: vec4f, piece: u32) {
     winner_piece[q] = select(winner_piece[q], pieces, wins);
 }
 
-// Offers the stripe of a slot to every pixel.
 fn offer_stripe(slot: Slot) {
     let unit = slot.edge * slot.inverse_length;
     let per_square = slot.inverse_length * slot.inverse_length;
@@ -55,7 +44,6 @@ fn offer_stripe(slot: Slot) {
             let uy = row_y[r] - slot.start.y;
             let after_start = ux * slot.edge.x + uy * slot.edge.y;
             let beyond_end = wx * slot.edge.x + (row_y[r] - slot.next.y) * slot.edge.y;
-            // Rounding must not carry t past the end, where depth and radius were never bounded.
             let t = min(after_start * per_square, vec4f(1.0));
             let d = abs(ux * unit.y - uy * unit.x);
             let z = slot.stripe_z + t * slot.stripe_dz;
@@ -66,7 +54,6 @@ fn offer_stripe(slot: Slot) {
     }
 }
 
-// Offers the wedge, half-plane or plane of a slot to every pixel.
 fn offer_wedge(slot: Slot) {
     let z = vec4f(slot.wedge_z);
     for (var a = 0u; a < ACROSS; a++) {

@@ -1,4 +1,4 @@
-//! The projection of a level's slots for one view: edges, depths, and what stands at each point.
+//! The projection of a level's slots for one view: edges, depths, and the wedge at each point.
 
 use std::ops::Range;
 
@@ -11,8 +11,8 @@ use crate::camera::Camera;
 use crate::settings::Settings;
 use crate::vessel_tree::VesselTree;
 
-/// A segment whose projection is shorter than this (mm) is collinear with the view direction: it gives no
-/// stripe. A thousandth of a millimetre is far below any voxel and well above the rounding of `f32`.
+/// A segment with a shorter projection (mm) is collinear with the view and has no stripe: far below any
+/// voxel, well above the rounding of `f32`.
 pub const COLLINEAR_LENGTH: f32 = 1e-3;
 
 /// How many tiers lumen and wall of a chosen vessel come before those of others: both before both.
@@ -23,23 +23,20 @@ const TIERS_OF_FIRST: f32 = 2.0;
 pub struct Level {
     /// The first slot of each vessel, and the number of slots at the end.
     pub first_slot: Vec<u32>,
-    /// The point of each slot (mm, LPS).
     pub points: Vec<DVec3>,
     /// The radius at each slot (mm), 0 where unknown.
     pub radii: Vec<f32>,
-    /// Where along its vessel each slot is (mm); it never falls from one slot of a vessel to the next.
+    /// Arc length of each slot (mm); never falls along a vessel.
     pub arc_length: Vec<f32>,
-    /// The slot in each place of the bundles.
+    /// The slot in each entry of the bundles.
     pub order: Vec<u32>,
-    /// The bundle of each slot.
-    pub bundle_of_slot: Vec<u32>,
-    /// The vessel of each slot.
+    pub(crate) bundle_of_slot: Vec<u32>,
     pub vessel_of_slot: Vec<i32>,
 }
 
 impl Level {
-    /// The slots of `tree`. A point nearer than [`COLLINEAR_LENGTH`] to the one before it adds nothing and gets no
-    /// slot: it would look like a run along the view from every side.
+    /// A point nearer than [`COLLINEAR_LENGTH`] to the previous one gets no slot: its segment has no
+    /// direction.
     pub fn new(tree: &VesselTree) -> Self {
         let slots = tree.segment_count() + tree.vessels().len();
         let (mut points, mut radii) = (Vec::with_capacity(slots), Vec::with_capacity(slots));
@@ -68,48 +65,37 @@ impl Level {
         Self { first_slot, points, radii, arc_length, order, bundle_of_slot, vessel_of_slot }
     }
 
-    /// The number of bundles that hold the slots.
     pub fn bundle_count(&self) -> usize {
         self.order.len() / FAN
     }
 }
 
-/// A point in projection and what stands there.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Projected {
-    /// View coordinates (mm).
     pub point: [f32; 3],
-    /// Radius (mm), as far as radii count.
     pub radius: f32,
-    /// e, zero where collinear or not there.
+    /// e, zero where missing or collinear.
     pub edge: [f32; 2],
-    /// f of what stands at the point.
     pub before: [f32; 2],
     /// 1 / |e|, zero with e.
     pub inverse_length: f32,
-    /// Where along its vessel the point is (mm).
     pub arc_length: f32,
-    /// The vessel.
     pub vessel: i32,
-    /// Whether a wedge, a half-plane or a plane stands there.
     pub stands: bool,
 }
 
 impl Projected {
-    /// Whether a stripe begins at the point.
     #[inline(always)]
     pub fn has_stripe(&self) -> bool {
         self.inverse_length > 0.0
     }
 
-    /// The stripe from this point to the next one.
     #[inline(always)]
     pub fn stripe(&self, next: &Self) -> Stripe {
         let [start, end] = [self, next].map(|p| [p.point[0], p.point[1]]);
         Stripe::new(start, end, self.edge, self.inverse_length)
     }
 
-    /// What stands at this point.
     #[inline(always)]
     pub fn wedge(&self) -> Wedge {
         Wedge { point: [self.point[0], self.point[1]], before: self.before, edge: self.edge }
@@ -123,23 +109,20 @@ impl Projected {
     }
 }
 
-/// What is made of the radii of a tree.
 #[derive(Clone, Copy, Debug)]
 pub struct Radii {
-    /// What they are multiplied by: 1 where they count, else 0.
+    /// Factor on radii: 1 where they count, else 0.
     pub scale: f32,
-    /// What takes the place of a radius of 0 (mm).
+    /// Replaces a radius of 0 (mm).
     pub unknown: f32,
 }
 
 impl Radii {
-    /// The radii that `settings` ask for.
     pub fn new(settings: &Settings) -> Self {
         let unknown = if settings.lumen_first { settings.unknown_radius as f32 } else { 0.0 };
         Self { scale: f32::from(u8::from(settings.preserve_lumen)), unknown }
     }
 
-    /// What is made of one radius (mm).
     pub fn of(self, radius: f32) -> f32 {
         let known = radius * self.scale;
         if known > 0.0 { known } else { self.unknown }
@@ -149,14 +132,11 @@ impl Radii {
 /// A level in one view; the buffers are kept from view to view.
 #[derive(Debug)]
 pub struct ProjectedLevel {
-    /// The slots in their order, vessel by vessel.
     pub projected: Vec<Projected>,
-    /// The slots in bundles, in projection.
     pub hierarchy: Hierarchy,
 }
 
 impl ProjectedLevel {
-    /// Buffers for `level`.
     pub fn new(level: &Level) -> Self {
         let along = level.arc_length.iter().zip(&level.vessel_of_slot);
         let place = |(arc_length, vessel): (&f32, &i32)| Projected {
@@ -168,7 +148,7 @@ impl ProjectedLevel {
         Self { projected, hierarchy: Hierarchy::new(level.bundle_count()) }
     }
 
-    /// Puts lumen and wall of these slots, a range for each vessel, two tiers before those of all others, in all views from now on.
+    /// Puts lumen and wall of these slots, a range per vessel, two tiers before all others in later views.
     pub fn put_first(&mut self, level: &Level, chosen: &[Range<u32>]) {
         for (place, slot) in level.order.iter().enumerate().filter(|(_, slot)| **slot != NO_SLOT) {
             let is_first = chosen[level.vessel_of_slot[*slot as usize] as usize].contains(slot);
@@ -177,7 +157,6 @@ impl ProjectedLevel {
         }
     }
 
-    /// Projects all slots of `level` into the view of `camera`.
     pub fn project(&mut self, level: &Level, camera: &Camera, radii: Radii) {
         for ((projected, point), radius) in self.projected.iter_mut().zip(&level.points).zip(&level.radii) {
             projected.point = camera.view_from_world(*point).as_vec3().to_array();
@@ -192,12 +171,11 @@ impl ProjectedLevel {
         self.hierarchy.enclose();
     }
 
-    /// Writes a slot into its place in the bundles.
     fn place(&mut self, place: usize, slot: usize) {
         let (bundle, s) = (&mut self.hierarchy.bundles[place / FAN], place % FAN);
         let here = self.projected[slot];
         let stripe = here.has_stripe();
-        // A collinear segment keeps no extent: its other end has a slot of its own.
+        // A collinear segment keeps no extent: its other end has its own slot.
         let end = self.projected[slot + usize::from(stripe)];
         bundle.slot[s] = slot as u32;
         (bundle.x[s], bundle.y[s]) = (here.point[0], here.point[1]);
@@ -212,7 +190,6 @@ impl ProjectedLevel {
         bundle.radius_change[s] = end.radius - here.radius;
     }
 
-    /// The largest absolute view coordinate of all slots (mm).
     pub fn reach(&self) -> f32 {
         let coordinates = self.projected.iter().flat_map(|p| p.point);
         coordinates.fold(0.0, |reach, c| reach.max(c.abs()))
@@ -240,7 +217,7 @@ fn stand(vessel: &mut [Projected]) {
         return;
     };
     let last_stripe = vessel.iter().rposition(Projected::has_stripe).unwrap_or(first_stripe);
-    // With no edge before it, what stands at the first point is a half-plane, or a plane before a run.
+    // Without an edge before it, the first point has a half-plane, or a plane before a run.
     vessel[0].stands = true;
     for i in first_stripe + 1..=last_stripe {
         // After a stripe: a wedge, or a half-plane where a collinear run begins. Elsewhere in a run: nothing.

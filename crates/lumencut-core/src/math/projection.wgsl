@@ -1,34 +1,28 @@
-// The levels in one view, in three passes: points in projection and their edges, what stands at each point, and the boxes
-// around all of it.
+// The levels in one view, in three passes: projected points and edges, wedges, and boxes.
 // import math/lanes
 // import math/view
 // import math/levels
 // import math/pieces
 // import math/hierarchy
 
-// A point of a level, counted from the middle of the tree (mm): a part of few digits, whose products with the coarse axes
-// of the view are exact, and the rest.
+// A point counted from the middle of the tree (mm): few digits, for exact products with coarse axes, and the
+// rest.
 struct Point {
     coarse: vec3f,
     radius: f32,
     fine: vec3f,
-    // Its place among the slots of all bundles.
+    // Its index among the slots of all bundles.
     place: u32,
 }
 
-// A segment whose projection is shorter than this (mm) is collinear with the view direction.
 const COLLINEAR_LENGTH: f32 = 1e-3;
 const POINT_THREADS = 64u;
 const SPAN_THREADS = 64u;
 const LEVEL_THREADS = 256u;
-// The number of no point.
 const NOWHERE = 0xffffffffu;
 
-// What is known of a point along its vessel.
 struct Along {
-    // The next point; the last point is its own.
     next: u32,
-    // Its arc length (mm).
     arc_length: f32,
 }
 
@@ -41,17 +35,15 @@ struct Along {
 fn along(axis: u32, point: Point) -> f32 {
     let coarse = view.axes[axis].coarse.xyz;
     let fine = view.axes[axis].fine.xyz;
-    // Exact, in whatever order and with whatever rounding it is computed.
+    // Exact in any order and with any rounding.
     let exact = dot(coarse, point.coarse) + parameters.origin_coarse[axis];
     return exact + (dot(fine, point.coarse) + dot(coarse + fine, point.fine) + parameters.origin_fine[axis]);
 }
 
-// View coordinates of a point (mm).
 fn view_from_world(point: Point) -> vec3f {
     return vec3f(along(0u, point), along(1u, point), along(2u, point));
 }
 
-// One thread for each point of all levels.
 @compute @workgroup_size(POINT_THREADS)
 fn projection(
     @builtin(workgroup_id) group: vec3u,
@@ -82,18 +74,15 @@ var<workgroup> last_stripe: atomic<u32>;
 var<workgroup> nearest_depth: atomic<u32>;
 var<workgroup> nearest_point: atomic<u32>;
 
-// Whether a stripe begins at a point.
 fn is_stripe(i: u32) -> bool {
     return any(projected[i].edge != vec2f(0.0));
 }
 
-// An integer that orders as the number does.
 fn ordered(number: f32) -> u32 {
     let bits = bitcast<u32>(number);
     return select(bits | 0x80000000u, ~bits, (bits & 0x80000000u) != 0u);
 }
 
-// Finds the first and the last stripe of a vessel, or its nearest point where it has none.
 fn survey(span: Span, thread: u32) {
     if thread == 0u {
         atomicStore(&first_stripe, NOWHERE);
@@ -118,38 +107,33 @@ fn survey(span: Span, thread: u32) {
     workgroupBarrier();
 }
 
-// What stands at a point: the edge before it, and 1 where something stands.
+// The edge before the wedge at a point, and 1 if there is a wedge; projection.rs explains the cases.
 fn stand(span: Span, i: u32) -> vec3f {
     let first = atomicLoad(&first_stripe);
     let last = atomicLoad(&last_stripe);
     let end = span.end - 1u;
     if first == NOWHERE {
-        // A vessel that is a point in projection: one plane at its smallest depth.
+        // A vessel that projects to a point: one plane at its smallest depth.
         return vec3f(0.0, 0.0, select(0.0, 1.0, i == atomicLoad(&nearest_point)));
     }
     if i == end {
-        // A half-plane, or a plane where a run ends the vessel.
         return vec3f(select(vec2f(0.0), projected[last].edge, last + 1u == end), 1.0);
     }
     if i == span.first {
-        // With no edge before it, a half-plane, or a plane before a run.
         return vec3f(0.0, 0.0, 1.0);
     }
     if i <= first || i > last {
         return vec3f(0.0);
     }
-    // After a stripe: a wedge, or a half-plane where a collinear run begins. Elsewhere in a run: nothing.
     return vec3f(projected[i - 1u].edge, select(0.0, 1.0, is_stripe(i - 1u)));
 }
 
-// Writes a point into its place in the bundles.
 fn place(span: Span, i: u32) {
     let here = projected[i];
     let stands = stand(span, i);
     projected[i].before = stands.xy;
     projected[i].stands = u32(stands.z);
     let stripe = is_stripe(i);
-    // A collinear segment keeps no extent: its other end has a slot of its own.
     let end = projected[select(i, i + 1u, stripe)];
     var slot: Slot;
     slot.start = here.point.xy;
@@ -167,7 +151,7 @@ fn place(span: Span, i: u32) {
     bundled[points[i].place] = slot;
 }
 
-// One group of threads for each vessel at each level.
+// One workgroup for each vessel at each level.
 @compute @workgroup_size(SPAN_THREADS)
 fn bundle(
     @builtin(workgroup_id) group: vec3u,
@@ -188,12 +172,10 @@ fn bundle(
 
 @group(0) @binding(3) var<storage, read_write> drawn: array<NodeBox>;
 
-// A box with nothing inside.
 fn nothing() -> NodeBox {
     return NodeBox(vec2f(FAR), vec2f(-FAR), ABSENT, 0.0, 0.0, 0.0);
 }
 
-// Draws the box of a node around all slots of its bundle.
 fn enclose_bundle(level: u32, n: u32) {
     let first = (parameters.levels[level].first_bundle + n) * FAN;
     var box = nothing();
@@ -210,7 +192,6 @@ fn enclose_bundle(level: u32, n: u32) {
     drawn[first_box(level, 0u) + n] = box;
 }
 
-// Draws the box of a node around the boxes within it.
 fn enclose_boxes(level: u32, height: u32, n: u32) {
     let first = first_box(level, height - 1u) + n * FAN;
     var box = nothing();
@@ -227,7 +208,7 @@ fn enclose_boxes(level: u32, height: u32, n: u32) {
     drawn[first_box(level, height) + n] = box;
 }
 
-// One group of threads for each level, which draws the boxes height by height.
+// One workgroup for each level, which computes the boxes height by height.
 @compute @workgroup_size(LEVEL_THREADS)
 fn enclose(
     @builtin(workgroup_id) group: vec3u,

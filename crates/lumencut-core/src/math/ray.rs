@@ -4,30 +4,26 @@ use super::blocks::{Blocks, Range};
 use super::lanes::FAN;
 use super::ray_lines::{IndexFromView, Lines};
 pub use super::ray_lines::{NEVER, NONE, WHOLE};
-use super::sampling::{Grid, PLACE_ROUNDING, Places, SampledRun};
+use super::sampling::{Grid, POSITION_ROUNDING, Places, SampledRun};
 use crate::camera::Camera;
 use crate::volume::Volume;
 
-/// The columns and rows of a packet (pixels).
-pub const PACKET: [usize; 2] = [4, 4];
-/// The parts of a ray that are sampled, or skipped, together.
+pub(crate) const PACKET: [usize; 2] = [4, 4];
+/// Parts of a ray that are sampled or skipped together.
 pub const STEPS: usize = 8;
 
-/// The most samples along a ray, and of a slab.
-pub const MOST_SAMPLES: f64 = 65_536.0;
+/// The most samples along a ray and across a slab.
+pub const MAX_SAMPLES: f64 = 65_536.0;
 
-/// How much of a step a chord may be longer than whole steps without a part more: n voxels have n parts, however n · side
-/// is rounded, on a GPU with the digits of `f32`.
+/// Share of a step that a chord may exceed whole steps without another part: n voxels give n parts despite
+/// rounding.
 pub const SPARE: f64 = 1e-3;
 
 /// What all rays of a view share.
 #[derive(Clone, Copy, Debug)]
 pub struct Rays {
-    /// The grid of the volume.
     pub grid: Grid,
-    /// From view to index.
-    pub index_from_view: IndexFromView,
-    /// The longest part of a ray (mm).
+    pub(crate) index_from_view: IndexFromView,
     pub step: f64,
 }
 
@@ -38,42 +34,35 @@ impl Rays {
     }
 }
 
-/// Sixteen rays of a square of pixels. The chord of each within the volume, between the depths where it is wanted, is cut
-/// into equal parts no longer than a step. So the parts of a ray fill it, whatever the step.
+/// Sixteen rays of a square of pixels, each cut into equal parts no longer than a step.
 #[derive(Clone, Debug)]
-pub struct Packet {
+pub(crate) struct Packet {
     lines: Lines,
-    /// The length of a part (mm).
     part: [f64; FAN],
     /// The number of parts of each ray; 0 where it misses the volume or is not needed.
     pub count: [i32; FAN],
-    /// The length of a part (mm).
     pub thickness: [f32; FAN],
-    /// The largest number of parts.
     pub longest: i32,
     bounds: Bounds,
 }
 
-/// The smallest and the largest of a packet's numbers.
 #[derive(Clone, Copy, Debug, Default)]
 struct Bounds {
     foot: [[f64; 2]; 3],
     toward: [[f64; 2]; 3],
     near: [f64; 2],
     part: [f64; 2],
-    /// The largest depth where a ray ends.
     far: f64,
 }
 
 impl Packet {
-    /// Cuts `lines` within `grid` into parts of at most `step` mm.
     #[inline(always)]
-    pub fn new(grid: &Grid, mut lines: Lines, step: f64) -> Self {
+    pub(crate) fn new(grid: &Grid, mut lines: Lines, step: f64) -> Self {
         lines.clip(grid);
         let (mut count, mut part) = ([0; FAN], [0.0; FAN]);
         for l in 0..FAN {
             let chord = lines.far[l] - lines.near[l];
-            // The whole number above the quotient, without the system's function.
+            // Rounds up without the system's function.
             let steps = chord / step - SPARE;
             let parts = steps as i32 + i32::from(f64::from(steps as i32) < steps);
             count[l] = if chord > 0.0 { parts.max(1) } else { 0 };
@@ -85,14 +74,14 @@ impl Packet {
             packet.thickness[l] = part[l] as f32;
             packet.longest = packet.longest.max(count[l]);
         }
-        packet.settle_idle();
+        packet.fill_idle_lanes();
         packet.bound();
         packet
     }
 
-    /// Lets the rays that see nothing run along with one that does, so that they widen no range.
+    /// Copies a ray that sees something over those that see nothing, so that they widen no bounds.
     #[inline(always)]
-    fn settle_idle(&mut self) {
+    fn fill_idle_lanes(&mut self) {
         let mut busy = 0;
         for l in 0..FAN {
             busy = if self.count[l] > 0 { l } else { busy };
@@ -125,18 +114,23 @@ impl Packet {
 
     /// The segment of samples in the middle of the parts from `first` on, within bounds of the whole packet.
     #[inline(always)]
-    pub fn segment(&self, grid: &Grid, blocks: Option<&Blocks>, first: i32) -> Segment {
+    pub(crate) fn segment(&self, grid: &Grid, blocks: Option<&Blocks>, first: i32) -> Segment {
         let [first_part, end_part] = [f64::from(first) + 0.5, f64::from(first + STEPS as i32) - 0.5];
         self.between(grid, blocks, first, [first_part, end_part])
     }
 
-    /// The segment of all that lies in `count` parts from `first` on, within bounds of the whole packet.
     #[inline(always)]
-    pub fn whole_segment(&self, grid: &Grid, blocks: Option<&Blocks>, first: i32, count: i32) -> Segment {
+    pub(crate) fn whole_segment(
+        &self,
+        grid: &Grid,
+        blocks: Option<&Blocks>,
+        first: i32,
+        count: i32,
+    ) -> Segment {
         self.between(grid, blocks, first, [f64::from(first), f64::from(first + count)])
     }
 
-    /// The segment that begins with the part `first`; what is looked at lies between two places, counted in parts.
+    /// The segment from part `first` on whose bounds hold the given interval, counted in parts.
     #[inline(always)]
     fn between(&self, grid: &Grid, blocks: Option<&Blocks>, first: i32, parts: [f64; 2]) -> Segment {
         let Bounds { foot, toward, near, part, far } = &self.bounds;
@@ -152,8 +146,8 @@ impl Packet {
                 less = if way < less { way } else { less };
                 more = if way > more { way } else { more };
             }
-            low[a] = ((foot[a][0] + less - PLACE_ROUNDING) as i32).clamp(0, last_cell[a]);
-            high[a] = ((foot[a][1] + more + PLACE_ROUNDING) as i32).clamp(0, last_cell[a]);
+            low[a] = ((foot[a][0] + less - POSITION_ROUNDING) as i32).clamp(0, last_cell[a]);
+            high[a] = ((foot[a][1] + more + POSITION_ROUNDING) as i32).clamp(0, last_cell[a]);
         }
         let range = match blocks {
             Some(blocks) => blocks.range(low, high),
@@ -162,15 +156,13 @@ impl Packet {
         Segment { first, base: low, range }
     }
 
-    /// The places of a segment's samples.
     #[inline(always)]
-    pub fn line(&self, segment: &Segment) -> Line {
+    pub(crate) fn line(&self, segment: &Segment) -> Line {
         Line { start: self.places(segment, 0.5), part: self.way(1.0) }
     }
 
-    /// All that lies in `count` parts from the beginning of a segment on.
     #[inline(always)]
-    pub fn stretch(&self, segment: &Segment, count: i32) -> RaySpan {
+    pub(crate) fn stretch(&self, segment: &Segment, count: i32) -> RaySpan {
         let count = count as f32;
         let mut stretch = RaySpan {
             start: self.places(segment, 0.0),
@@ -186,7 +178,6 @@ impl Packet {
         stretch
     }
 
-    /// Where the rays are `parts` behind the beginning of a segment.
     #[inline(always)]
     fn places(&self, segment: &Segment, parts: f64) -> Places {
         let mut places = [[0.0; FAN]; 3];
@@ -200,7 +191,6 @@ impl Packet {
         places
     }
 
-    /// How far the rays go in some parts.
     #[inline(always)]
     fn way(&self, parts: f64) -> Places {
         let mut way = [[0.0; FAN]; 3];
@@ -213,20 +203,16 @@ impl Packet {
     }
 }
 
-/// Sixteen rays from the beginning of a segment on, counted from its base.
 #[derive(Clone, Copy, Debug)]
-pub struct RaySpan {
+pub(crate) struct RaySpan {
     /// Where they begin (voxels).
     pub start: Places,
-    /// How far they go in the whole segment (voxels).
     pub way: Places,
-    /// Where they end, as a share of the segment; 0 or less where a ray has ended before.
+    /// Where they end, as a share of the segment; at most 0 if a ray has ended before.
     pub end: [f32; FAN],
-    /// The length of the whole segment (mm).
     pub length: [f32; FAN],
 }
 
-/// The smallest and the largest of sixteen numbers.
 #[inline(always)]
 fn ends(numbers: &[f64; FAN]) -> [f64; 2] {
     let (mut low, mut high) = (numbers[0], numbers[0]);
@@ -237,18 +223,15 @@ fn ends(numbers: &[f64; FAN]) -> [f64; 2] {
     [low, high]
 }
 
-/// Some parts of a packet's rays in a row.
 #[derive(Clone, Copy, Debug)]
-pub struct Segment {
-    /// The first part.
+pub(crate) struct Segment {
     pub first: i32,
     /// A voxel before all its samples.
     pub base: [i32; 3],
-    /// The values that its samples can have.
     pub range: Range,
 }
 
-/// The places of a segment's samples, counted from its base.
+/// The positions of a segment's samples, counted from its base.
 #[derive(Clone, Copy, Debug)]
 pub struct Line {
     start: Places,

@@ -2,34 +2,29 @@
 // import math/sampling
 // import math/view
 
-// Where a ray starts that crosses the whole volume, and one that is not needed (depth in mm).
+// The start of a ray that crosses the whole volume, and of one that is not needed (depth in mm).
 const WHOLE: f32 = -1e9;
 const NONE: f32 = 1e9;
-// Beyond both.
 const NEVER: f32 = 2e9;
-// How much of a step a chord may be longer than whole steps without a part more.
 const SPARE: f32 = 1e-3;
 
-// Where a ray meets the depth that depths are counted from: an exact index, and the rest.
+// Where a ray meets the reference depth: an exact index, and the rest.
 struct Foot {
     index: vec3f,
     rest: vec3f,
 }
 
-// A depth, counted from the grid's (mm): a multiple of its unit, and the rest.
+// A depth from the grid's reference (mm): a multiple of its unit, and the rest.
 struct Depth {
     coarse: f32,
     rest: f32,
 }
 
-// A ray's parts.
 struct Ray {
     foot: Foot,
-    // Where the first part begins.
     near: Depth,
     // The length of a part (mm).
     part: f32,
-    // The number of parts; 0 where the ray misses the volume.
     count: i32,
 }
 
@@ -45,17 +40,15 @@ fn foot_at(n: vec2f) -> Foot {
     return Foot(index.xyz, rest.xyz);
 }
 
-// The unit divides all that is split, as few digits as products need to be exact.
+// The unit divides all that is split, with few enough digits for exact products.
 fn coarse(depth: f32) -> f32 {
     return round(depth * grid.per_unit) * grid.unit;
 }
 
-// Behind every volume.
 fn endless() -> Depth {
     return Depth(NONE, 0.0);
 }
 
-// A depth of the view.
 fn depth_at(depth: f32) -> Depth {
     let below = depth - grid.depth;
     return Depth(coarse(below), below - coarse(below));
@@ -66,14 +59,12 @@ fn deeper(depth: Depth, by: f32) -> Depth {
     return Depth(depth.coarse + coarse(rest), rest - coarse(rest));
 }
 
-// Where a ray is at a depth.
-fn place_at(foot: Foot, depth: Depth) -> Place {
+fn place_at(foot: Foot, depth: Depth) -> GridPosition {
     let way = depth.coarse * grid.z.xyz;
     let rest = foot.rest + depth.coarse * grid.z_rest.xyz + depth.rest * (grid.z.xyz + grid.z_rest.xyz);
-    return Place(floor(foot.index) + floor(way), fract(foot.index) + fract(way) + rest);
+    return GridPosition(floor(foot.index) + floor(way), fract(foot.index) + fract(way) + rest);
 }
 
-// The later of two depths, axis by axis and then of all axes.
 fn latest(one: vec3f, rest: vec3f, start: Depth) -> Depth {
     var last = start;
     for (var a = 0; a < 3; a++) {
@@ -85,18 +76,16 @@ fn latest(one: vec3f, rest: vec3f, start: Depth) -> Depth {
     return last;
 }
 
-// The depths at which a ray meets a plane across each axis.
 fn coarse_meetings(foot: Foot, plane: vec3f) -> vec3f {
     return round((plane - foot.index) * grid.per_voxel.xyz * grid.per_unit) * grid.unit;
 }
 
 fn rests(foot: Foot, plane: vec3f, at: vec3f) -> vec3f {
-    // The way that is left from there: what goes on cancels exactly, as far as it matters.
+    // The remaining distance: its large terms cancel exactly.
     let left = plane - foot.index - at * grid.z.xyz - (foot.rest + at * grid.z_rest.xyz);
     return left * grid.per_voxel.xyz;
 }
 
-// The parts of a ray from depth `start` to depth `end`, no longer than a step.
 fn cut(foot: Foot, start: Depth, end: Depth, per_step: f32) -> Ray {
     let is_parallel = grid.per_voxel.xyz == vec3f();
     let first = vec3f(-0.5);
@@ -121,7 +110,6 @@ fn cut(foot: Foot, start: Depth, end: Depth, per_step: f32) -> Ray {
     return Ray(foot, near, chord / f32(count), count);
 }
 
-// Where sample `n` of a ray is.
-fn sample_place(ray: Ray, n: i32) -> Place {
+fn sample_place(ray: Ray, n: i32) -> GridPosition {
     return place_at(ray.foot, deeper(ray.near, ray.part * (f32(n) + 0.5)));
 }

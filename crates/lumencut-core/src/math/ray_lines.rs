@@ -1,4 +1,4 @@
-//! Where rays are: which a view has, where they lie in the volume, and which part of each is wanted.
+//! The rays of a view: their position in the volume and the wanted part of each.
 
 use glam::DVec3;
 
@@ -7,9 +7,9 @@ use super::sampling::Grid;
 use crate::camera::Camera;
 use crate::volume::Volume;
 
-/// Where a ray starts that crosses the whole volume (depth in mm).
+/// The start of a ray that crosses the whole volume (depth in mm).
 pub const WHOLE: f32 = -1e9;
-/// Where a ray starts that is not needed.
+/// The start of a ray that is not needed.
 pub const NONE: f32 = 1e9;
 /// Beyond both.
 pub const NEVER: f64 = 2e9;
@@ -17,23 +17,19 @@ pub const NEVER: f64 = 2e9;
 /// A direction that moves less than this along an axis (voxels per mm) runs along the volume's sides.
 pub const PARALLEL: f64 = 1e-9;
 /// The chord of a pixel without a ray.
-pub const NO_CHORD: [f64; 2] = [NONE as f64, -(NONE as f64)];
+pub(crate) const NO_CHORD: [f64; 2] = [NONE as f64, -(NONE as f64)];
 
 /// Continuous index as an affine map of view coordinates.
 #[derive(Clone, Copy, Debug)]
 pub struct IndexFromView {
-    /// The index of the origin of view space.
     pub origin: DVec3,
-    /// Index per mm to the right.
+    /// Index per mm to the right, upwards, and away from the viewer.
     pub x: DVec3,
-    /// Index per mm upwards.
     pub y: DVec3,
-    /// Index per mm away from the viewer.
     pub z: DVec3,
 }
 
 impl IndexFromView {
-    /// The map of one view of `volume`.
     pub fn new(volume: &Volume, camera: &Camera) -> Self {
         let index_from_world = volume.index_from_world();
         Self {
@@ -44,7 +40,7 @@ impl IndexFromView {
         }
     }
 
-    /// How far a ray goes from a voxel to the next along the axis where it meets most of them (mm).
+    /// The length of a ray between voxels along the axis where it meets most of them (mm).
     pub fn voxel(&self) -> f64 {
         1.0 / self.z.abs().max_element()
     }
@@ -53,16 +49,14 @@ impl IndexFromView {
 /// The rays of a raster: one through each of its pixels.
 #[derive(Clone, Copy, Debug)]
 pub struct RayGrid {
-    /// Columns and rows.
     pub size: [usize; 2],
     /// View x and y of the first ray (mm).
     pub first: [f64; 2],
-    /// View x from a column to the next, and y from a row to the next (mm).
+    /// Change of view x per column and of view y per row (mm).
     pub next: [f64; 2],
 }
 
 impl RayGrid {
-    /// A ray for every pixel.
     pub fn fine(camera: &Camera) -> Self {
         let s = camera.pixel_spacing();
         Self { size: camera.size(), first: [camera.view_x(0), camera.view_y(0)], next: [s, -s] }
@@ -76,24 +70,21 @@ impl RayGrid {
     }
 }
 
-/// Sixteen rays, each with where it is at depth 0, where it goes, and between which depths it is wanted.
+/// Sixteen rays: index at depth 0, direction, and the wanted depths.
 #[derive(Clone, Debug)]
 pub struct Lines {
-    /// Continuous index at depth 0.
     pub foot: [[f64; FAN]; 3],
-    /// What 1 mm of depth adds to it.
+    /// Change of the index per mm of depth.
     pub toward: [[f64; FAN]; 3],
-    /// The first depth (mm), and the last; no ray where they are the wrong way round.
+    /// The first depth (mm); above `far` if there is no ray.
     pub near: [f64; FAN],
-    /// The last depth (mm).
     pub far: [f64; FAN],
 }
 
 impl Lines {
-    /// The rays of a raster through sixteen pixels, by their columns and rows, each between the two depths that `chord`
-    /// gives (mm). Those of pixels beyond the image see nothing.
+    /// The rays through sixteen pixels (columns, rows) between the two depths of `chord` (mm).
     #[inline(always)]
-    pub fn of_pixels(
+    pub(crate) fn of_pixels(
         to: &IndexFromView,
         rays: &RayGrid,
         pixels: &[Option<[usize; 2]>; FAN],
@@ -110,7 +101,6 @@ impl Lines {
         Self::of_view(to, &place, [near, far])
     }
 
-    /// The rays of a view at view coordinates `x` and `y` (mm), from depth `near` to depth `far`.
     #[inline(always)]
     fn of_view(to: &IndexFromView, [x, y]: &[[f64; FAN]; 2], [near, far]: [[f64; FAN]; 2]) -> Self {
         let mut lines = Self { foot: [[0.0; FAN]; 3], toward: [[0.0; FAN]; 3], near, far };
@@ -123,9 +113,8 @@ impl Lines {
         lines
     }
 
-    /// Keeps of each ray what lies within the volume's box.
     #[inline(always)]
-    pub fn clip(&mut self, grid: &Grid) {
+    pub(crate) fn clip(&mut self, grid: &Grid) {
         let last = grid.last();
         for a in 0..3 {
             for l in 0..FAN {

@@ -1,13 +1,12 @@
-//! What rays are reduced to. The shader follows each ray on its own; on the CPU sixteen are followed together, by
-//! `stages/along_rays.rs`.
+//! The reduction of the values along rays. Shaders follow rays singly, the CPU sixteen
+//! (`stages/along_rays.rs`).
 
 use super::blocks::HUGE;
 use crate::settings::SlabMode;
 
-/// What is kept of the values along a ray.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reduction {
-    /// The mean, each value weighted with the length that it takes of the ray.
+    /// The mean, weighted by length along the ray.
     Mean,
     /// The largest.
     Largest,
@@ -16,7 +15,6 @@ pub enum Reduction {
 }
 
 impl Reduction {
-    /// What a slab shows.
     pub fn of(mode: SlabMode) -> Self {
         match mode {
             SlabMode::Mean => Self::Mean,
@@ -25,13 +23,11 @@ impl Reduction {
         }
     }
 
-    /// The number by which the shaders know it.
     pub const fn code(self) -> u32 {
         self as u32
     }
 
-    /// A limit that no value reaches.
-    pub fn no_limit(self) -> f32 {
+    pub(crate) fn no_limit(self) -> f32 {
         if self == Self::Smallest { -HUGE } else { HUGE }
     }
 }

@@ -2,18 +2,17 @@
 // import math/blocks
 // import math/cell_walk
 
-// The parts of a ray that are followed in a row.
+// Parts of a ray that are followed together.
 const STRETCH: i32 = 8;
 
-// Sums of few numbers keep their digits: once there are so many stretches, they are one of the next sum.
+// Stretches per partial sum: sums of few numbers keep their digits.
 const FEW: i32 = 16;
 
-// Where part `n` of a ray begins.
-fn part_place(ray: Ray, n: i32) -> Place {
+fn part_place(ray: Ray, n: i32) -> GridPosition {
     return place_at(ray.foot, deeper(ray.near, ray.part * f32(n)));
 }
 
-// The largest value of the volume times `sign` along a ray, but for what is larger than `limit`; -HUGE where there is none.
+// The largest value of `sign` · volume along a ray, clamped to `limit`; -HUGE if there is none.
 fn largest_along(ray: Ray, sign: f32, limit: f32) -> f32 {
     let way = ray.part * (grid.z.xyz + grid.z_rest.xyz);
     var best = -HUGE;
@@ -31,14 +30,14 @@ fn largest_along(ray: Ray, sign: f32, limit: f32) -> f32 {
     return best;
 }
 
-// The first part from `first` on that can hold a value larger than the best; `search` is the sign, the limit and the best.
+// The first part from `first` on that can exceed the best; `search` is the sign, the limit and the best.
 fn skip_parts(ray: Ray, way: vec3f, search: vec3f, first: i32, level: ptr<function, u32>) -> i32 {
     let coarsest = parameters.level_count - 1u;
     var n = first;
     while n < ray.count {
         let cell = cell_of(part_place(ray, n));
         if is_no_larger(range_at(*level, cell.voxel), search) {
-            // Whole parts: a part that leaves the block is only passed with a larger one.
+            // Whole parts: a part that leaves the block is passed only with a larger block.
             let left = samples_left(*level, cell, way);
             if left > 0 {
                 n += left;
@@ -63,7 +62,6 @@ fn is_no_larger(range: vec2f, search: vec3f) -> bool {
     return min(top, search.y) <= search.z;
 }
 
-// The sum of the values along a ray, each times the share of a stretch that it takes, and the sum of the shares.
 fn sums_along(ray: Ray) -> vec2f {
     let way = ray.part * (grid.z.xyz + grid.z_rest.xyz);
     var sums = vec2f();

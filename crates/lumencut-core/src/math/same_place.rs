@@ -1,20 +1,17 @@
-//! How near to each other two places are one place, and why.
+//! Distances below which two positions are the same, with the reason.
 //!
-//! Distances are in mm. Each is far above what rounding moves a coordinate of a few hundred mm by (1e-13 mm), and far below the
-//! smallest voxel (about 0.05 mm).
+//! Distances are in mm. Each is far above the rounding of a coordinate of a few hundred mm (1e-13 mm), and
+//! far below the smallest voxel (about 0.05 mm).
 
-/// A point no farther from the one before it is the same point: a segment between them would have no direction that rounding
-/// does not decide.
+/// A point this near repeats the previous one: rounding would decide the direction between them.
 pub const REPEATED_POINT: f64 = 1e-9;
 
-/// A point no farther from an end of a vessel is that end: files keep coordinates as `f32`, which moves them by up to 3e-5 mm
-/// at 500 mm, and writers round to 0.001 mm.
+/// A point this near to the end of a vessel is that end. Files keep coordinates as `f32`, which moves them by
+/// up to 3e-5 mm at 500 mm, and writers round to 0.001 mm.
 pub const VESSEL_END: f64 = 1e-3;
 
-/// Places of a reformation no farther apart are one place: they are found along different ways, each with its own rounding,
-/// and no pixel is as small.
-pub const ON_PICTURE: f64 = 1e-6;
+/// Positions of a reformation this near are equal: their computations differ, and no pixel is as small.
+pub(crate) const ON_PICTURE: f64 = 1e-6;
 
-/// Arc lengths, and lengths in steps of a line, that differ by less are the same: what is left of them after sums over
-/// thousands of segments.
+/// Arc lengths that differ by less are equal: the rounding of sums over thousands of segments.
 pub const ALONG_LINE: f64 = 1e-6;

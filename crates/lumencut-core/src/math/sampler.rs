@@ -1,4 +1,4 @@
-//! A volume of any type of voxel, sampled by one code.
+//! A volume of any voxel type behind one interface.
 
 use super::cell_walk::{CellWalk, Largest, Sums};
 use super::lanes::{FAN, Isa, Kernel, dispatch};
@@ -6,27 +6,19 @@ use super::ray::{Line, RaySpan, STEPS};
 use super::sampling::{Around, Grid, SampledRun};
 use crate::volume::Voxel;
 
-/// A volume whose voxels may be of any type, on the instruction set that was chosen for it: so that the rays need not
-/// be compiled for every type of voxel.
-pub trait Sampler: Sync {
-    /// The volume at the samples of a segment of rays.
+/// A volume of any voxel type on a chosen instruction set, so that ray code compiles only once.
+pub(crate) trait Sampler: Sync {
     fn along(&self, base: [i32; 3], line: &Line) -> [[f32; FAN]; STEPS];
-    /// The volume at the neighbours of sixteen places.
     fn around(&self, base: [i32; 3], neighbours: &Around) -> [[f32; FAN]; 6];
-    /// Widens the largest values times the sign by those along a stretch of rays; those above the limit count as the limit.
+    /// Raises the largest values of `sign` · volume along rays, clamped to the limit.
     fn widen(&self, base: [i32; 3], stretch: &RaySpan, sign_and_limit: [f32; 2], best: &mut [f32; FAN]);
-    /// Adds the integrals of the volume along a stretch of rays, and their lengths (mm).
     fn sum_up(&self, base: [i32; 3], stretch: &RaySpan, sums: &mut [[f64; FAN]; 2]);
 }
 
-/// Voxels of one type.
 #[derive(Clone, Copy, Debug)]
-pub struct TypedSampler<'a, T> {
-    /// Their grid.
+pub(crate) struct TypedSampler<'a, T> {
     pub grid: Grid,
-    /// The voxels.
     pub voxels: &'a [T],
-    /// The instruction set.
     pub isa: Isa,
 }
 
@@ -50,7 +42,6 @@ impl<T: Voxel> Sampler for TypedSampler<'_, T> {
     }
 }
 
-/// [`Grid::sample`] as a kernel.
 struct SampleRun<'a, T, P, const N: usize> {
     sampler: &'a TypedSampler<'a, T>,
     base: [i32; 3],

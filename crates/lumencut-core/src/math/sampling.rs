@@ -5,30 +5,25 @@ use glam::DVec3;
 use super::lanes::{FAN, larger, smaller};
 use crate::volume::{Real, Volume, Voxel};
 
-/// Wider than what rounding moves a place (voxels).
-pub const PLACE_ROUNDING: f64 = 1e-3;
+/// A bound on the rounding of positions (voxels).
+pub const POSITION_ROUNDING: f64 = 1e-3;
 
-/// The grid of a volume, ready to find the voxels around a continuous index.
 #[derive(Clone, Copy, Debug)]
 pub struct Grid {
-    /// The last index along (i, j, k).
     last: [f64; 3],
-    /// The last index that has a neighbour above it, and the distance in elements to that neighbour; both 0
-    /// along an axis with one voxel.
+    /// The last index with a neighbour above it, and the step to it in elements; both 0 for one voxel.
     low: [usize; 3],
     step: [usize; 3],
     strides: [usize; 3],
-    /// Whether the voxels lie too far apart for offsets of 32 bits.
     wide: bool,
 }
 
-/// Continuous indices of sixteen places, axis by axis, counted from a voxel near them so that `f32` holds them to a
-/// millionth of a voxel.
+/// Sixteen continuous indices, axis by axis, relative to a voxel nearby: `f32` resolves a millionth of a
+/// voxel.
 pub type Places = [[f32; FAN]; 3];
 
-/// A run of places to sample: sixteen at each of some steps.
+/// Positions to sample: sixteen at each of some steps.
 pub trait SampledRun {
-    /// The places of step `n`, counted from a voxel before all of them.
     fn places(&self, n: usize) -> Places;
 }
 
@@ -40,7 +35,7 @@ pub struct Around {
 }
 
 impl Around {
-    /// Around places that are counted from a voxel `shift` voxels before theirs.
+    /// Around positions that are relative to a voxel `shift` voxels before theirs.
     pub fn new(places: Places, shift: [f32; 3]) -> Self {
         Self { places, shift }
     }
@@ -61,7 +56,6 @@ impl SampledRun for Around {
 }
 
 impl Grid {
-    /// The grid of `volume`.
     pub fn new(volume: &Volume) -> Self {
         let (size, strides) = (volume.size(), volume.strides());
         let farthest: usize = (0..3).map(|a| (size[a] - 1) * strides[a]).sum();
@@ -74,25 +68,22 @@ impl Grid {
         }
     }
 
-    /// The last index along (i, j, k).
     pub fn last(&self) -> [f64; 3] {
         self.last
     }
 
     /// The last voxel along (i, j, k) that has a neighbour above it; 0 along an axis with one voxel.
-    pub fn last_cell(&self) -> [i32; 3] {
+    pub(crate) fn last_cell(&self) -> [i32; 3] {
         self.low.map(|n| n as i32)
     }
 
-    /// The voxels' value at continuous index `p`: NaN more than half a voxel beyond the outermost centres,
-    /// the outermost voxels' within that half voxel.
+    /// The value at continuous index `p`: the outermost voxel's up to half a voxel outside, NaN beyond.
     #[inline]
     pub fn trilinear<T: Voxel>(&self, voxels: &[T], p: DVec3) -> f32 {
         self.interpolated(voxels, p, Voxel::real)
     }
 
-    /// [`Grid::trilinear`] in single precision, whatever the type of the voxels: the same numbers in voxels of two types give
-    /// the same values to the bit.
+    /// [`Grid::trilinear`] in single precision: equal numbers of two voxel types give equal bits.
     #[inline]
     pub fn trilinear_single<T: Voxel>(&self, voxels: &[T], p: DVec3) -> f32 {
         self.interpolated(voxels, p, |voxel| voxel.real().to_f32())
@@ -102,7 +93,7 @@ impl Grid {
     fn interpolated<T: Voxel, R: Real>(&self, voxels: &[T], p: DVec3, number: impl Fn(T) -> R) -> f32 {
         let (mut offset, mut weights) = (0, [0.0; 3]);
         for a in 0..3 {
-            // What is no number lies nowhere.
+            // NaN lies outside.
             if !(p[a] >= -0.5 && p[a] <= self.last[a] + 0.5) {
                 return f32::NAN;
             }
@@ -117,9 +108,8 @@ impl Grid {
         interpolate(ends, weights.map(R::from_weight)).to_f32()
     }
 
-    /// [`Grid::trilinear`] at N times sixteen indices, given axis by axis.
     #[inline(always)]
-    pub fn trilinear_lanes<T: Voxel, const N: usize>(
+    pub(crate) fn trilinear_lanes<T: Voxel, const N: usize>(
         &self,
         voxels: &[T],
         p: &[[[f64; FAN]; 3]; N],
@@ -127,7 +117,7 @@ impl Grid {
         self.interpolated_lanes(voxels, p, |number| number)
     }
 
-    /// [`Grid::trilinear_single`] at sixteen indices, given axis by axis, all of them numbers.
+    /// [`Grid::trilinear_single`] at sixteen indices without NaN, given axis by axis.
     #[inline(always)]
     pub fn trilinear_single_lanes<T: Voxel>(&self, voxels: &[T], p: &[[f64; FAN]; 3]) -> [f32; FAN] {
         let [values] = self.interpolated_lanes(voxels, &[*p], Real::to_f32);
@@ -171,9 +161,8 @@ impl Grid {
         value
     }
 
-    /// The volume at N times sixteen places counted from the voxel `base`; beyond the outermost centres their voxels
-    /// go on. Loads and arithmetic take turns over all places: so the compiler uses vectors for the one, and the
-    /// processor has many of the others under way.
+    /// The volume at N · 16 positions relative to `base`, extended by the outermost voxels. Alternating loads
+    /// and arithmetic vectorises the latter and keeps many loads in flight.
     #[inline(always)]
     pub fn sample<T: Voxel, const N: usize>(
         &self,
@@ -214,25 +203,23 @@ impl Grid {
         value
     }
 
-    /// Continuous indices within the outermost centres, of places counted from the voxel `base`.
+    /// Continuous indices, clamped to the outermost centres, of positions relative to the voxel `base`.
     fn indices(&self, base: [i32; 3], places: &Places) -> [[f64; FAN]; 3] {
         std::array::from_fn(|a| {
             places[a].map(|c| (f64::from(base[a]) + f64::from(c)).clamp(0.0, self.last[a]))
         })
     }
 
-    /// Whether the voxels lie too far apart for offsets of 32 bits.
     pub fn is_wide(&self) -> bool {
         self.wide
     }
 
-    /// The element of a voxel.
     #[inline(always)]
     pub fn offset_of(&self, voxel: [i32; 3]) -> usize {
         (0..3).map(|a| voxel[a] as usize * self.strides[a]).sum()
     }
 
-    /// The pairs of neighbours along i in the four rows around each place, j fastest.
+    /// The pairs of neighbours along i in the four rows around each position, j fastest.
     #[inline(always)]
     pub fn rows<T: Voxel, O: Offset, const N: usize>(
         &self,
@@ -242,8 +229,7 @@ impl Grid {
         let [si, sj, sk] = self.step;
         let steps = [0, sj, sk, sj + sk];
         let mut rows = [[[T::pair(T::default(), T::default()); FAN]; N]; 4];
-        // Neighbours side by side: one load fetches both. No pair begins after `last`; to say so costs less than to have
-        // it checked.
+        // One load fetches both neighbours. Clamping to `last` costs less than a bounds check.
         if si == 1
             && let Some(last) = voxels.len().checked_sub(2)
         {
@@ -269,13 +255,9 @@ impl Grid {
     }
 }
 
-/// The distance of a voxel in elements.
 pub trait Offset: Copy + Default {
-    /// The distance of neighbours along an axis.
     fn stride(grid: &Grid, axis: usize) -> Self;
-    /// This and `steps` times a stride more.
     fn plus(self, steps: i32, stride: Self) -> Self;
-    /// The distance as an index.
     fn elements(self) -> usize;
 }
 

@@ -1,28 +1,26 @@
 // Trilinear sampling of the volume: eight loads and the arithmetic of the CPU.
 // import math/lanes
 
-// Whether the voxels are the bits of floats; else they are whole numbers.
+// Whether the voxels are the bits of floats; else they are integers.
 override FLOAT_VOXELS: bool = false;
 
-// Wider than what rounding moves a place (voxels).
-const PLACE_ROUNDING: f32 = 1e-3;
+const POSITION_ROUNDING: f32 = 1e-3;
 
-// The volume's grid in the view. Vectors of four end with a 0 that means nothing.
+// The volume's grid in the view. The fourth component of vectors is padding.
 struct GridParameters {
-    // The last index along (i, j, k).
     last: vec3f,
     // What the voxels of an unsigned type were shifted down by.
     shift: f32,
     // The last voxel that has a neighbour above it; 0 along an axis with one voxel.
     low: vec3i,
-    // The depth that depths are counted from, in the middle of the volume (mm).
+    // The reference depth, in the middle of the volume (mm).
     depth: f32,
     // Depths are split into multiples of `unit` and the rest (mm).
     unit: f32,
     per_unit: f32,
     padding: vec2f,
-    // The index in the middle of the image at that depth, what a column to the right and a row upwards add to it, and
-    // what 1 mm of depth adds: parts of few digits, whose products and sums are exact, and the rests.
+    // The index in the middle of the image at the reference depth, and its change per column, row and mm of
+    // depth: parts of few digits with exact products and sums, and the rests.
     origin: vec4f,
     origin_rest: vec4f,
     x: vec4f,
@@ -31,7 +29,7 @@ struct GridParameters {
     y_rest: vec4f,
     z: vec4f,
     z_rest: vec4f,
-    // Depth per voxel (mm); 0 along axes that the view runs across.
+    // Depth per voxel (mm); 0 along axes perpendicular to the view.
     per_voxel: vec4f,
     // Index per mm to the right and upwards.
     right: vec4f,
@@ -41,13 +39,12 @@ struct GridParameters {
 @group(0) @binding(2) var<uniform> grid: GridParameters;
 @group(0) @binding(3) var voxels: texture_3d<i32>;
 
-// A continuous index: whole numbers and what is to be added, so that fractions keep their digits.
-struct Place {
+// A continuous index: an integer and a summand, so that fractions keep their digits.
+struct GridPosition {
     whole: vec3f,
     part: vec3f,
 }
 
-// The voxel before a place, and the weights of its neighbours.
 struct Cell {
     voxel: vec3i,
     share: vec3f,
@@ -59,15 +56,13 @@ struct Corners {
     far: vec4f,
 }
 
-// Whether a place lies more than half a voxel beyond the outermost centres.
-fn is_outside(place: Place) -> bool {
+fn is_outside(place: GridPosition) -> bool {
     let above_first = place.whole + 0.5 + place.part;
     let above_last = place.whole - grid.last - 0.5 + place.part;
     return any(above_first < vec3f()) || any(above_last > vec3f());
 }
 
-// The cell that holds a place; beyond the outermost centres their voxels go on.
-fn cell_of(place: Place) -> Cell {
+fn cell_of(place: GridPosition) -> Cell {
     let carry = floor(place.part);
     let whole = place.whole + carry;
     let low = vec3f(grid.low);
@@ -85,7 +80,6 @@ fn voxel_at(i: i32, j: i32, k: i32) -> f32 {
     return f32(stored) + grid.shift;
 }
 
-// The voxels at the corners of a cell.
 fn corners_in(near: vec3i) -> Corners {
     let far = near + vec3i(grid.last) - grid.low;
     let low = vec4f(

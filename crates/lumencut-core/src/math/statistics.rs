@@ -1,27 +1,24 @@
-//! Medians, quantiles and groups of values. Medians and quantiles take time in proportion to the number of values.
+//! Medians, quantiles and groups of values, in time proportional to their number.
 
-/// The median; the mean of the two in the middle where their number is even. None of no values. It changes the order of the
-/// values.
+/// The median, or the mean of the two in the middle; `None` of no values. It reorders the values.
 pub fn median(values: &mut [f64]) -> Option<f64> {
     let last = values.len().checked_sub(1)?;
     let [below, above] = neighbours(values, last / 2);
     Some(if last % 2 == 0 { below } else { (below + above) / 2.0 })
 }
 
-/// The value below which `part` of all values lie, interpolated linearly between neighbours; None of no values. It
-/// changes the order of the values.
+/// The quantile at share `part`, interpolated linearly; `None` of no values. It reorders the values.
 pub fn quantile(values: &mut [f64], part: f64) -> Option<f64> {
     let last = values.len().checked_sub(1)?;
     let place = last as f64 * part;
     let below = (place.floor() as usize).min(last);
     let [low, high] = neighbours(values, below);
     let (weight, difference) = (place - below as f64, high - low);
-    // From the nearer end: so both ends are met exactly.
+    // From the nearer end, so that both ends are met exactly.
     Some(if weight < 0.5 { low + difference * weight } else { high - difference * (1.0 - weight) })
 }
 
-/// Where the second of two groups of rising values begins, parted so that their means differ most (Otsu 1979); None
-/// where all values are the same.
+/// The start of the second of two groups of rising values by Otsu (1979); `None` if all are equal.
 pub fn two_groups(rising: &[f64]) -> Option<usize> {
     let first = *rising.first()?;
     let all: f64 = rising.iter().map(|value| value - first).sum();
@@ -39,7 +36,7 @@ pub fn two_groups(rising: &[f64]) -> Option<usize> {
     best.1
 }
 
-/// The value before which `n` others come in rising order, and the one after it; at the end the same one twice.
+/// The n-th value in rising order and the next one; at the end the same one twice.
 fn neighbours(values: &mut [f64], n: usize) -> [f64; 2] {
     let (_, found, above) = values.select_nth_unstable_by(n, f64::total_cmp);
     [*found, above.iter().copied().min_by(f64::total_cmp).unwrap_or(*found)]

@@ -1,14 +1,12 @@
-//! Opacity of another thickness: 1 − (1 − α)^h, over lanes and without the system's logarithm, so that every platform
-//! gives the same bits.
+//! Opacity of another thickness: 1 − (1 − α)^h, without the system's logarithm: equal bits on every platform.
 
 use super::lanes::{FAN, larger, smaller};
 
-/// The bits of √½.
 pub const ROOT_HALF: u32 = 0x3F35_04F3;
 
-/// The opacity of `thickness` mm of something whose opacity is `opacity` per mm; thickness 0 or above.
+/// The opacity of `thickness` ≥ 0 mm of something with `opacity` per mm.
 #[inline(always)]
-pub fn of_thickness(opacity: &[f32; FAN], thickness: &[f32; FAN]) -> [f32; FAN] {
+pub(crate) fn of_thickness(opacity: &[f32; FAN], thickness: &[f32; FAN]) -> [f32; FAN] {
     let mut result = [0.0; FAN];
     for l in 0..FAN {
         let through =
@@ -18,14 +16,14 @@ pub fn of_thickness(opacity: &[f32; FAN], thickness: &[f32; FAN]) -> [f32; FAN] 
     result
 }
 
-/// log₂(1 − a) for a in [0, 1), to a few units in the last place, small ones of small a included.
+/// log₂(1 − a) for a in [0, 1), to a few units in the last place, also for small a.
 #[inline(always)]
 fn log2_of_one_minus(a: f32) -> f32 {
     // 1 − a = 2^e · m with m between √½ and √2; log₂ m = 2/ln 2 · artanh((m − 1)/(m + 1)).
     let rest = 1.0 - a;
     let exponent = (rest.to_bits().wrapping_sub(ROOT_HALF) as i32) >> 23;
     let m = f32::from_bits(rest.to_bits().wrapping_sub((exponent << 23) as u32));
-    // Where the exponent is 0, m − 1 is −a without the rounding of 1 − a.
+    // If the exponent is 0, m − 1 is −a without the rounding of 1 − a.
     let above_one = if exponent == 0 { -a } else { m - 1.0 };
     let s = above_one / (above_one + 2.0);
     let s2 = s * s;
@@ -33,10 +31,10 @@ fn log2_of_one_minus(a: f32) -> f32 {
     exponent as f32 + s * series * std::f32::consts::LOG2_E * 2.0
 }
 
-/// 1 − 2^y for y ≤ 0, to a few units in the last place, small ones of small y included.
+/// 1 − 2^y for y ≤ 0, to a few units in the last place, also for small y.
 #[inline(always)]
 fn one_minus_power_of_two(y: f32) -> f32 {
-    // y = n + r with |r| ≤ ½; 2^y − 1 = 2^n·(2^r − 1) + (2^n − 1). From 1.5·2²³ on, a float's last bit counts ones.
+    // y = n + r with |r| ≤ ½; 2^y − 1 = 2^n·(2^r − 1) + (2^n − 1). From 1.5·2²³ on, the last bit counts ones.
     const ONES: f32 = 12_582_912.0;
     let y = larger(y, -125.0);
     let shifted = y + ONES;

@@ -1,11 +1,9 @@
-// Opacity of another thickness: 1 − (1 − α)^h, with the polynomials of the CPU.
+// Opacity of another thickness: 1 − (1 − α)^h, with the polynomials of the CPU; see thickness.rs.
 
-// The bits of √½.
 const ROOT_HALF = 0x3F3504F3u;
 const LOG2_E: f32 = 1.4426950408889634;
 const LN_2: f32 = 0.6931471805599453;
 
-// The opacity of `thickness` mm of something whose opacity is `opacity` per mm.
 fn of_thickness(opacity: f32, thickness: f32) -> f32 {
     if opacity >= 1.0 {
         return 1.0;
@@ -13,13 +11,10 @@ fn of_thickness(opacity: f32, thickness: f32) -> f32 {
     return one_minus_power_of_two(thickness * log2_of_one_minus(min(opacity, 1.0 - 1e-7)));
 }
 
-// log₂(1 − a) for a in [0, 1), small ones included.
 fn log2_of_one_minus(a: f32) -> f32 {
-    // 1 − a = 2^e · m with m between √½ and √2; log₂ m = 2/ln 2 · artanh((m − 1)/(m + 1)).
     let bits = bitcast<u32>(1.0 - a);
     let exponent = bitcast<i32>(bits - ROOT_HALF) >> 23u;
     let m = bitcast<f32>(bits - (bitcast<u32>(exponent) << 23u));
-    // Where the exponent is 0, m − 1 is −a without the rounding of 1 − a.
     let above_one = select(m - 1.0, -a, exponent == 0);
     let s = above_one / (above_one + 2.0);
     let s2 = s * s;
@@ -27,9 +22,7 @@ fn log2_of_one_minus(a: f32) -> f32 {
     return f32(exponent) + s * series * LOG2_E * 2.0;
 }
 
-// 1 − 2^y for y ≤ 0, small ones included.
 fn one_minus_power_of_two(number: f32) -> f32 {
-    // y = n + r with |r| ≤ ½; 2^y − 1 = 2^n·(2^r − 1) + (2^n − 1).
     let y = max(number, -125.0);
     let n = round(y);
     let r = (y - n) * LN_2;

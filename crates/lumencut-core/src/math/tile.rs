@@ -3,18 +3,16 @@
 use super::lanes::{Bits, COLUMNS, PART_PIXELS, PART_SIDE, PARTS, PIXELS, ROWS, larger};
 use crate::camera::Camera;
 
-/// Parts side by side in a tile.
 const PARTS_ACROSS: usize = COLUMNS / PART_SIDE;
 
 /// The lane of the pixel in row `r` and column `c` of a tile: part by part, each row by row.
 #[inline(always)]
-pub const fn lane(r: usize, c: usize) -> usize {
+pub(crate) const fn lane(r: usize, c: usize) -> usize {
     let part = r / PART_SIDE * PARTS_ACROSS + c / PART_SIDE;
     part * PART_PIXELS + r % PART_SIDE * PART_SIDE + c % PART_SIDE
 }
 
-/// The row and column of each lane's pixel: the inverse of [`lane`].
-pub const PLACE_OF_LANE: [(usize, usize); PIXELS] = {
+pub(crate) const PIXEL_OF_LANE: [(usize, usize); PIXELS] = {
     let mut places = [(0, 0); PIXELS];
     let mut n = 0;
     while n < PIXELS {
@@ -24,14 +22,13 @@ pub const PLACE_OF_LANE: [(usize, usize); PIXELS] = {
     places
 };
 
-/// The lanes of the tile whose first column is `column`, from its `rows` of `width` pixels; lanes beyond the image
-/// repeat its last column and row.
+/// The lanes of the tile at `column` of these `rows`; lanes beyond the image repeat its last column and row.
 #[inline(always)]
-pub fn gather(rows: &[f32], width: usize, column: usize) -> [f32; PIXELS] {
+pub(crate) fn gather(rows: &[f32], width: usize, column: usize) -> [f32; PIXELS] {
     let last_row = rows.len() / width - 1;
     let mut lanes = [0.0; PIXELS];
     for (n, run) in lanes.as_chunks_mut::<PART_SIDE>().0.iter_mut().enumerate() {
-        let (r, c) = PLACE_OF_LANE[n * PART_SIDE];
+        let (r, c) = PIXEL_OF_LANE[n * PART_SIDE];
         let row = &rows[r.min(last_row) * width..][..width];
         if let Some(whole) = row.get(column + c..).and_then(|rest| rest.first_chunk()) {
             *run = *whole;
@@ -44,12 +41,11 @@ pub fn gather(rows: &[f32], width: usize, column: usize) -> [f32; PIXELS] {
     lanes
 }
 
-/// Writes the lanes of the tile whose first column is `column` into its `rows` of `width` pixels; lanes beyond the
-/// image are left out.
+/// Writes the lanes of the tile at `column` into its `rows`, without those beyond the image.
 #[inline(always)]
-pub fn scatter<T: Copy>(lanes: &[T; PIXELS], rows: &mut [T], width: usize, column: usize) {
+pub(crate) fn scatter<T: Copy>(lanes: &[T; PIXELS], rows: &mut [T], width: usize, column: usize) {
     for (n, run) in lanes.as_chunks::<PART_SIDE>().0.iter().enumerate() {
-        let (r, c) = PLACE_OF_LANE[n * PART_SIDE];
+        let (r, c) = PIXEL_OF_LANE[n * PART_SIDE];
         let Some(row) = rows.get_mut(r * width..(r + 1) * width) else { continue };
         let Some(rest) = row.get_mut(column + c..) else { continue };
         if let Some(whole) = rest.first_chunk_mut() {
@@ -60,37 +56,28 @@ pub fn scatter<T: Copy>(lanes: &[T; PIXELS], rows: &mut [T], width: usize, colum
     }
 }
 
-/// A box in the view plane (mm): its middle and half its sides.
 #[derive(Clone, Copy, Debug)]
 pub struct Area {
-    /// View x and y of the middle.
     pub center: [f32; 2],
-    /// Half the sides, and a little more than the rounding of the middle.
+    /// Half the sides, plus a bound on the rounding of the middle.
     pub half: [f32; 2],
 }
 
-/// The pixel centres of a tile in view space (mm), lane by lane, and the boxes around them.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
-pub struct Tile {
-    /// View x of each pixel.
+pub(crate) struct Tile {
     pub x: [f32; PIXELS],
-    /// View y of each pixel.
     pub y: [f32; PIXELS],
-    /// The box around all pixels.
     pub area: Area,
-    /// The boxes around the pixels of each part.
     pub parts: [Area; PARTS],
-    /// Half the diagonal of the box.
     pub radius: f32,
-    /// The bit of each lane.
     pub bits: Bits,
 }
 
 impl Tile {
     /// The tile whose first pixel is (`i`, `j`); pixels beyond the image repeat its last column and row.
     #[inline(always)]
-    pub fn new(camera: &Camera, i: usize, j: usize) -> Self {
+    pub(crate) fn new(camera: &Camera, i: usize, j: usize) -> Self {
         let [width, height] = camera.size();
         let (mut columns, mut rows) = ([0.0; COLUMNS], [0.0; ROWS]);
         for c in 0..COLUMNS {
@@ -101,7 +88,7 @@ impl Tile {
         }
         let (mut x, mut y) = ([0.0; PIXELS], [0.0; PIXELS]);
         for l in 0..PIXELS {
-            let (r, c) = PLACE_OF_LANE[l];
+            let (r, c) = PIXEL_OF_LANE[l];
             (x[l], y[l]) = (columns[c], rows[r]);
         }
         let area = around(&columns, &rows);
@@ -115,7 +102,6 @@ impl Tile {
     }
 }
 
-/// The box around pixels whose columns and rows are evenly spaced.
 #[inline(always)]
 fn around(columns: &[f32], rows: &[f32]) -> Area {
     let middle = |values: &[f32]| (values[0] + values[values.len() - 1]) * 0.5;

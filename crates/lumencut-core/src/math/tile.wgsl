@@ -1,4 +1,4 @@
-// Tiles of pixels: each thread has one, so that what it reads of a piece serves many pixels. Four pixels of a row make a
+// Tiles of pixels, one per thread, so that a piece read once serves many pixels. Four pixels of a row make a
 // vector, a quad.
 // import math/view
 
@@ -9,26 +9,23 @@ const MAX_ACROSS = 2u;
 const MAX_ROWS = 8u;
 const MAX_QUADS = 16u;
 const QUAD = 4u;
-// The tiles of a group of threads, in rows of few, so that threads that run in step have tiles close together. One
-// dimension: software runs in step along the first one only, and wants it wider than its vectors.
+// Short rows of tiles keep threads in step close together. Software adapters run in step along the first
+// dimension only, which must exceed their vectors.
 const TILES = 64u;
 const TILES_ACROSS = 4u;
 
 // The pixel centres of a tile in view space (mm); pixels beyond the image repeat its last column and row.
 struct Tile {
-    // The first pixel.
     pixel: vec2u,
-    // The box around all pixels: its middle, half its sides and a little more than the rounding of the middle.
     center: vec2f,
     half: vec2f,
-    // Half the diagonal of the box.
     radius: f32,
 }
 
 var<private> quad_x: array<vec4f, MAX_ACROSS>;
 var<private> row_y: array<f32, MAX_ROWS>;
 
-// The tile of a thread of a group; its pixels go to `quad_x` and `row_y`.
+// The tile of a thread of a workgroup; its pixels go to `quad_x` and `row_y`.
 fn tile_at(group: vec2u, thread: u32) -> Tile {
     let place = vec2u(thread % TILES_ACROSS, thread / TILES_ACROSS);
     let pixel = (group * vec2u(TILES_ACROSS, TILES / TILES_ACROSS) + place) * vec2u(ACROSS * QUAD, ROWS);
@@ -50,17 +47,14 @@ fn tile_at(group: vec2u, thread: u32) -> Tile {
     return tile;
 }
 
-// Where quad `a` of row `r` is among the quads of the tile.
 fn quad_of(a: u32, r: u32) -> u32 {
     return r * ACROSS + a;
 }
 
-// Pixel `c` of quad `a` in row `r`.
 fn pixel_of(tile: Tile, a: u32, r: u32, c: u32) -> vec2u {
     return tile.pixel + vec2u(a * QUAD + c, r);
 }
 
-// The largest of the numbers of a tile.
 fn largest(numbers: array<vec4f, MAX_QUADS>) -> f32 {
     var most = numbers[0];
     for (var q = 1u; q < ACROSS * ROWS; q++) {

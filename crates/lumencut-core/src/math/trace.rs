@@ -1,4 +1,4 @@
-//! The one ray loop of the context: segment by segment, all rays of a tile abreast, skipping what changes nothing.
+//! The one ray loop of the context: all rays of a tile together, skipping segments that change nothing.
 
 use super::accumulate::{Blend, Rgba, Samples};
 use super::blocks::{Blocks, Range};
@@ -8,44 +8,36 @@ use super::ray::{Packet, Rays, STEPS, Segment};
 use super::sampler::Sampler;
 use super::sampling::SampledRun;
 
-/// What rays run through.
 #[derive(Clone, Copy)]
-pub struct Passage<'a> {
-    /// The rays' geometry.
+pub(crate) struct Passage<'a> {
     pub rays: &'a Rays,
-    /// The volume.
     pub sampler: &'a dyn Sampler,
-    /// What can be skipped; `None` samples everything, with the same result.
+    /// Blocks to skip; `None` samples everything, with the same result.
     pub blocks: Option<&'a Blocks>,
-    /// How colours are shaded, where they are.
     pub shading: Option<Shading>,
 }
 
-/// Sixteen rays and what they have gathered.
 #[derive(Clone, Debug)]
-pub struct RayPacket<'a> {
+pub(crate) struct RayPacket<'a> {
     rays: Packet,
     gathered: Blend<'a>,
 }
 
 impl<'a> RayPacket<'a> {
-    /// Rays at their start.
     #[inline(always)]
-    pub fn new(rays: Packet, gathered: Blend<'a>) -> Self {
+    pub(crate) fn new(rays: Packet, gathered: Blend<'a>) -> Self {
         Self { rays, gathered }
     }
 
-    /// The pixels.
     #[inline(always)]
-    pub fn finish(&self) -> Rgba {
+    pub(crate) fn finish(&self) -> Rgba {
         self.gathered.finish()
     }
 }
 
-/// Lets rays side by side gather their samples. They walk abreast: what one of them fetches from memory its neighbours
-/// need next.
+/// Adjacent rays advance together: memory that one ray fetches serves its neighbours.
 #[inline(always)]
-pub fn trace(passage: &Passage, packets: &mut [RayPacket]) {
+pub(crate) fn trace(passage: &Passage, packets: &mut [RayPacket]) {
     let mut longest = 0;
     for packet in &*packets {
         longest = longest.max(packet.rays.longest);
@@ -69,7 +61,6 @@ pub fn trace(passage: &Passage, packets: &mut [RayPacket]) {
     }
 }
 
-/// Takes the samples of one segment.
 #[inline(always)]
 fn visit(passage: &Passage, packet: &Packet, segment: &Segment, gathered: &mut Blend) {
     let line = packet.line(segment);

@@ -3,10 +3,9 @@
 // import math/blocks
 // import math/ray
 
-// The samples of a ray that are taken in a row.
+// Samples of a ray that are taken together.
 const RUN: i32 = 8;
 
-// What a ray finds.
 fn trace(ray: Ray) -> vec4f {
     let way = ray.part * (grid.z.xyz + grid.z_rest.xyz);
     var gathered = nothing();
@@ -21,7 +20,7 @@ fn trace(ray: Ray) -> vec4f {
         let place = sample_place(ray, n);
         let count = min(RUN, ray.count - n);
         for (var m = 0; m < count; m++) {
-            take(&gathered, Place(place.whole, place.part + f32(m) * way), ray.part);
+            take(&gathered, GridPosition(place.whole, place.part + f32(m) * way), ray.part);
         }
         n += RUN;
         if ignores(gathered, ALL) {
@@ -31,7 +30,6 @@ fn trace(ray: Ray) -> vec4f {
     return finished(gathered);
 }
 
-// The first sample from `first` on that can change something, looking first at blocks of a `level`.
 fn skip(ray: Ray, way: vec3f, gathered: Gathered, first: i32, level: ptr<function, u32>) -> i32 {
     let coarsest = parameters.level_count - 1u;
     var n = first;
@@ -49,7 +47,7 @@ fn skip(ray: Ray, way: vec3f, gathered: Gathered, first: i32, level: ptr<functio
     return n;
 }
 
-fn take(gathered: ptr<function, Gathered>, place: Place, thickness: f32) {
+fn take(gathered: ptr<function, Gathered>, place: GridPosition, thickness: f32) {
     let value = value_in(cell_of(place));
     if value < HUGE {
         gather(gathered, value, place, thickness);

@@ -1,4 +1,4 @@
-//! Transfer functions ready for rays: the colour and the opacity that an intensity has in the context.
+//! Transfer functions prepared for rays: colour and opacity of an intensity in the context.
 
 use super::blocks::{HUGE, Range};
 use super::lanes::{FAN, larger, smaller};
@@ -7,16 +7,14 @@ use crate::settings::{ControlPoint, TransferFunction};
 /// Opacity below which nothing is seen, far below one grey value over a whole body.
 pub const INVISIBLE: f32 = 1e-6;
 
-/// A rise from one control point to the next: what is added to all before it.
+/// A rise from one control point to the next: the amount added after all rises before it.
 #[derive(Clone, Copy, Debug)]
-pub struct Rise {
+pub(crate) struct Rise {
     /// The intensity at which it begins.
     pub start: f32,
-    /// The share of it that one unit of intensity makes.
+    /// Share of the rise per unit of intensity.
     pub per_intensity: f32,
-    /// What it adds to the colour.
     pub color: [f32; 3],
-    /// What it adds to the opacity.
     pub opacity: f32,
 }
 
@@ -32,19 +30,17 @@ impl Rise {
         }
     }
 
-    /// The intensity from which on all of it lies below: past a step, at which it has not begun.
+    /// The intensity from which on the rise is complete; after a step, at which it has not begun.
     fn end(&self) -> f32 {
         larger(self.start.next_up(), self.start + 1.0 / self.per_intensity)
     }
 
-    /// How much of the rise lies below an intensity.
     #[inline(always)]
     fn share(&self, intensity: f32) -> f32 {
         smaller(larger((intensity - self.start) * self.per_intensity, 0.0), 1.0)
     }
 }
 
-/// A transfer function ready for sixteen intensities at once.
 #[derive(Clone, Debug)]
 pub struct Colors {
     color: [f32; 3],
@@ -55,7 +51,6 @@ pub struct Colors {
 }
 
 impl Colors {
-    /// Prepares `function`.
     pub fn new(function: &TransferFunction) -> Self {
         let points = &function.points;
         Self {
@@ -67,39 +62,35 @@ impl Colors {
         }
     }
 
-    /// Colour and opacity before the first rise.
     pub fn first(&self) -> ([f32; 3], f32) {
         (self.color, self.opacity)
     }
 
-    /// The rises.
-    pub fn rises(&self) -> &[Rise] {
+    pub(crate) fn rises(&self) -> &[Rise] {
         &self.rises
     }
 
-    /// The ranges of intensity without opacity, by rising intensity.
     pub fn gaps(&self) -> &[Range] {
         &self.transparent
     }
 
-    /// The intensity from which on the colour stays the same.
+    /// The intensity from which on the colour is constant.
     #[inline(always)]
     pub fn last(&self) -> f32 {
         self.last
     }
 
-    /// Whether every value of a range is wholly transparent.
     #[inline(always)]
-    pub fn is_transparent(&self, range: Range) -> bool {
+    pub(crate) fn is_transparent(&self, range: Range) -> bool {
         self.transparent.iter().any(|gap| range.low >= gap.low && range.high <= gap.high)
     }
 
     /// The intensity up to which everything is transparent.
-    pub fn first_visible(&self) -> f32 {
+    pub(crate) fn first_visible(&self) -> f32 {
         self.transparent.first().filter(|gap| gap.low <= -HUGE).map_or(-HUGE, |gap| gap.high)
     }
 
-    /// The opacity of one millimetre of sixteen intensities.
+    /// The opacity of one millimetre at sixteen intensities.
     #[inline(always)]
     pub fn opacity(&self, intensity: &[f32; FAN]) -> [f32; FAN] {
         let mut opacity = [self.opacity; FAN];
@@ -130,7 +121,6 @@ impl Colors {
     }
 }
 
-/// The ranges of intensity without opacity, by rising intensity.
 fn transparent(points: &[ControlPoint]) -> Vec<Range> {
     let mut ranges = Vec::new();
     let mut low = Some(-HUGE).filter(|_| points[0].opacity == 0.0);

@@ -1,11 +1,9 @@
-// Transfer functions: the colour and the opacity of intensities.
+// Transfer functions: the colour and the opacity of intensities; see transfer.rs.
 // import math/window
 // import math/context_parameters
 
-// Opacity below which nothing is seen.
 const INVISIBLE: f32 = 1e-6;
 
-// How much of a rise lies below an intensity.
 fn share_of(rise: u32, intensity: f32) -> f32 {
     return clamp((intensity - parameters.rises[rise].start) * parameters.rises[rise].per_intensity, 0.0, 1.0);
 }
@@ -27,7 +25,6 @@ fn color_of(intensity: f32) -> vec3f {
     return color;
 }
 
-// Whether every value of a range is wholly transparent.
 fn is_transparent(range: vec2f) -> bool {
     for (var n = 0u; n < parameters.gap_count; n++) {
         if range.x >= parameters.gaps[n].x && range.y <= parameters.gaps[n].y {

@@ -1,9 +1,8 @@
 // The view: its pixels in view space (mm).
 
 struct ViewParameters {
-    // Pixels along x and y.
     size: vec2u,
-    // The side of a pixel (mm): a part of few digits, whose products with whole numbers are exact, and the rest.
+    // The side of a pixel (mm): a part of few digits, whose products with integers are exact, and the rest.
     spacing: vec2f,
     // The axes of view space in world space, each as a part of few digits and the rest.
     axes: array<Axis, 3>,
@@ -16,30 +15,25 @@ struct Axis {
 
 @group(0) @binding(0) var<uniform> view: ViewParameters;
 
-// View x of the centre of column `i`.
 fn view_x(i: u32) -> f32 {
     let n = f32(i) + 0.5 - 0.5 * f32(view.size.x);
     return n * view.spacing.x + n * view.spacing.y;
 }
 
-// View x of the centres of four columns.
 fn views_x(i: vec4u) -> vec4f {
     let n = vec4f(i) + 0.5 - 0.5 * f32(view.size.x);
     return n * view.spacing.x + n * view.spacing.y;
 }
 
-// View y of the centre of row `j`.
 fn view_y(j: u32) -> f32 {
     let n = 0.5 * f32(view.size.y) - f32(j) - 0.5;
     return n * view.spacing.x + n * view.spacing.y;
 }
 
-// Whether a thread has a pixel.
 fn in_view(pixel: vec2u) -> bool {
     return all(pixel < view.size);
 }
 
-// Where a pixel lies in an image.
 fn place_of(pixel: vec2u) -> u32 {
     return pixel.y * view.size.x + pixel.x;
 }

@@ -1,18 +1,20 @@
-//! The walk through a hierarchy for one tile of pixels: near nodes first, cut off by the tile's worst key so far.
+//! The walk through a hierarchy for one tile: near nodes first, cut off by the tile's worst key so far.
 
 use super::candidates::candidates;
 use super::cost::Rule;
 use super::hierarchy::{Boxes, Hierarchy};
-use super::lanes::{COLUMNS, FAN, PART_PIXELS, PARTS, PIXELS, ROWS, SETTLED, UNSET, larger, largest, places};
+use super::lanes::{
+    COLUMNS, EXCLUDED, FAN, PART_PIXELS, PARTS, PIXELS, ROWS, UNSET, larger, largest, places,
+};
 use super::nearest::{NearestPoint, lower_distance};
 use super::pieces::Envelope;
 use super::tile::{Tile, lane};
 
-/// Fifteen brothers wait on each of the eight heights that 2³² slots can have.
+/// Fifteen siblings wait on each of the eight heights that 2³² slots can have.
 const STACK: usize = 8 * FAN;
 
-/// Nodes that wait for their visit, the nearest on top: bound, height and place.
-pub struct Stack {
+/// Waiting nodes, the nearest on top: bound, height and index.
+pub(crate) struct Stack {
     waiting: [(f32, u32, u32); STACK],
     length: usize,
 }
@@ -23,18 +25,22 @@ impl Stack {
         Self { waiting: [(0.0, 0, 0); STACK], length: 0 }
     }
 
-    /// The root of a hierarchy alone.
     #[inline(always)]
-    pub fn root(hierarchy: &Hierarchy, bound: f32) -> Self {
+    pub(crate) fn root(hierarchy: &Hierarchy, bound: f32) -> Self {
         let mut stack = Self::new();
         stack.waiting[0] = (bound, hierarchy.heights.len() as u32, 0);
         stack.length = 1;
         stack
     }
 
-    /// Puts the nodes of one box set within `limit` on the stack, farthest first.
     #[inline(always)]
-    pub fn push_nodes(&mut self, tile: &Tile, bounds: &[f32; FAN], limit: f32, [height, first]: [u32; 2]) {
+    pub(crate) fn push_nodes(
+        &mut self,
+        tile: &Tile,
+        bounds: &[f32; FAN],
+        limit: f32,
+        [height, first]: [u32; 2],
+    ) {
         let base = self.length;
         for n in places(tile.bits.within(bounds, limit)) {
             let bound = bounds[n];
@@ -48,25 +54,23 @@ impl Stack {
         }
     }
 
-    /// Takes the nearest node: its bound, its height and its place there.
     #[inline(always)]
-    pub fn pop(&mut self) -> Option<(f32, u32, u32)> {
+    pub(crate) fn pop(&mut self) -> Option<(f32, u32, u32)> {
         self.length = self.length.checked_sub(1)?;
         Some(self.waiting[self.length])
     }
 }
 
-/// Bundles that held winners in the tile before: most of this tile's winners are there too.
+/// Bundles that held winners in the previous tile: most winners of this tile are there too.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Seeds {
+pub(crate) struct Seeds {
     bundles: [u32; 4],
     count: usize,
 }
 
 impl Seeds {
-    /// The bundles of the winners at the corners of a tile.
     #[inline(always)]
-    pub fn collect(envelope: &Envelope, bundle_of_slot: &[u32]) -> Self {
+    pub(crate) fn collect(envelope: &Envelope, bundle_of_slot: &[u32]) -> Self {
         let mut seeds = Self::default();
         for l in [lane(0, 0), lane(0, COLUMNS - 1), lane(ROWS - 1, 0), lane(ROWS - 1, COLUMNS - 1)] {
             let slot = envelope.piece[l] / 2;
@@ -86,9 +90,8 @@ impl Seeds {
     }
 }
 
-/// Finds the winner of every wanted pixel of the tile among all pieces of the hierarchy.
 #[inline(always)]
-pub fn lowest_keys<const LUMEN_FIRST: bool>(
+pub(crate) fn lowest_keys<const LUMEN_FIRST: bool>(
     hierarchy: &Hierarchy,
     tile: &Tile,
     rule: &Rule,
@@ -99,9 +102,9 @@ pub fn lowest_keys<const LUMEN_FIRST: bool>(
     let mut limit = rule.limit(UNSET);
     let mut limits = [limit; PARTS];
     let root = hierarchy.heights.len() as u32;
-    stack.waiting[0] = (SETTLED, root, 0);
+    stack.waiting[0] = (EXCLUDED, root, 0);
     for s in 0..seeds.count {
-        stack.waiting[s + 1] = (SETTLED, 0, seeds.bundles[s]);
+        stack.waiting[s + 1] = (EXCLUDED, 0, seeds.bundles[s]);
     }
     stack.length = seeds.count + 1;
     while let Some((bound, height, node)) = stack.pop() {
@@ -112,7 +115,7 @@ pub fn lowest_keys<const LUMEN_FIRST: bool>(
             let boxes: &Boxes = &hierarchy.heights[height as usize - 1][node as usize];
             let bounds = boxes.key_bounds::<LUMEN_FIRST>(tile, rule);
             stack.push_nodes(tile, &bounds, limit, [height - 1, node * FAN as u32]);
-        } else if bound <= SETTLED || !seeds.contains(node) {
+        } else if bound <= EXCLUDED || !seeds.contains(node) {
             let bundle = &hierarchy.bundles[node as usize];
             let found = candidates::<LUMEN_FIRST>(tile, bundle, rule, &limits);
             for pair in places(found.stripes) {
@@ -129,10 +132,10 @@ pub fn lowest_keys<const LUMEN_FIRST: bool>(
     }
 }
 
-/// Lowers the squared distance of every pixel of the tile to that of the nearest segment. `nearest` is any point
-/// of the segments, such as the one nearest to the tile before, and becomes this tile's.
+/// Lowers squared distances to those of the nearest segments. `nearest` starts as any point of the segments,
+/// such as the previous tile's nearest, and becomes this tile's.
 #[inline(always)]
-pub fn smallest_distances(
+pub(crate) fn smallest_distances(
     hierarchy: &Hierarchy,
     tile: &Tile,
     nearest: &mut NearestPoint,

@@ -3,14 +3,12 @@
 // import math/pieces
 // import math/candidates
 
-// The smallest key that a node's pieces can reach in the tile.
 fn node_bound(tile: Tile, level: u32, node: Node) -> f32 {
     let around = boxes[box_of(level, node)];
     let away = sqrt(squared_distance(tile, around.low, around.high));
     return key_bound(around.z, away, around.radius, around.tiers);
 }
 
-// The most promising of a node and its brothers after it.
 fn most_promising(tile: Tile, level: u32, first: Node) -> Node {
     var best = first;
     var least = ABSENT;
@@ -23,7 +21,7 @@ fn most_promising(tile: Tile, level: u32, first: Node) -> Node {
     return best;
 }
 
-// A bundle that promises low keys: from the root to the most promising box of each height.
+// A bundle likely to hold low keys: from the root to the box with the lowest bound of each height.
 fn promising_bundle(tile: Tile, level: u32) -> u32 {
     var node = most_promising(tile, level, first_node(level));
     while node.height > 0u {
@@ -32,7 +30,6 @@ fn promising_bundle(tile: Tile, level: u32) -> u32 {
     return node.index;
 }
 
-// The next bundle, from a node on, that can hold a winner; beyond the last node if there is none.
 fn next_bundle(tile: Tile, level: u32, first: Node, limit: f32) -> Node {
     var node = first;
     while !is_beyond(level, node) {
@@ -49,8 +46,8 @@ fn next_bundle(tile: Tile, level: u32, first: Node, limit: f32) -> Node {
     return node;
 }
 
-// Offers the pieces of a bundle that can win; gives the limit beyond which nothing wins any more. What can win is found
-// first: threads that run in step evaluate their candidates together.
+// Returns the limit beyond which nothing wins any more. Candidates are found first, so that threads in step
+// evaluate them together.
 fn offer_bundle(tile: Tile, bundle: u32, limit: f32) -> f32 {
     var candidates = 0u;
     for (var s = 0u; s < FAN; s++) {
@@ -60,7 +57,7 @@ fn offer_bundle(tile: Tile, bundle: u32, limit: f32) -> f32 {
     }
     while candidates != 0u {
         let slot = slots[bundle * FAN + countTrailingZeros(candidates) / 2u];
-        // A stripe and its wedge in one go.
+        // A stripe and its wedge together.
         let pair = 3u << (countTrailingZeros(candidates) & ~1u);
         offer_stripe(slot);
         offer_wedge(slot);
@@ -69,7 +66,6 @@ fn offer_bundle(tile: Tile, bundle: u32, limit: f32) -> f32 {
     return key_limit(largest(winner_key));
 }
 
-// Finds the winner of every wanted pixel of the tile among all pieces of a level.
 fn lowest_keys(tile: Tile, level: u32) {
     let first_bundle = parameters.levels[level].first_bundle;
     let seed = promising_bundle(tile, level);

@@ -1,8 +1,7 @@
 //! The distance of pixels to the nearest wall of any vessel, in the view plane.
 //!
-//! Seen along the view, a vessel is the union of the discs around the points of its centerline. Its outline is therefore no
-//! farther from a pixel than from any neighbour by more than they are apart: the distance has no leaps and a slope of at most 1,
-//! however the radius changes along the vessel.
+//! In projection a vessel is the union of the discs around the points of its centerline. The distance to its
+//! outline therefore has no leaps and a slope of at most 1, however the radius changes along the vessel.
 
 use super::hierarchy::{Boxes, Hierarchy};
 use super::lanes::{ABSENT, FAN, FAR, PIXELS, larger, largest, places, smaller};
@@ -11,25 +10,24 @@ use super::pieces::Bundle;
 use super::tile::Tile;
 use super::walk::Stack;
 
-/// What is asked of the distances: they need to be exact between two lengths alone.
+/// The lengths between which distances must be exact.
 #[derive(Clone, Copy, Debug)]
-pub struct WallRange {
-    /// What is nearer than this (mm) counts as this near.
+pub(crate) struct WallRange {
+    /// Smaller distances (mm) count as this.
     pub near: f32,
-    /// What is farther than this (mm) counts as this far.
+    /// Larger distances (mm) count as this.
     pub far: f32,
-    /// More than the rounding error of a projected distance (mm).
+    /// A bound on the rounding error of a projected distance (mm).
     pub slack: f32,
 }
 
-/// The most that the nearest disc of a segment can stand beside a pixel's foot, for each mm of the pixel's distance from the
-/// line: beyond it one end of the segment is nearest wherever a pixel lies.
-pub const MOST_LEAN: f32 = 1e6;
+/// The largest `lean`: beyond it one end of the segment is nearest for every pixel.
+pub const MAX_LEAN: f32 = 1e6;
 
 /// Lowers each pixel's distance (mm) from the wall, negative within, to that of the segment of slot `s`.
 ///
-/// The outline of a segment whose radius changes touches its largest disc towards the pixel, which stands beside the foot
-/// of the pixel: by its distance from the line, times the lean.
+/// The outline of a tapering segment touches its largest disc towards the pixel. That disc is off the pixel's
+/// foot by the lean times the distance from the line.
 #[inline(always)]
 fn lower_beyond(tile: &Tile, beyond: &mut [f32; PIXELS], bundle: &Bundle, s: usize) {
     let (x, y) = (bundle.x[s], bundle.y[s]);
@@ -47,18 +45,17 @@ fn lower_beyond(tile: &Tile, beyond: &mut [f32; PIXELS], bundle: &Bundle, s: usi
     }
 }
 
-/// How far beside the foot of a pixel its nearest disc stands, for each mm of its distance from the line, where the radius
-/// changes by `taper` mm for each mm.
+/// Offset of the nearest disc from a pixel's foot per mm from the line, for a `taper` in mm per mm.
 #[inline(always)]
 fn lean(taper: f32) -> f32 {
-    let rest = larger(1.0 - taper * taper, 1.0 / (MOST_LEAN * MOST_LEAN));
-    smaller(larger(taper / rest.sqrt(), -MOST_LEAN), MOST_LEAN)
+    let rest = larger(1.0 - taper * taper, 1.0 / (MAX_LEAN * MAX_LEAN));
+    smaller(larger(taper / rest.sqrt(), -MAX_LEAN), MAX_LEAN)
 }
 
-/// Lowers the distance (mm) of every pixel of the tile from the wall of its nearest vessel, or chosen vessel, negative within,
-/// as far as `range` asks: nothing farther is looked for, and nothing more once all pixels are near.
+/// Lowers the distances (mm, negative within) to the nearest wall, of chosen vessels if `OF_FIRST`. The
+/// search ends beyond `range.far`, and once all pixels are within `range.near`.
 #[inline(always)]
-pub fn nearest_walls<const OF_FIRST: bool>(
+pub(crate) fn nearest_walls<const OF_FIRST: bool>(
     hierarchy: &Hierarchy,
     tile: &Tile,
     range: &WallRange,
@@ -87,8 +84,6 @@ pub fn nearest_walls<const OF_FIRST: bool>(
     }
 }
 
-/// The smallest distance (mm) that a pixel of the tile can have from the wall of each segment; [`ABSENT`] for one that does not
-/// count.
 #[inline(always)]
 fn segment_bounds<const OF_FIRST: bool>(bundle: &Bundle, tile: &Tile, slack: f32) -> [f32; FAN] {
     let [cx, cy] = tile.area.center;
@@ -102,8 +97,6 @@ fn segment_bounds<const OF_FIRST: bool>(bundle: &Bundle, tile: &Tile, slack: f32
 }
 
 impl Boxes {
-    /// The smallest distance (mm) that a pixel of the tile can have from the walls within each node; [`ABSENT`] where none
-    /// counts.
     #[inline(always)]
     fn wall_bounds<const OF_FIRST: bool>(&self, tile: &Tile, slack: f32) -> [f32; FAN] {
         let mut bounds = self.squared_distances(&tile.area);

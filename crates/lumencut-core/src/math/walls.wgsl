@@ -1,22 +1,17 @@
-// The distance of pixels to the nearest wall of any vessel, in the view plane.
+// The distance of pixels to the nearest wall of any vessel, in the view plane; see walls.rs.
 // import math/hierarchy
 // import math/nearest
 
-// The most that the nearest disc of a segment can stand beside a pixel's foot, for each mm of the pixel's distance from the line:
-// beyond it one end of the segment is nearest wherever a pixel lies.
-const MOST_LEAN: f32 = 1e6;
+const MAX_LEAN: f32 = 1e6;
 
 // The distance (mm) of each pixel of the tile from the wall so far, negative within.
 var<private> beyond: array<vec4f, MAX_QUADS>;
 
-// How far beside the foot of a pixel its nearest disc stands, for each mm of its distance from the line, where the radius
-// changes by `taper` mm for each mm.
 fn lean(taper: f32) -> f32 {
-    let rest = max(1.0 - taper * taper, 1.0 / (MOST_LEAN * MOST_LEAN));
-    return clamp(taper / sqrt(rest), -MOST_LEAN, MOST_LEAN);
+    let rest = max(1.0 - taper * taper, 1.0 / (MAX_LEAN * MAX_LEAN));
+    return clamp(taper / sqrt(rest), -MAX_LEAN, MAX_LEAN);
 }
 
-// Lowers each pixel's distance from the wall to that of the segment.
 fn lower_beyond(slot: Slot) {
     let per_square = slot.inverse_length * slot.inverse_length;
     let leaning = lean(slot.radius_change * slot.inverse_length) * per_square;
@@ -35,7 +30,6 @@ fn lower_beyond(slot: Slot) {
     }
 }
 
-// The smallest distance that a pixel of the tile can have from the walls within a node; ABSENT where none counts.
 fn wall_bound(tile: Tile, node: Node, of_first: bool) -> f32 {
     let around = boxes[box_of(0u, node)];
     if of_first && around.tiers <= 0.0 {
@@ -44,7 +38,6 @@ fn wall_bound(tile: Tile, node: Node, of_first: bool) -> f32 {
     return sqrt(squared_distance(tile, around.low, around.high)) - around.radius - parameters.distance_slack;
 }
 
-// The next bundle, from a node on, that can lower a distance; beyond the last node if there is none.
 fn next_walls(tile: Tile, first: Node, limit: f32, of_first: bool) -> Node {
     var node = first;
     while !is_beyond(0u, node) {
@@ -61,7 +54,6 @@ fn next_walls(tile: Tile, first: Node, limit: f32, of_first: bool) -> Node {
     return node;
 }
 
-// Meets the segments of a bundle that can lower a distance.
 fn meet_walls(tile: Tile, bundle: u32, limit: f32, of_first: bool) {
     for (var s = 0u; s < FAN; s++) {
         let slot = slots[bundle * FAN + s];
@@ -74,8 +66,6 @@ fn meet_walls(tile: Tile, bundle: u32, limit: f32, of_first: bool) {
     }
 }
 
-// Finds the distance of every pixel of the tile from the wall of its nearest vessel, or chosen vessel: nothing farther than `far`
-// is looked for, and nothing more once all pixels are nearer than `near`.
 fn nearest_walls(tile: Tile, near: f32, far: f32, of_first: bool) {
     for (var q = 0u; q < ACROSS * ROWS; q++) {
         beyond[q] = vec4f(FAR);

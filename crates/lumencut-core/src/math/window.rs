@@ -5,13 +5,11 @@ use bytemuck::{Pod, Zeroable};
 use super::lanes::{larger, smaller};
 use crate::settings::{Opacity, Window};
 
-/// Linear map of intensity to [0, 1], ready for one multiplication and one addition per pixel.
+/// Linear map of intensity to [0, 1] by one multiplication and one addition.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
 pub struct Ramp {
-    /// What an intensity is multiplied by.
     pub scale: f32,
-    /// What is added then.
     pub offset: f32,
 }
 
@@ -21,24 +19,21 @@ impl Ramp {
         Self { scale: (1.0 / span) as f32, offset: (-zero / span) as f32 }
     }
 
-    /// Grey of a window.
-    pub fn grey(window: Window) -> Self {
+    pub(crate) fn grey(window: Window) -> Self {
         Self::between(window.level - window.width / 2.0, window.level + window.width / 2.0)
     }
 
     /// Opacity of a ramp; opaque everywhere without one.
-    pub fn opacity(opacity: Option<Opacity>) -> Self {
+    pub(crate) fn opacity(opacity: Option<Opacity>) -> Self {
         opacity.map_or(Self { scale: 0.0, offset: 1.0 }, |o| Self::between(o.transparent, o.opaque))
     }
 
-    /// The intensity at which the ramp begins to rise from 0.
-    pub fn zero(&self) -> f32 {
+    pub(crate) fn zero(&self) -> f32 {
         -self.offset / self.scale
     }
 
-    /// The ramp at an intensity, in [0, 1].
     #[inline(always)]
-    pub fn at(&self, intensity: f32) -> f32 {
+    pub(crate) fn at(&self, intensity: f32) -> f32 {
         smaller(larger(intensity * self.scale + self.offset, 0.0), 1.0)
     }
 }

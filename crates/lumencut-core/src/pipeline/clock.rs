@@ -5,19 +5,17 @@ use web_time::Instant;
 use crate::frame::Timing;
 use crate::stages::Stage;
 
-/// The time since the last stage ended, and what all of them took.
 pub(super) struct Clock {
     last: Instant,
     pub timings: Vec<Timing>,
 }
 
 impl Clock {
-    pub fn start() -> Self {
+    pub(super) fn start() -> Self {
         Self { last: Instant::now(), timings: Vec::new() }
     }
 
-    /// Notes that a stage has ended.
-    pub fn lap(&mut self, stage: Stage) {
+    pub(super) fn lap(&mut self, stage: Stage) {
         let now = Instant::now();
         let milliseconds = (now - self.last).as_secs_f64() * 1e3;
         self.timings.push(Timing { stage: stage.name(), milliseconds });

@@ -1,4 +1,4 @@
-//! What else is known of a cut surface, for those who judge it.
+//! Further images of a cut surface, for validation.
 
 use super::images::Images;
 use super::pass::{CutSurfacePass, Lines};
@@ -18,10 +18,8 @@ pub struct SurfaceDetails {
 }
 
 impl SurfaceDetails {
-    /// The images that a request for them asks for.
     pub(super) const WANTED: ImageSet = ImageSet::of(&[Image::Sheet, Image::Leap]);
 
-    /// The details of a view whose request asks for what is [`SurfaceDetails::WANTED`].
     pub(super) fn of(pass: &CutSurfacePass) -> Result<Self> {
         let (settings, mut images) = (pass.settings, Images::default());
         for stage in Stage::of_cut_surface(settings, Self::WANTED) {

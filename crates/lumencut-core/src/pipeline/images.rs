@@ -1,4 +1,4 @@
-//! The images of one view while it is made, on the CPU.
+//! The images of one view in the making, on the CPU.
 
 use crate::camera::Camera;
 use crate::frame::{Frame, Timing};
@@ -6,7 +6,7 @@ use crate::geometry::Geometry;
 use crate::stages::depth::Sheet;
 use crate::stages::focus::Shares;
 
-/// The images by the names that the table of stages gives them; an image that is not there yet is empty.
+/// The images by their names in the table of stages; a missing image is empty.
 #[derive(Debug, Default)]
 #[allow(missing_docs)]
 pub struct Images {
@@ -26,7 +26,7 @@ pub struct Images {
 }
 
 impl Images {
-    /// A frame of the cut surface. Where no filter has run, the unfiltered depth is the depth.
+    /// A frame of the cut surface. If no filter has run, the unfiltered depth is the depth.
     pub(super) fn into_cut_surface(self, camera: Camera, timings: Vec<Timing>) -> Frame {
         let depth = if self.depth.is_empty() { self.unfiltered_depth } else { self.depth };
         let geometry = Geometry::Orthographic { camera, depth };
@@ -34,7 +34,6 @@ impl Images {
         Frame { vessel, leap, focus, distance, timings, ..Frame::of(geometry) }
     }
 
-    /// `frame` with what is shown where it looks.
     pub(super) fn into_frame(self, mut frame: Frame, timings: Vec<Timing>) -> Frame {
         frame.timings.extend(timings);
         Frame { value: self.value, context: self.context, image: self.picture, ..frame }

@@ -22,24 +22,18 @@ use crate::stages::{Image, ImageSet, Stage, Work};
 use crate::stop::{filled, resize};
 
 /// What the stages that find the cut surface share.
+#[doc(hidden)]
 pub struct CutSurfacePass<'a> {
-    /// Pixels, instruction set, and whether to stop.
     pub work: Work<'a>,
-    /// The levels in the view.
     pub surface: CutSurface<'a>,
     /// Whether the stage `depth` writes the sheet.
     pub has_sheet: bool,
-    /// The images that shall come of the view.
     pub wanted: ImageSet,
-    /// How the cut surface is made.
     pub settings: &'a Settings,
 }
 
 impl CutSurfacePass<'_> {
-    /// Runs one of the stages that find the cut surface; others change nothing here.
-    ///
-    /// # Errors
-    /// [`crate::error::ErrorKind::Interrupted`].
+    /// Runs a stage that finds the cut surface; other stages do nothing here.
     pub fn run(&self, stage: Stage, images: &mut Images) -> Result<()> {
         let (work, pixels) = (&self.work, self.work.pixels());
         match stage {
@@ -50,7 +44,7 @@ impl CutSurfacePass<'_> {
             Stage::Depth => {
                 images.unfiltered_depth = vec![0.0; pixels];
                 images.vessel = vec![0; pixels];
-                // What is there from another view is written anew.
+                // Overwrites the previous view.
                 resize(&mut images.sheet, if self.has_sheet { pixels } else { 0 }, [0.0; 4], work.stop)?;
                 let Images { unfiltered_depth, vessel, sheet, .. } = images;
                 let written = DepthImages { depth: unfiltered_depth, vessel, sheet };
@@ -78,7 +72,7 @@ impl CutSurfacePass<'_> {
             return Ok(());
         };
         images.focus = vec![[0.0; 2]; self.work.pixels()];
-        // An image that is asked for is whole.
+        // A requested image is complete.
         let is_whole = self.wanted.has(Image::Focus) || self.settings.silhouette_rule != SilhouetteRule::Leap;
         let leap = if is_whole { &[][..] } else { &images.leap };
         focus(&self.work, &self.surface, &parameters, leap, &mut images.focus)
@@ -96,31 +90,22 @@ impl CutSurfacePass<'_> {
 
 /// What the stages that show the volume share.
 #[derive(Clone, Copy)]
+#[doc(hidden)]
 pub struct LookPass<'a> {
     /// Pixels, instruction set, and whether to stop.
     pub work: Work<'a>,
-    /// The volume.
     pub volume: &'a SharedVolume<'a>,
-    /// How it is shown.
     pub settings: &'a Settings,
-    /// Where the pixels look.
     pub geometry: &'a Geometry,
-    /// The vessel of each pixel; empty where none is known.
     pub vessel: &'a [i32],
-    /// Where the surface leaps; empty where it is not known.
     pub leap: &'a [u32],
-    /// How much of the surface and of its silhouettes is shown; empty where all of both is.
     pub focus: &'a [Shares],
-    /// The images that shall come of the view.
     pub wanted: ImageSet,
 }
 
 impl LookPass<'_> {
-    /// Runs one of the stages that show the volume; others change nothing here.
-    ///
-    /// # Errors
-    /// [`crate::error::ErrorKind::Settings`] for a slab or a step that does not fit the volume,
-    /// [`crate::error::ErrorKind::Interrupted`].
+    /// Runs a stage that shows the volume. Fails with `Settings` for a slab or step that does not fit the
+    /// volume.
     pub fn run(&self, stage: Stage, images: &mut Images) -> Result<()> {
         match stage {
             Stage::Surface => self.surface(images),
@@ -140,7 +125,7 @@ impl LookPass<'_> {
 
     fn surface(&self, images: &mut Images) -> Result<()> {
         let (slab, volume) = (self.settings.slab, &self.volume.volume);
-        // A mean looks at everything: it has no use for blocks.
+        // A mean reads every voxel, so blocks cannot help.
         let searches = slab.filter(|slab| slab.mode != SlabMode::Mean);
         let blocks = searches.map(|_| self.volume.blocks(self.work.stop)).transpose()?;
         images.value = vec![0.0; self.work.pixels()];
@@ -148,7 +133,6 @@ impl LookPass<'_> {
         surface(&self.work, &scene, &mut images.value)
     }
 
-    /// How much of the surface and of its silhouettes is shown, where not all of both is.
     fn focus(&self) -> Option<&[Shares]> {
         Some(self.focus).filter(|focus| !focus.is_empty())
     }
@@ -165,13 +149,12 @@ impl LookPass<'_> {
         Ok(())
     }
 
-    /// Where the rays start, and the volume's blocks, where any ray does.
     fn blocks(&self, images: &mut Images) -> Result<()> {
         self.starts(images)?;
         if has_rays(&images.start) { self.volume.blocks(self.work.stop).map(drop) } else { Ok(()) }
     }
 
-    /// Where the rays start: without a cut surface every one crosses the whole volume.
+    /// Without a cut surface every ray crosses the whole volume.
     fn starts(&self, images: &mut Images) -> Result<()> {
         images.start = filled(self.work.pixels(), WHOLE, self.work.stop)?;
         if self.geometry.has_surface() {
@@ -183,7 +166,7 @@ impl LookPass<'_> {
         Ok(())
     }
 
-    /// Behind a cut surface that hides everything there is nothing to gather.
+    /// Skips the context behind an opaque cut surface.
     fn context(&self, images: &mut Images) -> Result<()> {
         let (Some(camera), Some(chosen)) = (self.geometry.camera(), &self.settings.context) else {
             return Ok(());
@@ -222,23 +205,20 @@ impl LookPass<'_> {
     }
 }
 
-/// What silhouettes are drawn from.
 pub(super) struct Lines<'a> {
     pub depth: &'a [f32],
     pub vessel: &'a [i32],
     pub leap: &'a [u32],
-    /// Empty where there is no volume.
+    /// Empty without a volume.
     pub value: &'a [f32],
 }
 
 impl<'a> Lines<'a> {
-    /// Those of a frame, whatever it shows.
-    pub fn of(frame: &'a Frame) -> Self {
+    pub(super) fn of(frame: &'a Frame) -> Self {
         Self { depth: frame.depth(), vessel: &frame.vessel, leap: &frame.leap, value: &[] }
     }
 
-    /// The strength of the silhouettes by the rule of the settings.
-    pub fn strength(&self, work: &Work, settings: &Settings, camera: &Camera) -> Result<Vec<f32>> {
+    pub(super) fn strength(&self, work: &Work, settings: &Settings, camera: &Camera) -> Result<Vec<f32>> {
         let (mut strength, parameters) =
             (vec![0.0; work.pixels()], SilhouetteParameters::new(settings, camera));
         match settings.silhouette_rule {
@@ -253,7 +233,6 @@ impl<'a> Lines<'a> {
     }
 }
 
-/// Whether any ray starts.
 fn has_rays(start: &[f32]) -> bool {
     start.iter().any(|start| *start < NONE)
 }

@@ -1,4 +1,4 @@
-//! Where vessels meet, and how far two places of a tree lie apart along it.
+//! Where vessels meet, and distances between points of a tree along it.
 
 use std::borrow::Cow;
 use std::collections::{BinaryHeap, HashMap};
@@ -7,47 +7,43 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use glam::DVec3;
 
-use crate::math::place_map::PlaceMap;
+use crate::math::position_map::PositionMap;
 use crate::math::projection::Level;
 use crate::math::same_place::VESSEL_END;
 
-/// A place where a vessel meets others.
 #[derive(Clone, Copy, Debug)]
 struct Meeting {
     vessel: u32,
-    /// Where along the vessel it is (mm).
+    /// Arc length along the vessel (mm).
     arc_length: f64,
     junction: u32,
 }
 
-/// A place that can be reached from a junction, and how far that is (mm).
+/// A meeting reachable from a junction, and its distance (mm).
 #[derive(Clone, Copy, Debug)]
 struct Reached {
     meeting: u32,
     distance: f32,
 }
 
-/// How many places that can be reached are kept, of all junctions together: more are found anew at each need.
-const MOST_KEPT: usize = 1 << 24;
+/// The most reachable meetings cached over all junctions; the rest is recomputed on each use.
+const MAX_CACHED: usize = 1 << 24;
 
 /// Where the vessels of a tree meet: wherever one of them ends at a point of another.
 #[derive(Debug)]
 pub struct Connections {
-    /// The places of each vessel, in the order of vessels and along them.
     meetings: Vec<Meeting>,
-    /// The first place of each vessel, and the number of places at the end.
     first_of_vessel: Vec<u32>,
-    /// The places of each junction.
     of_junction: Vec<Vec<u32>>,
-    /// What can be reached from each junction, found when it is first needed, and how many places that is so far.
+    /// The meetings reachable from each junction, computed on first use, and their number so far.
     reached: Vec<OnceLock<Vec<Reached>>>,
     kept: AtomicUsize,
-    /// How far apart places still belong together (mm).
+    /// The longest distance along the tree between points that belong together (mm).
     threshold: f64,
 }
 
 impl Connections {
-    /// The connections of the vessels of `level`, to tell which places lie within `threshold` mm of each other.
+    /// The connections of the vessels of `level`, for distances along the tree up to `threshold` mm.
     pub fn new(level: &Level, threshold: f64) -> Self {
         let slots = level.first_slot.windows(2).flat_map(|slots| [slots[0], slots[1] - 1]);
         let ends = Ends::of(slots.map(|slot| level.points[slot as usize]));
@@ -66,7 +62,7 @@ impl Connections {
         Self { meetings, first_of_vessel, of_junction, reached, kept: AtomicUsize::new(0), threshold }
     }
 
-    /// Whether two places, each a vessel and an arc length (mm), lie within the threshold of each other along the tree.
+    /// Whether two points, each a vessel and an arc length (mm), lie within the threshold along the tree.
     pub fn are_near(&self, (vessel, arc_length): (i32, f32), (other, other_arc_length): (i32, f32)) -> bool {
         let (from, to) = (f64::from(arc_length), f64::from(other_arc_length));
         if vessel == other && (from - to).abs() <= self.threshold {
@@ -88,8 +84,7 @@ impl Connections {
         })
     }
 
-    /// All that may lie within the threshold of a part of a vessel between two arc lengths (mm): vessels, and from and to
-    /// which arc length.
+    /// What may lie within the threshold of a part of a vessel: vessels with arc lengths from and to (mm).
     pub fn stretches(&self, vessel: u32, [low, high]: [f64; 2]) -> Vec<(u32, [f64; 2])> {
         let mut stretches = vec![(vessel, [low - self.threshold, high + self.threshold])];
         for meeting in self.meetings_of(vessel) {
@@ -113,7 +108,6 @@ impl Connections {
         &self.meetings[first..end]
     }
 
-    /// The places that can be reached from a junction within the threshold, in the order of vessels and along them.
     fn reached(&self, junction: u32) -> Cow<'_, [Reached]> {
         let known = &self.reached[junction as usize];
         if let Some(reached) = known.get() {
@@ -125,16 +119,16 @@ impl Connections {
             reached.extend(there.map(|meeting| Reached { meeting: *meeting, distance: distance as f32 }));
         }
         reached.sort_unstable_by_key(|at| at.meeting);
-        if self.kept.fetch_add(reached.len(), Ordering::Relaxed) + reached.len() > MOST_KEPT {
+        if self.kept.fetch_add(reached.len(), Ordering::Relaxed) + reached.len() > MAX_CACHED {
             return Cow::Owned(reached);
         }
         Cow::Borrowed(known.get_or_init(|| reached))
     }
 
-    /// The junctions within the threshold of one of them, and how far they are along the tree (mm): Dijkstra's algorithm.
+    /// Junctions within the threshold of one, and their distances along the tree (mm): Dijkstra's algorithm.
     fn shortest_ways(&self, start: u32) -> Vec<(u32, f64)> {
         let mut known: HashMap<u32, f64> = HashMap::from([(start, 0.0)]);
-        // Distances are not negative, so their bits have their order; the heap hands out the largest first.
+        // The bits of non-negative floats have their order; the heap pops the largest first.
         let mut waiting = BinaryHeap::from([(std::cmp::Reverse(0.0f64.to_bits()), start)]);
         while let Some((std::cmp::Reverse(bits), junction)) = waiting.pop() {
             let distance = f64::from_bits(bits);
@@ -157,22 +151,19 @@ impl Connections {
     }
 }
 
-/// The ends of all vessels; those in the same place are one junction.
+/// The ends of all vessels; ends at the same position are one junction.
 pub(super) struct Ends {
-    places: PlaceMap<u32>,
-    /// How many junctions there are.
+    places: PositionMap<u32>,
     pub count: u32,
 }
 
 impl Ends {
-    /// The junctions of these ends of vessels.
-    pub fn of(places: impl Iterator<Item = DVec3>) -> Self {
-        let mut ends = Self { places: PlaceMap::new(VESSEL_END), count: 0 };
+    pub(super) fn of(places: impl Iterator<Item = DVec3>) -> Self {
+        let mut ends = Self { places: PositionMap::new(VESSEL_END), count: 0 };
         places.for_each(|end| ends.add(end));
         ends
     }
 
-    /// Adds an end as a junction of its own, unless there is one.
     fn add(&mut self, end: DVec3) {
         if self.at(end).is_none() {
             self.places.add(end, &self.count);
@@ -180,8 +171,7 @@ impl Ends {
         }
     }
 
-    /// The junction at `point`.
-    pub fn at(&self, point: DVec3) -> Option<u32> {
+    pub(super) fn at(&self, point: DVec3) -> Option<u32> {
         self.places.at(point).copied()
     }
 }

@@ -1,9 +1,9 @@
-//! Curved Planar Reformation (CPR) of one vessel: projected, stretched and straightened (Kanitsar et al.: CPR - Curved
-//! Planar Reformation, IEEE Visualization 2002, doi:10.1109/VISUAL.2002.1183754).
+//! Curved Planar Reformation (CPR) of one vessel: projected, stretched and straightened (Kanitsar et al.: CPR
+//! - Curved Planar Reformation, IEEE Visualization 2002, doi:10.1109/VISUAL.2002.1183754).
 //!
-//! Each mode is a surface of straight lines across the vessel, laid out as an image: x to the right and y downwards in mm,
-//! 0 in the middle column and in the first row. A mode says which line a row shows, and where a world point lies in the
-//! image. No picture is ever mirrored: to the right × downwards = into the scene.
+//! Each mode is a surface of straight lines across the vessel, laid out as an image: x to the right and y
+//! downwards in mm, 0 in the middle column and in the first row. A mode defines the line of each row, and the
+//! image position of a world point. No picture is ever mirrored: to the right × downwards = into the scene.
 
 mod projected;
 mod roll;
@@ -33,17 +33,16 @@ use crate::math::centerline_path::CenterlinePath;
 use crate::named::Named;
 use crate::stop::Stop;
 
-/// What a default width leaves free on each side of the vessel (mm).
-const MARGIN: f64 = 25.0;
+const DEFAULT_MARGIN_MM: f64 = 25.0;
 
 /// How the lines across a vessel are laid out as an image.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CprMode {
-    /// As they are seen: rows by height, the line through each point of the vessel at that height.
+    /// As seen: rows by height, the line through each point of the vessel at that height.
     Projected,
     /// The surface of parallel lines unrolled, so that lengths on it are true.
     Stretched,
-    /// Rows by arc length, the vessel straight in the middle, lines across it in the rotation-minimising frame.
+    /// Rows by arc length, the vessel straight in the middle, in the rotation-minimising frame.
     Straightened,
 }
 
@@ -55,7 +54,7 @@ impl Named for CprMode {
     ];
 }
 
-/// One vessel laid out as an image. Clones and turned ones share what was found of the vessel.
+/// One vessel laid out as an image. Clones and rotated copies share what was computed of the vessel.
 #[derive(Clone)]
 pub struct Cpr {
     mode: CprMode,
@@ -69,12 +68,10 @@ pub struct Cpr {
 }
 
 impl Cpr {
-    /// The layout of a vessel in pixels with a side of `pixel_spacing` mm, an odd number of columns of them. The outermost
-    /// columns lie no farther apart than `width` mm; by default the image shows the vessel and 25 mm on each side of it.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Camera`] for an invalid view, width or spacing, for too many pixels, and where the whole vessel
-    /// lies in one row.
+    /// The layout of a vessel in pixels with a side of `pixel_spacing` mm and an odd number of columns. The
+    /// outermost columns lie at most `width` mm apart; by default the image shows the vessel and 25 mm on
+    /// each side of it. Fails with [`ErrorKind::Camera`] for an invalid view, width or spacing, for too many
+    /// pixels, and if the whole vessel lies in one row.
     pub fn new(
         path: CenterlinePath,
         mode: CprMode,
@@ -104,17 +101,14 @@ impl Cpr {
             (None, CprMode::Stretched) => Arc::new(Stretched::new(Arc::clone(&path), view.turned()?)?),
             (None, _) => Arc::new(Projected::new(Arc::clone(&path), view.turned()?, pixel_spacing)?),
         };
-        let half = width.map_or(surface.reach() + MARGIN, |width| width / 2.0);
+        let half = width.map_or(surface.reach() + DEFAULT_MARGIN_MM, |width| width / 2.0);
         let pixels = |length: f64| whole_pixels(length, pixel_spacing);
         let size =
             checked_size("size of the CPR", [2.0 * pixels(half) + 1.0, pixels(surface.height()) + 1.0])?;
         Ok(Self { mode, view, path, surface, straightened, width, pixel_spacing, size })
     }
 
-    /// The same vessel seen from another angle (radians). The frames of a straightened vessel are used again.
-    ///
-    /// # Errors
-    /// As [`Cpr::new`].
+    /// The same vessel from another angle (radians), reusing its frames. Fails as [`Cpr::new`].
     pub fn rotated(&self, angle: f64) -> Result<Self> {
         let view = View { angle, ..self.view };
         view.checked_angle()?;
@@ -122,9 +116,7 @@ impl Cpr {
         Self::laid_out(self.mode, view, Arc::clone(&self.path), straightened, self.width, self.pixel_spacing)
     }
 
-    /// The same straightened vessel, each row seen from an angle of its own, in which angle 0 is that of [`View`].
-    ///
-    /// # Errors
+    /// The same straightened vessel with one angle per row; angle 0 is that of [`View`]. Fails with
     /// [`ErrorKind::Camera`] for a CPR of another mode.
     pub fn rolled(&self, roll: Roll) -> Result<Self> {
         let Some(straightened) = self.straightened.as_ref().map(|known| known.rolled(roll)) else {
@@ -135,7 +127,7 @@ impl Cpr {
         Self::laid_out(self.mode, self.view, path, Some(straightened), self.width, self.pixel_spacing)
     }
 
-    /// The space around the straightened vessel, where it is straightened.
+    /// The space around the straightened vessel, in mode [`CprMode::Straightened`].
     pub fn straightened(&self) -> Option<&Straightened> {
         self.straightened.as_ref()
     }
@@ -144,12 +136,10 @@ impl Cpr {
         (column - (self.size[0] - 1) as f64 / 2.0) * self.pixel_spacing
     }
 
-    /// The places of the columns (mm).
     fn columns(&self) -> Vec<f64> {
         (0..self.size[0]).map(|i| self.x(i as f64)).collect()
     }
 
-    /// What lies in a row of pixels.
     fn row(&self, j: usize) -> Row {
         self.surface.row(j as f64 * self.pixel_spacing)
     }

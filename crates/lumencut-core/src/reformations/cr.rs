@@ -1,9 +1,9 @@
-//! Centerline Reformation (CR): every pixel takes the depth of the nearest projected centerline, and what lies in front is
-//! brought back within a disc around it.
+//! Centerline Reformation (CR): every pixel takes the depth of the nearest projected centerline, and what
+//! lies in front is brought back within a disc around it.
 //!
-//! After Mistelbauer, Varchola, Bouzari, Starinsky, Köchl, Schernthaner, Fleischmann, Gröller and Šrámek, "Centerline
-//! Reformations of Complex Vascular Structures", IEEE Pacific Visualization Symposium 2012. METHOD.md states what is taken
-//! from there and what had to be decided.
+//! After Mistelbauer, Varchola, Bouzari, Starinsky, Köchl, Schernthaner, Fleischmann, Gröller and Šrámek,
+//! "Centerline Reformations of Complex Vascular Structures", IEEE Pacific Visualization Symposium 2012.
+//! docs/method/reformations.md states what is taken from it and what had to be decided.
 
 mod chains;
 mod nearest;
@@ -25,12 +25,10 @@ use crate::math::lanes::dispatch;
 use crate::pipeline::Request;
 use crate::scene::LeveledTree;
 
-/// Where the pixels of a view look by CR. Of the settings `centerline_smoothing`, `unknown_radius` and the silhouettes
-/// count; there are neither levels of detail nor a depth filter.
-///
-/// # Errors
-/// [`crate::error::ErrorKind::Settings`] for a setting or threshold outside its range, [`crate::error::ErrorKind::VesselTree`] for a vessel without
-/// length, [`crate::error::ErrorKind::Interrupted`] once the caller asks to stop.
+/// The position of every pixel of a view by CR. The settings `centerline_smoothing`, `unknown_radius` and the
+/// silhouettes apply; there are neither levels of detail nor a depth filter. Fails with
+/// [`crate::error::ErrorKind::Settings`] for a setting or threshold outside its range,
+/// [`crate::error::ErrorKind::VesselTree`] for a vessel without length.
 pub fn cr(tree: &LeveledTree, parameters: &CrParameters, request: &Request) -> Result<Frame> {
     request.settings.check()?;
     parameters.check()?;

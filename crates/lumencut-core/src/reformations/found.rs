@@ -1,4 +1,4 @@
-//! Where the pixels of a camera look by a reformation, and the frame that `look` shows the volume in.
+//! The positions of the pixels of a camera by a reformation, and the frame in which `look` shows the volume.
 
 use crate::error::{Error, ErrorKind, Result};
 use crate::frame::Frame;
@@ -10,29 +10,25 @@ use crate::stages::depth::Sheet;
 use crate::stages::leap::{LeapParameters, leap};
 use crate::stages::{Stage, Work};
 
-/// The vessel of a pixel at which there is nothing.
+/// The vessel of a pixel that shows none.
 pub const NO_VESSEL: i32 = -1;
 
-/// What a pixel shows.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Place {
-    /// Depth (mm).
+pub(super) struct PixelContent {
     pub depth: f32,
-    /// The vessel.
     pub vessel: i32,
     /// Slopes and radius, as the stage `leap` reads them.
     pub sheet: Sheet,
-    /// Whether other points of the vessel could stand in this place.
+    /// Whether other points of the vessel could stand here.
     pub is_folded: bool,
 }
 
-impl Place {
+impl PixelContent {
     /// Nothing: beyond every volume, and no depth leaps to it.
-    pub const NOTHING: Self =
+    pub(super) const NOTHING: Self =
         Self { depth: FAR, vessel: NO_VESSEL, sheet: [0.0, 0.0, -ABSENT, 0.0], is_folded: false };
 }
 
-/// What all pixels of a view show.
 pub(super) struct Found {
     pub depth: Vec<f32>,
     pub vessel: Vec<i32>,
@@ -41,9 +37,8 @@ pub(super) struct Found {
 }
 
 impl Found {
-    /// A view that shows nothing yet.
-    pub fn nothing(pixels: usize) -> Self {
-        let Place { depth, vessel, sheet, is_folded } = Place::NOTHING;
+    pub(super) fn nothing(pixels: usize) -> Self {
+        let PixelContent { depth, vessel, sheet, is_folded } = PixelContent::NOTHING;
         Self {
             depth: vec![depth; pixels],
             vessel: vec![vessel; pixels],
@@ -52,8 +47,7 @@ impl Found {
         }
     }
 
-    /// The frame of the view, with the leaps between its pixels where silhouettes need them.
-    pub fn into_frame(self, request: &Request) -> Result<Frame> {
+    pub(super) fn into_frame(self, request: &Request) -> Result<Frame> {
         let &Request { camera, settings, images, .. } = request;
         let mut leaps = Vec::new();
         if Stage::of_cut_surface(settings, images).contains(&Stage::Leap) {
@@ -65,13 +59,12 @@ impl Found {
     }
 }
 
-/// What stages are given for a request.
 pub(super) fn work<'a>(request: &Request<'a>) -> Work<'a> {
     let &Request { camera, stop, .. } = request;
     Work { size: camera.size(), isa: Isa::widest(), stop, progress: None }
 }
 
-/// Refuses a vessel of no length: it has no points beside each other, and so no direction.
+/// Rejects a vessel of no length: it has no direction.
 pub(super) fn expect_lengths(level: &Level) -> Result<()> {
     let Some(id) = level.first_slot.windows(2).position(|ends| ends[1] - ends[0] < 2) else { return Ok(()) };
     let found = "all points within 0.001 mm of each other";

@@ -1,5 +1,4 @@
-//! What every reformation that lays vessels out as an image has in common: a place in the world for each pixel, and the way
-//! between both.
+//! The interface of reformations that lay vessels out as an image.
 
 use glam::{DVec2, DVec3, Vec3};
 use rayon::prelude::*;
@@ -9,9 +8,10 @@ use crate::error::{Error, ErrorKind, Mend, Result};
 use crate::geometry::Curved;
 use crate::stop::{Stop, filled, go_on};
 
-/// An image of which every pixel looks at a place of its own.
+/// An image with one world position per pixel.
 ///
-/// Places in the image are column and row, with fractions; the centre of the first pixel is (0, 0). World points are LPS, in mm.
+/// Image positions are column and row, with fractions; the centre of the first pixel is (0, 0). World points
+/// are LPS, in mm.
 pub trait Layout: Send + Sync {
     /// Width and height in pixels.
     fn size(&self) -> [usize; 2];
@@ -19,37 +19,22 @@ pub trait Layout: Send + Sync {
     /// The side of a pixel (mm).
     fn pixel_spacing(&self) -> f64;
 
-    /// Where each pixel looks, and the direction in which a slab is thick there. Where nothing is shown the place is not finite.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Interrupted`] once the caller asks to stop.
+    /// World position and slab direction of each pixel; a position that is not finite shows nothing.
     fn curved(&self, stop: Stop) -> Result<Curved>;
 
-    /// The arc length of the vessel (mm): one for each row where rows run along one vessel, else one for each pixel, NaN where
-    /// nothing is shown.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Interrupted`] once the caller asks to stop.
+    /// Arc length (mm): one per row if rows run along one vessel, else per pixel; NaN where nothing is shown.
     fn arc_length(&self, stop: Stop) -> Result<Vec<f64>>;
 
-    /// Whether each pixel is folded, row by row: not to be trusted, because the image runs backwards there or shows what it
-    /// shows elsewhere too.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Interrupted`] once the caller asks to stop.
+    /// Pixels that are unreliable because the image runs backwards or shows the same elsewhere.
     fn folded(&self, stop: Stop) -> Result<Vec<bool>>;
 
-    /// The world point that a place in the image shows.
+    /// The world point at an image position.
     fn world_from_pixel(&self, pixel: DVec2) -> DVec3;
 
-    /// Where the image shows a world point.
+    /// The image position of a world point.
     fn pixel_from_world(&self, point: DVec3) -> DVec2;
 }
 
-/// An image of which each row is written by a function of its number. Whether to stop is asked before each row.
-///
-/// # Errors
-/// [`ErrorKind::Interrupted`].
 pub(super) fn by_rows<T: Clone + Send>(
     [width, height]: [usize; 2],
     nothing: T,
@@ -65,10 +50,7 @@ pub(super) fn by_rows<T: Clone + Send>(
     Ok(image)
 }
 
-/// The same of where the pixels look, and of the directions of their slabs; a pixel that is not written shows nothing.
-///
-/// # Errors
-/// As [`by_rows`].
+/// The same for positions and slab directions; a pixel that is not written shows nothing.
 pub(super) fn curved_by_rows(
     size: [usize; 2],
     stop: Stop,
@@ -86,18 +68,13 @@ pub(super) fn curved_by_rows(
     Curved::new(size, position, direction)
 }
 
-/// A length that is a whole number of pixels but for rounding is that many.
-const WHOLE: f64 = 1e-9;
+const WHOLE_PIXEL_TOLERANCE: f64 = 1e-9;
 
-/// How many whole pixels of a side of `pixel_spacing` (mm) fit into a length (mm).
 pub(super) fn whole_pixels(length: f64, pixel_spacing: f64) -> f64 {
-    (length / pixel_spacing + WHOLE).floor()
+    (length / pixel_spacing + WHOLE_PIXEL_TOLERANCE).floor()
 }
 
-/// The size of an image that has these numbers of columns and rows.
-///
-/// # Errors
-/// [`ErrorKind::Camera`], about `subject`, for too many of them.
+/// Fails with [`ErrorKind::Camera`], about `subject`, for too many columns or rows.
 pub(super) fn checked_size(subject: &str, size: [f64; 2]) -> Result<[usize; 2]> {
     let [width, height] = size;
     if width.max(height) > MAX_SIZE as f64 || width * height > MAX_PIXELS as f64 {
@@ -106,7 +83,6 @@ pub(super) fn checked_size(subject: &str, size: [f64; 2]) -> Result<[usize; 2]> 
         let error = Error::new(ErrorKind::Camera, subject, found, expected);
         return Err(error.mended_by(Mend::FewerPixels));
     }
-    // Whole numbers within the limits.
     Ok(size.map(|side| side as usize))
 }
 

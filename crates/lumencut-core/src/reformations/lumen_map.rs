@@ -1,8 +1,9 @@
-//! Lumen map: the wall of a vessel cut open along it and unrolled, so that calcium, struts of stents and the openings of branches
-//! all around it show in one image.
+//! Lumen map: the wall of a vessel cut open along it and unrolled, so that calcium, stent struts and the
+//! openings of branches all around it show in one image.
 //!
-//! After the radial ray casting of "Curve-centric Volume Reformation for Comparative Visualization" (Lampe, Correa, Ma, Hauser,
-//! IEEE TVCG 15(6), 2009, doi:10.1109/TVCG.2009.136), of which only the abstract and the opening could be read; the formulas are ours.
+//! After the radial ray casting of "Curve-centric Volume Reformation for Comparative Visualization" (Lampe,
+//! Correa, Ma, Hauser, IEEE TVCG 15(6), 2009, doi:10.1109/TVCG.2009.136), of which only the abstract and the
+//! introduction were available; the formulas are ours.
 
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -24,8 +25,8 @@ use crate::stop::{Stop, go_on};
 const PIXEL_SPACING: Limits = Limits::new(1e-6, 1e4, "mm");
 const OVERLAP: Limits = Limits::new(0.0, 3.0, "rad");
 
-/// How bright a wall is that is seen along it, and how much brighter one that is seen face on.
-const SHADES: [f64; 2] = [0.3, 0.7];
+/// Brightness of a wall seen edge on, and the gain of one seen face on.
+const EDGE_AND_FACE_BRIGHTNESS: [f64; 2] = [0.3, 0.7];
 
 /// How a lumen map is laid out.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,7 +39,7 @@ pub struct LumenMapParameters {
     pub angle: f64,
     /// How much of the other side is repeated beyond each edge (radians).
     pub overlap: f64,
-    /// How far beyond the wall the pixels look (mm).
+    /// Distance of the pixels beyond the wall (mm).
     pub beyond: f64,
 }
 
@@ -55,9 +56,7 @@ pub struct LumenMap {
 }
 
 impl LumenMap {
-    /// The map of the vessel with this path, whose wall is known in the straightened space of `view`, in which angle 0 counts.
-    ///
-    /// # Errors
+    /// The map of a vessel with this path and wall in the straightened space of `view`. Fails with
     /// [`ErrorKind::Camera`] for an invalid view, spacing, angle or overlap, or too many pixels.
     pub fn new(
         path: Arc<CenterlinePath>,
@@ -84,25 +83,22 @@ impl LumenMap {
         Ok(Self { path, straightened, wall, parameters, columns, rows })
     }
 
-    /// How the map is laid out.
+    /// The layout of the map.
     pub fn parameters(&self) -> &LumenMapParameters {
         &self.parameters
     }
 
-    /// How many columns on each side repeat the other side.
+    /// The number of columns on each side that repeat the other side.
     pub fn overlap(&self) -> usize {
         self.columns[1]
     }
 
-    /// The space around the straightened vessel, in which directions around the vessel count.
+    /// The straightened space in which directions around the vessel count.
     pub fn straightened(&self) -> &Straightened {
         &self.straightened
     }
 
     /// The radius of the wall at each pixel (mm).
-    ///
-    /// # Errors
-    /// [`crate::error::ErrorKind::Interrupted`] once the caller asks to stop.
     pub fn wall(&self, stop: Stop) -> Result<Vec<f64>> {
         self.each(0.0, stop, |at, around| self.wall.radius(at, around))
     }
@@ -113,18 +109,11 @@ impl LumenMap {
     }
 
     /// Whether each pixel lies in the opening of a branch, where no wall was met.
-    ///
-    /// # Errors
-    /// [`crate::error::ErrorKind::Interrupted`] once the caller asks to stop.
     pub fn open(&self, stop: Stop) -> Result<Vec<bool>> {
         self.each(false, stop, |at, around| self.wall.is_open(at, around))
     }
 
-    /// How bright the wall is at each pixel, lit from the middle of the vessel: 1 where it is met at right angles. Its slope is that
-    /// between the pixels on both sides.
-    ///
-    /// # Errors
-    /// [`crate::error::ErrorKind::Interrupted`] once the caller asks to stop.
+    /// Brightness of the wall lit from the middle of the vessel: 1 where it is met at right angles.
     pub fn shades(&self, stop: Stop) -> Result<Vec<f32>> {
         let numbers = (0..self.size()[1] + 2).into_par_iter();
         let rows = numbers
@@ -135,15 +124,15 @@ impl LumenMap {
             let along = after.0[i + 1] - before.0[i + 1];
             let across = here.0[i + 2] - here.0[i];
             let normal = along.cross(across).normalize_or_zero();
-            (SHADES[0] + SHADES[1] * normal.dot(here.1[i + 1]).abs()) as f32
+            (EDGE_AND_FACE_BRIGHTNESS[0] + EDGE_AND_FACE_BRIGHTNESS[1] * normal.dot(here.1[i + 1]).abs())
+                as f32
         };
         by_rows(self.size(), 0.0, stop, |j, row| {
             row.iter_mut().enumerate().for_each(|(i, pixel)| *pixel = shade(j, i));
         })
     }
 
-    /// The points of the wall and the directions to them in a row before the first one, in the first one, and so on, each with one
-    /// column more on both sides.
+    /// Points of the wall and their directions, one column more on both sides; row 0 lies before the image.
     fn wall_row(&self, number: usize) -> (Vec<DVec3>, Vec<DVec3>) {
         let at = (number as f64 - 1.0) * self.parameters.pixel_spacing;
         let (middle, frame) = (self.path.at(at), self.straightened.frame(at));
@@ -157,7 +146,7 @@ impl LumenMap {
         columns.map(ray).unzip()
     }
 
-    /// Where a direction around the vessel (radians) lies: the column of its middle, with fractions.
+    /// The column of a direction around the vessel (radians), with fractions.
     pub fn column(&self, around: f64) -> f64 {
         let share = ((around - self.parameters.angle) / TAU + 0.5).rem_euclid(1.0);
         share * self.columns[0] as f64 - 0.5 + self.columns[1] as f64
@@ -169,18 +158,16 @@ impl LumenMap {
         TAU * ((column - aside + 0.5) / around - 0.5) + self.parameters.angle
     }
 
-    /// The point at a distance beyond the wall.
     fn point(&self, at: f64, around: f64, beyond: f64) -> DVec3 {
         let offset = DVec2::from_angle(around) * self.distance(at, around, beyond);
         self.straightened.world_from_straightened(offset.extend(at))
     }
 
-    /// How far a place beyond the wall is from the middle of the vessel (mm); no place lies beyond the middle.
+    /// Distance from the middle of the vessel of a point beyond the wall (mm), at least 0.
     fn distance(&self, at: f64, around: f64, beyond: f64) -> f64 {
         (self.wall.radius(at, around) + beyond).max(0.0)
     }
 
-    /// What a function of arc length and direction says of each pixel, row by row.
     fn each<T: Clone + Send>(
         &self,
         nothing: T,

@@ -1,5 +1,4 @@
-//! Reformations: methods that find where each pixel looks in another way than the cut surface does. What is shown there is
-//! up to `look` ([`crate::pipeline`]).
+//! Reformations: other methods to find the position of each pixel; [`crate::pipeline`] shows what is there.
 
 mod connections;
 pub mod cpr;

@@ -1,13 +1,13 @@
 //! Multipath curved planar reformation (mpCPR): the projected CPRs of all vessels of a tree in one image.
 //!
 //! Kanitsar, Wegenkittl, Fleischmann and Gröller, "Advanced Curved Planar Reformation: Flattening of Vascular
-//! Structures", IEEE Visualization 2003, doi:10.1109/VISUAL.2003.1250353. Each vessel c(t) is cut along the surface
-//! c(t) + s·(v × u), with v the direction of view and u upwards in the image: every row of the image cuts a vessel in points
-//! of its own, and a pixel shows the depth of the point that is nearest to it along its row.
+//! Structures", IEEE Visualization 2003, doi:10.1109/VISUAL.2003.1250353. Each vessel c(t) is cut along the
+//! surface c(t) + s·(v × u), with v the direction of view and u upwards in the image: every row cuts a vessel
+//! in points, and a pixel shows the depth of the point nearest along its row.
 
 use rayon::prelude::*;
 
-use super::found::{Found, Place, expect_lengths, work};
+use super::found::{Found, PixelContent, expect_lengths, work};
 use crate::camera::Camera;
 use crate::error::Result;
 use crate::frame::Frame;
@@ -16,21 +16,17 @@ use crate::pipeline::Request;
 use crate::scene::LeveledTree;
 use crate::stages::depth::Sheet;
 
-/// How many points in a row share one range of view y.
-const BLOCK: usize = 64;
+const POINTS_PER_BLOCK: usize = 64;
 
-/// The steepest slope that is told (mm per mm): where a vessel runs nearly along a row, it grows beyond all numbers.
-const STEEPEST: f64 = 1e9;
+/// The slope (mm per mm) is clamped to this: it is unbounded where a vessel runs along a row.
+const MAX_SLOPE: f64 = 1e9;
 
-/// Where the pixels of a view look by mpCPR. Of the settings `centerline_smoothing` counts, and `unknown_radius` where silhouettes ask
-/// for lumen; there are neither levels of detail nor a depth filter.
+/// The position of every pixel of a view by mpCPR. The setting `centerline_smoothing` applies, and
+/// `unknown_radius` if silhouettes ask for lumen; there are neither levels of detail nor a depth filter.
 ///
-/// Rows that no vessel crosses look beyond every volume ([`crate::math::lanes::FAR`]) and have the vessel
-/// [`super::NO_VESSEL`].
-///
-/// # Errors
-/// [`crate::error::ErrorKind::Settings`] for a setting outside its range, [`crate::error::ErrorKind::VesselTree`] for a
-/// vessel without length, [`crate::error::ErrorKind::Interrupted`] once the caller asks to stop.
+/// Rows that no vessel crosses lie beyond every volume ([`crate::math::lanes::FAR`]) and have the vessel
+/// [`super::NO_VESSEL`]. Fails with [`crate::error::ErrorKind::Settings`] for a setting outside its range,
+/// [`crate::error::ErrorKind::VesselTree`] for a vessel without length.
 pub fn mpcpr(tree: &LeveledTree, request: &Request) -> Result<Frame> {
     request.settings.check()?;
     let levels = tree.levels(0, request.settings.centerline_smoothing);
@@ -55,7 +51,6 @@ pub fn mpcpr(tree: &LeveledTree, request: &Request) -> Result<Frame> {
     found.into_frame(request)
 }
 
-/// A point of a centerline in view space (mm).
 #[derive(Clone, Copy)]
 struct Point {
     x: f64,
@@ -65,7 +60,6 @@ struct Point {
     vessel: i32,
 }
 
-/// The centerlines of a tree in view space.
 struct Lines {
     points: Vec<Point>,
     /// The smallest and largest y of the segments that start in each block of points.
@@ -89,19 +83,18 @@ impl Lines {
             .collect();
         let range = |start: usize| {
             // The last segment of a block ends at the first point of the next one.
-            let ends = points[start..points.len().min(start + BLOCK + 1)].iter();
+            let ends = points[start..points.len().min(start + POINTS_PER_BLOCK + 1)].iter();
             ends.fold([f64::MAX, f64::MIN], |[low, high], p| [low.min(p.y), high.max(p.y)])
         };
-        let blocks = (0..points.len()).step_by(BLOCK).map(range).collect();
+        let blocks = (0..points.len()).step_by(POINTS_PER_BLOCK).map(range).collect();
         Self { points, blocks }
     }
 
-    /// Where the row at view `y` crosses them.
     fn row(&self, y: f64) -> Row {
         let mut row = Row::default();
         for (n, &[low, high]) in self.blocks.iter().enumerate() {
             if low <= y && y <= high {
-                let starts = n * BLOCK..(self.points.len() - 1).min((n + 1) * BLOCK);
+                let starts = n * POINTS_PER_BLOCK..(self.points.len() - 1).min((n + 1) * POINTS_PER_BLOCK);
                 starts.for_each(|slot| self.cross(slot, y, &mut row));
             }
         }
@@ -109,8 +102,8 @@ impl Lines {
         row
     }
 
-    /// Adds what the row at `y` has of the segment that starts at `slot`. A segment owns its start and what lies between
-    /// its ends; the last one of a vessel owns its end too. So each crossing is met once. Both ends in the row: all of it.
+    /// Adds the crossing of the segment from `slot`. A segment owns its start and inside, the last one of a
+    /// vessel also its end, so each crossing counts once.
     fn cross(&self, slot: usize, y: f64, row: &mut Row) {
         let (a, b) = (self.points[slot], self.points[slot + 1]);
         if a.vessel != b.vessel {
@@ -127,25 +120,22 @@ impl Lines {
     }
 }
 
-/// A point at which a row crosses a vessel.
 #[derive(Clone, Copy)]
 struct Crossing {
     x: f64,
     z: f64,
     vessel: i32,
-    /// Orders the points of a vessel: the slot of its segment.
+    /// The slot of its segment, which orders the points of a vessel.
     slot: usize,
-    /// Upwards, how its depth changes (mm per mm).
+    /// Change of depth upwards (mm per mm).
     slope: f64,
     radius: f64,
-    /// How far from the centerline a point of the surface lies, for each mm along the row.
+    /// Distance of the surface from the centerline per mm along the row.
     lean: f64,
-    /// Whether its vessel has other points in the row.
     is_folded: bool,
 }
 
 impl Crossing {
-    /// The point of the segment from `a` to `b` at view `y`.
     fn new(a: &Point, b: &Point, slot: usize, y: f64) -> Self {
         let [dx, dy, dz] = [b.x - a.x, b.y - a.y, b.z - a.z];
         let t = (y - a.y) / dy;
@@ -154,28 +144,26 @@ impl Crossing {
             z: a.z + t * dz,
             vessel: a.vessel,
             slot,
-            slope: (dz / dy).clamp(-STEEPEST, STEEPEST),
+            slope: (dz / dy).clamp(-MAX_SLOPE, MAX_SLOPE),
             radius: a.radius + t * (b.radius - a.radius),
             lean: dy.hypot(dz) / dx.hypot(dy).hypot(dz),
             is_folded: false,
         }
     }
 
-    /// The order of points that are equally far from a pixel: nearer to the viewer, then the vessel, then along it.
+    /// The order of points equally far from a pixel: nearer to the viewer, then the vessel, then along it.
     fn comes_before(&self, other: &Self) -> bool {
         (self.z, self.vessel, self.slot) < (other.z, other.vessel, other.slot)
     }
 
-    /// What the pixel at view `x` shows of it.
-    fn place(&self, x: f64) -> Place {
+    fn place(&self, x: f64) -> PixelContent {
         let is_lumen = (x - self.x).abs() * self.lean <= self.radius;
         let radius = if is_lumen { self.radius } else { -self.radius };
         let sheet: Sheet = [0.0, self.slope as f32, radius as f32, 0.0];
-        Place { depth: self.z as f32, vessel: self.vessel, sheet, is_folded: self.is_folded }
+        PixelContent { depth: self.z as f32, vessel: self.vessel, sheet, is_folded: self.is_folded }
     }
 }
 
-/// A segment that lies within a row.
 struct Run {
     a: Point,
     b: Point,
@@ -183,11 +171,10 @@ struct Run {
 }
 
 impl Run {
-    /// Its point nearest to view `x`.
     fn nearest_crossing(&self, x: f64) -> Crossing {
         let dx = self.b.x - self.a.x;
         let t = if dx == 0.0 {
-            // Along the view all of it stands at one place of the row.
+            // Along the view all of it lies at one x.
             f64::from(u8::from(self.b.z < self.a.z))
         } else {
             ((x - self.a.x) / dx).clamp(0.0, 1.0)
@@ -205,18 +192,16 @@ impl Run {
     }
 }
 
-/// Where one row crosses the vessels.
 #[derive(Default)]
 struct Row {
-    /// Its points; once finished, from left to right, of those at one x the one that counts.
+    /// Once finished: from left to right, with one point per x.
     crossings: Vec<Crossing>,
     runs: Vec<Run>,
-    /// The first point that is not to the left of the pixel before.
+    /// The first point that is not to the left of the previous pixel.
     next: usize,
 }
 
 impl Row {
-    /// Tells which vessels have several points in the row, and orders them.
     fn finish(&mut self) {
         for group in self.crossings.chunk_by_mut(|a, b| a.vessel == b.vessel) {
             let vessel = group[0].vessel;
@@ -230,8 +215,8 @@ impl Row {
         self.crossings.dedup_by(|later, first| later.x == first.x);
     }
 
-    /// What the pixel at view `x` shows; pixels come from left to right. Nothing where no vessel is in the row.
-    fn nearest_place(&mut self, x: f64) -> Option<Place> {
+    /// What the pixel at view `x` shows, if any vessel is in the row; pixels come from left to right.
+    fn nearest_place(&mut self, x: f64) -> Option<PixelContent> {
         while self.crossings.get(self.next).is_some_and(|crossing| crossing.x < x) {
             self.next += 1;
         }

@@ -1,11 +1,9 @@
-//! Segments under boxes in boxes, to find those near a point.
+//! A box hierarchy over segments, to find those near a point.
 
 use glam::DVec3;
 
-/// How many boxes, or segments, one box is around.
 const FAN: usize = 8;
 
-/// A box.
 #[derive(Clone, Copy, Debug)]
 struct Bounds {
     low: DVec3,
@@ -22,16 +20,15 @@ impl Bounds {
     }
 }
 
-/// Segments, in an order in which neighbours lie near each other.
 #[derive(Clone, Debug)]
 pub(super) struct Segments {
     ends: Vec<[DVec3; 2]>,
-    /// Boxes around the segments, then around those boxes, up to the last one around all.
+    /// Boxes around the segments, then around those boxes, up to the one around all.
     levels: Vec<Vec<Bounds>>,
 }
 
 impl Segments {
-    pub fn new(ends: Vec<[DVec3; 2]>) -> Self {
+    pub(super) fn new(ends: Vec<[DVec3; 2]>) -> Self {
         let around = |boxes: &[Bounds]| boxes.iter().skip(1).fold(boxes[0], |all, one| all.around(one));
         let single: Vec<_> = ends.iter().map(|[a, b]| Bounds { low: a.min(*b), high: a.max(*b) }).collect();
         let mut levels: Vec<Vec<Bounds>> = vec![single.chunks(FAN).map(around).collect()];
@@ -41,8 +38,8 @@ impl Segments {
         Self { ends, levels }
     }
 
-    /// The square of the distance (mm²) between a segment and a point. It is the same for two segments that share the nearest end.
-    pub fn squared_distance(&self, segment: usize, point: DVec3) -> f64 {
+    /// Squared distance (mm²) of a segment and a point; equal for two segments that share the nearest end.
+    pub(super) fn squared_distance(&self, segment: usize, point: DVec3) -> f64 {
         let [start, end] = self.ends[segment];
         let along = end - start;
         let share = (point - start).dot(along) / along.length_squared();
@@ -54,8 +51,8 @@ impl Segments {
         point.distance_squared(nearest)
     }
 
-    /// The nearest segment, no farther than `limit` (mm): the first one of several. With the square of its distance.
-    pub fn nearest(&self, point: DVec3, limit: f64) -> Option<(usize, f64)> {
+    /// The nearest segment within `limit` (mm), the first of several, with its squared distance.
+    pub(super) fn nearest(&self, point: DVec3, limit: f64) -> Option<(usize, f64)> {
         let mut best = (usize::MAX, limit * limit);
         self.visit(
             point,
@@ -71,8 +68,7 @@ impl Segments {
         (best.0 != usize::MAX).then_some(best)
     }
 
-    /// The segments no farther than `limit` (mm), in their order.
-    pub fn within(&self, point: DVec3, limit: f64) -> Vec<usize> {
+    pub(super) fn within(&self, point: DVec3, limit: f64) -> Vec<usize> {
         let mut found = Vec::new();
         self.visit(
             point,
@@ -86,8 +82,7 @@ impl Segments {
         found
     }
 
-    /// Whether any segment is nearer than `limit` (mm).
-    pub fn any_within(&self, point: DVec3, limit: f64) -> bool {
+    pub(super) fn any_within(&self, point: DVec3, limit: f64) -> bool {
         let mut is_any = false;
         self.visit(
             point,
@@ -102,7 +97,7 @@ impl Segments {
         is_any
     }
 
-    /// Meets the segments, in their order, in boxes whose squared distance is no more than what is still of interest.
+    /// Visits the segments, in their order, in boxes within the squared distance that is still of interest.
     fn visit(&self, point: DVec3, meet: &mut impl FnMut(usize, &mut f64), mut squared: f64) {
         let mut waiting = vec![(self.levels.len() - 1, 0)];
         while let Some((level, n)) = waiting.pop() {

@@ -1,8 +1,8 @@
-//! Spiral CPR: every section across a vessel wound up into one row, so that a still picture shows all around the vessel, and the width
-//! of what it shows is an area.
+//! Spiral CPR: every section across a vessel wound up into one row, so that a still picture shows all around
+//! the vessel, and widths in it are areas.
 //!
-//! After the helical CPR of Kanitsar (dissertation, TU Wien 2004): sections as of the straightened CPR, in each of them two spirals from
-//! the middle with an even distance of windings. The formulas are ours.
+//! After the helical CPR of Kanitsar (dissertation, TU Wien 2004): sections as in the straightened CPR, with
+//! two spirals of constant pitch from the middle of each. The formulas are ours.
 
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -22,15 +22,14 @@ use crate::stop::Stop;
 
 const LENGTH: Limits = Limits::new(1e-6, 1e4, "mm");
 
-/// How often the angle of a length is bettered by Newton's method: more than it takes.
-const STEPS: usize = 12;
+const NEWTON_STEPS: usize = 12;
 
 /// How the samples of a row lie on its spirals.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sampling {
-    /// A pixel apart along the spiral, so that every pixel stands for the same area.
+    /// A pixel apart along the spiral, so that every pixel covers the same area.
     Arc,
-    /// An even angle apart, so that every winding has the same width; a pixel apart at the outermost one.
+    /// At equal angles, so that every winding has the same width; a pixel apart at the outermost one.
     Angle,
 }
 
@@ -43,7 +42,7 @@ impl Named for Sampling {
 pub struct SpiralParameters {
     /// The distance of neighbouring windings, of both spirals together (mm).
     pub pitch: f64,
-    /// How far from the vessel the windings reach (mm).
+    /// The largest distance of the windings from the vessel (mm).
     pub radius: f64,
     /// How samples lie on the spirals.
     pub sampling: Sampling,
@@ -53,21 +52,19 @@ pub struct SpiralParameters {
     pub angle: f64,
 }
 
-/// A vessel whose sections are wound up: rows by arc length, columns along two spirals that meet in the middle.
+/// A vessel with sections wound up: rows by arc length, columns along two spirals from the middle.
 #[derive(Clone)]
 pub struct Spiral {
     straightened: Straightened,
     parameters: SpiralParameters,
-    /// For each column the place in its section (mm), and the direction across the spiral there.
+    /// For each column the position in its section (mm), and the direction across the spiral there.
     columns: Vec<[DVec2; 2]>,
     rows: usize,
 }
 
 impl Spiral {
-    /// The spiral CPR of the vessel with this path, which is seen as [`Straightened`] is.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Camera`] for an invalid view, angle or length, or too many pixels: the error names a pitch that fits.
+    /// Seen as in [`Straightened`]. Fails with [`ErrorKind::Camera`] for an invalid view, angle or length, or
+    /// too many pixels: the error names a pitch that fits.
     pub fn new(path: Arc<CenterlinePath>, view: &View, parameters: SpiralParameters) -> Result<Self> {
         let SpiralParameters { pitch, radius, pixel_spacing, angle, .. } = parameters;
         for (subject, value) in [
@@ -100,12 +97,11 @@ impl Spiral {
 }
 
 impl SpiralParameters {
-    /// How far from the middle a spiral is for each radian.
+    /// Radius of a spiral per radian.
     fn rate(&self) -> f64 {
         self.pitch / PI
     }
 
-    /// How many pixels lie on each side of the middle.
     fn half(&self) -> f64 {
         let outermost = self.radius / self.rate();
         let length = match self.sampling {
@@ -115,20 +111,18 @@ impl SpiralParameters {
         whole_pixels(length, self.pixel_spacing)
     }
 
-    /// The length of a spiral from the middle to an angle.
     fn length(&self, angle: f64) -> f64 {
         self.rate() / 2.0 * (angle * angle.hypot(1.0) + angle.asinh())
     }
 
-    /// The angle at which a spiral is so long: by Newton's method, whose start lies beyond it, so that it comes down to it.
+    /// The angle at this length, by Newton's method, which starts beyond it and descends.
     fn angle_of(&self, length: f64) -> f64 {
         let rate = self.rate();
-        (0..STEPS).fold((2.0 * length / rate).sqrt(), |angle, _| {
+        (0..NEWTON_STEPS).fold((2.0 * length / rate).sqrt(), |angle, _| {
             angle - (self.length(angle) - length) / (rate * angle.hypot(1.0))
         })
     }
 
-    /// The angle along the spiral of a place so many pixels from the middle.
     fn along(&self, pixels: f64) -> f64 {
         let length = pixels.abs() * self.pixel_spacing;
         match self.sampling {
@@ -137,7 +131,6 @@ impl SpiralParameters {
         }
     }
 
-    /// How many pixels from the middle an angle along the spiral is.
     fn pixels(&self, along: f64) -> f64 {
         let length = match self.sampling {
             Sampling::Arc => self.length(along),
@@ -146,7 +139,6 @@ impl SpiralParameters {
         length / self.pixel_spacing
     }
 
-    /// The place in a section so many pixels from the middle, and the direction across the spiral there.
     fn place(&self, pixels: f64) -> [DVec2; 2] {
         let along = self.along(pixels);
         let outwards = DVec2::from_angle(along + self.angle);
@@ -156,13 +148,13 @@ impl SpiralParameters {
         [place * side, -forward.normalize().perp()]
     }
 
-    /// How many pixels from the middle a place in a section is shown: on the nearest winding, of two the inner one.
+    /// Pixels from the middle at which a position is shown: on the nearest winding, of two the inner one.
     fn pixels_of(&self, place: DVec2) -> f64 {
         let around = place.to_angle() - self.angle;
         let turns = (place.length() / self.rate() - around) / PI;
-        // The spirals of both sides pass each half plane in turn.
+        // The spirals of both sides alternate on each half plane.
         let nearest = (turns - 0.5).ceil();
-        // Nearer to the middle than half of a pitch, and to no winding, it is shown in the middle.
+        // Nearer to the middle than half a pitch, and to no winding, it is shown in the middle.
         let along = (around + nearest * PI).max(0.0);
         let side = if nearest.rem_euclid(2.0) == 0.0 { 1.0 } else { -1.0 };
         side * self.pixels(along)
@@ -221,12 +213,12 @@ impl Layout for Spiral {
     }
 }
 
-/// The size of the image; an error names a pitch at which it fits, where one does.
+/// The size of the image; an error names a pitch at which it fits, if there is one.
 fn fitting_size(parameters: &SpiralParameters, size: [f64; 2]) -> Result<[usize; 2]> {
     checked_size("size of the spiral CPR", size).map_err(|error| {
         let [width, height] = size;
         let most = (MAX_SIZE as f64).min(MAX_PIXELS as f64 / height);
-        // The columns are about the area of a section by the pitch.
+        // The number of columns is about the area of a section divided by the pitch.
         let fits = parameters.pitch * width / most;
         if height > MAX_SIZE as f64 || fits > 2.0 * parameters.radius {
             return error;

@@ -1,7 +1,8 @@
-//! Tangential CPR: one vessel as a camera sees it, with what lies beside each of its places at the depth of that place.
+//! Tangential CPR: one vessel as a camera sees it, with its surroundings at the depth of the nearest point.
 //!
-//! It is CR of one vessel without a threshold along it: each pixel takes the depth of the nearest place of the vessel in the image.
-//! Named in the paper of CSR; its text was not found, the definition is ours. METHOD.md states it.
+//! It is CR of one vessel without a threshold: each pixel takes the depth of the vessel's nearest point in
+//! the image. The paper of CSR names it; its text was not found, the definition is ours
+//! (docs/method/reformations.md).
 
 use std::sync::Arc;
 
@@ -19,17 +20,16 @@ use crate::stop::Stop;
 #[derive(Clone, Debug)]
 pub struct Tangential {
     camera: Camera,
-    /// The vessel uncurled by nothing.
+    /// The vessel with an uncurl amount of 0.
     curled: Uncurl,
 }
 
 impl Tangential {
-    /// # Errors
-    /// [`ErrorKind::Camera`] for a vessel of which the camera sees one point alone.
+    /// Fails with [`ErrorKind::Camera`] for a vessel that the camera sees as one point.
     pub fn new(path: Arc<CenterlinePath>, camera: Camera) -> Result<Self> {
         let along = path.direction().iter().map(|direction| direction.cross(camera.direction()).length());
         if along.fold(0.0, f64::max) < 1e-6 {
-            let found = "a vessel that runs along the view in all of its length";
+            let found = "a vessel parallel to the direction of view";
             let error = Error::new(
                 ErrorKind::Camera,
                 "camera of the tangential CPR",
@@ -67,7 +67,7 @@ impl Layout for Tangential {
         self.curled.world_from_pixel(pixel)
     }
 
-    /// Where the camera sees a point, whether the image shows it or what lies before or behind it.
+    /// Where the camera sees a point, even if the image shows what lies before or behind it.
     fn pixel_from_world(&self, point: DVec3) -> DVec2 {
         let [seen, first] = [
             self.camera.view_from_world(point).truncate(),

@@ -1,6 +1,5 @@
-//! Uncurl: one vessel and its surroundings between what a camera sees of it, by the tangential CPR, and the straightened CPR.
-//!
-//! The idea and the formulas are ours; METHOD.md states them.
+//! Uncurl: a vessel between the camera's view (tangential CPR) and the straightened CPR. Idea and formulas
+//! are ours (docs/method/reformations.md).
 
 mod bent;
 mod feet;
@@ -20,27 +19,26 @@ use crate::math::centerline_path::CenterlinePath;
 use crate::math::same_place::ON_PICTURE;
 use crate::stop::{Stop, filled};
 
-/// How often an interval of the vessel is halved to find a foot: below what a number can tell.
-const HALVINGS: usize = 60;
+/// The most bisections in the search for a foot, to below the resolution of a number.
+const BISECTIONS: usize = 60;
 
-/// One vessel, straightened by degrees, in the pixels of a camera.
+/// One vessel, partly straightened, in the pixels of a camera.
 #[derive(Clone, Debug)]
 pub struct Uncurl {
     path: Arc<CenterlinePath>,
     camera: Camera,
     amount: f64,
-    /// How far from the vessel a pixel shows something (mm).
+    /// The largest distance from the vessel that a pixel shows (mm).
     reach: f64,
     bent: Bent,
     feet: Feet,
 }
 
 impl Uncurl {
-    /// A vessel straightened by `amount`: at 0 the tangential CPR from the camera, at 1 the straightened CPR in the middle of
-    /// its image. What lies farther than half of `width` (mm) from the vessel in the image is left out.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Settings`] for an amount outside 0 to 1, [`ErrorKind::Camera`] for a width that is not above 0 mm.
+    /// A vessel straightened by `amount`: at 0 the tangential CPR from the camera, at 1 the straightened CPR
+    /// in the middle of its image. Pixels farther than half of `width` (mm) from the vessel show nothing.
+    /// Fails with [`ErrorKind::Settings`] for an amount outside 0 to 1, [`ErrorKind::Camera`] for a width
+    /// that is not above 0 mm.
     pub fn new(path: Arc<CenterlinePath>, camera: Camera, amount: f64, width: Option<f64>) -> Result<Self> {
         if !(0.0..=1.0).contains(&amount) {
             let expected = "from 0 (as the camera sees it) to 1 (straightened)";
@@ -60,17 +58,16 @@ impl Uncurl {
         Ok(Self { path, camera, amount, reach: width.map_or(f64::INFINITY, |width| width / 2.0), bent, feet })
     }
 
-    /// The points of the bent vessel as they lie before the camera (mm, LPS).
+    /// The points of the bent vessel before the camera (mm, LPS).
     pub fn points(&self) -> &[DVec3] {
         &self.bent.points
     }
 
-    /// How far the vessel reaches from the middle of the image, across and up or down (mm).
+    /// Extent of the vessel from the middle of the image, across and up or down (mm).
     pub fn extent(&self) -> DVec2 {
         self.feet.places().iter().fold(DVec2::ZERO, |extent, place| extent.max(place.abs()))
     }
 
-    /// The true place and the direction of a slab of a foot's pixel.
     fn look(&self, foot: &Foot) -> (DVec3, DVec3) {
         let from_bent = self.bent.true_from_bent(foot.at);
         let aside = self.camera.right() * foot.aside.x + self.camera.up() * foot.aside.y;
@@ -86,18 +83,16 @@ impl Uncurl {
         foot.aside.length_squared() <= self.reach * self.reach
     }
 
-    /// The place in the image (mm) of a pixel with fractions.
     fn place(&self, pixel: DVec2) -> DVec2 {
         let side = self.camera.pixel_spacing();
         DVec2::new(self.camera.view_x(0) + pixel.x * side, self.camera.view_y(0) - pixel.y * side)
     }
 
-    /// What a function says of the foot of each pixel that shows something, and `nothing` for others.
     fn each<T: Send + Clone + Sync>(
         &self,
         nothing: T,
         stop: Stop,
-        told: impl Fn(&Foot) -> T + Sync,
+        value_of: impl Fn(&Foot) -> T + Sync,
     ) -> Result<Vec<T>> {
         let [width, height] = self.camera.size();
         let foot_of = self.feet.of_pixels(stop)?;
@@ -105,7 +100,7 @@ impl Uncurl {
             for (column, pixel) in pixels.iter_mut().enumerate() {
                 let foot = foot_of(row * width + column);
                 if self.is_shown(&foot) {
-                    *pixel = told(&foot);
+                    *pixel = value_of(&foot);
                 }
             }
         })
@@ -142,7 +137,7 @@ impl Layout for Uncurl {
     fn folded(&self, stop: Stop) -> Result<Vec<bool>> {
         let [width, height] = self.camera.size();
         if self.amount == 0.0 {
-            // In space no place of the vessel is nearer to a pixel's point than the nearest one in the image is.
+            // In space no point of the vessel is nearer to a pixel's point than the nearest one in the image.
             return filled(width * height, false, stop);
         }
         let cut_locus = CutLocus::new(&self.path);
@@ -168,7 +163,7 @@ impl Layout for Uncurl {
 }
 
 impl Uncurl {
-    /// The places of the vessel whose pixels may show a world point: those that it lies beside in the bent surroundings.
+    /// The feet whose pixels may show a world point in the bent surroundings.
     fn feet_of_world(&self, point: DVec3) -> Vec<Foot> {
         let mut marks: Vec<_> = self.path.arc_length().to_vec();
         marks.extend(self.bent.stations().filter(|at| *at > 0.0 && *at < self.path.length()));
@@ -184,7 +179,7 @@ impl Uncurl {
             if !is_ahead(from) || is_ahead(to) {
                 continue;
             }
-            for _ in 0..HALVINGS {
+            for _ in 0..BISECTIONS {
                 let middle = f64::midpoint(from, to);
                 *if is_ahead(middle) { &mut from } else { &mut to } = middle;
             }
@@ -193,7 +188,6 @@ impl Uncurl {
         found.into_iter().filter(|(_, depth)| depth.abs() <= ON_PICTURE).map(|(foot, _)| foot).collect()
     }
 
-    /// How a world point lies beside a place of the vessel in the bent surroundings, and how much deeper (mm).
     fn seen(&self, point: DVec3, segment: usize, at: f64) -> (Foot, f64) {
         let [start, end] = [self.feet.places()[segment], self.feet.places()[segment + 1]];
         let ends = &self.path.arc_length()[segment..];

@@ -1,8 +1,8 @@
-//! Untangled CPR: every vessel of a tree cut open in one image, none before another, with true lengths.
+//! Untangled CPR: every vessel of a tree cut open in one image, without overlaps, with true lengths.
 //!
-//! Kanitsar, Wegenkittl, Fleischmann and Gröller, "Advanced Curved Planar Reformation: Flattening of Vascular Structures", IEEE
-//! Visualization 2003, doi:10.1109/VISUAL.2003.1250353, show an entire tree by least rotations at branching points. Of that method
-//! only the abstract could be read: layout and search are ours.
+//! Kanitsar, Wegenkittl, Fleischmann and Gröller, "Advanced Curved Planar Reformation: Flattening of Vascular
+//! Structures", IEEE Visualization 2003, doi:10.1109/VISUAL.2003.1250353, show an entire tree by minimal
+//! rotations at branching points. Only the abstract of that method was available: layout and search are ours.
 
 mod growth;
 mod hull;
@@ -21,9 +21,9 @@ use rayon::prelude::*;
 use self::growth::Growth;
 use self::pieces::{Piece, pieces_of, vessels_of};
 use self::room::{extent, roots, size_of};
-use self::sheet::{Place, Sheet, placed};
+use self::sheet::{Sheet, SheetPosition, placed};
 use self::strip::Strip;
-use self::turning::{BEYOND_NEAR, Tree, Turning, untangle};
+use self::turning::{OVERLAP_EXTRA_MM, Tree, Turning, untangle};
 use super::found::NO_VESSEL;
 use super::layout::{Layout, by_rows, curved_by_rows};
 use crate::camera::{Camera, MAX_PIXEL_SPACING};
@@ -39,16 +39,16 @@ const SMOOTHING: Limits = Limits::new(0.0, 1e3, "mm");
 const PIXEL_SPACING: Limits = Limits::new(1e-6, MAX_PIXEL_SPACING, "mm");
 const UNKNOWN_RADIUS: Limits = Limits::new(0.0, 1e6, "mm");
 
-/// The side of the squares of pixels that look for the nearest vessel together.
+/// The side of the squares of pixels that search the nearest vessel together.
 const TILE: usize = 8;
 
-/// Where no segment is near.
-const NONE: u32 = u32::MAX;
+/// A pixel with no segment nearby.
+const NO_SEGMENT: u32 = u32::MAX;
 
 /// How a tree is laid out.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct UntangledParameters {
-    /// How far the image shows what lies beside vessels (mm), on each side.
+    /// Width shown on each side of a vessel (mm).
     pub width: f64,
     /// How much wider than the lumen the hulls are that must not overlap (mm).
     pub hull_margin: f64,
@@ -56,10 +56,10 @@ pub struct UntangledParameters {
     pub smoothing: f64,
     /// The side of a pixel (mm).
     pub pixel_spacing: f64,
-    /// What takes the place of radii that are not known (mm).
+    /// Replaces unknown radii (mm).
     pub unknown_radius: f64,
-    /// Near the end of the vessel from which the tree grows (mm, LPS); parts without it grow from the free end of the largest
-    /// mean radius over 10 mm.
+    /// A point near the end where the tree grows from (mm, LPS). Parts without it grow from the free end of
+    /// the largest mean radius over 10 mm.
     pub root: Option<DVec3>,
 }
 
@@ -89,22 +89,22 @@ impl UntangledParameters {
     }
 }
 
-/// A part of a vessel, between two places where vessels meet or end, in the image.
+/// A part of a vessel in the image, between two points where vessels meet or end.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LaidOut {
     /// The id of the vessel.
     pub vessel: usize,
-    /// Where along the vessel its places are (mm), rising.
+    /// Rising arc lengths along the vessel (mm).
     pub arc_length: Vec<f64>,
-    /// Those places in the image: column and row.
+    /// The image positions (column, row) at these arc lengths.
     pub pixels: Vec<DVec2>,
-    /// By how much it is turned where it begins, with all that follows it (radians, counter-clockwise in the image).
+    /// The turn of this part and all that follows it (radians, counter-clockwise in the image).
     pub turn: f64,
-    /// Whether it begins at its last place.
+    /// Whether it begins at its last point.
     pub is_reversed: bool,
 }
 
-/// A tree laid out without overlap, seen along the direction of a camera. Clones share what was found.
+/// A tree laid out without overlap, seen along the direction of a camera. Clones share the computed layout.
 #[derive(Clone)]
 pub struct Untangled {
     parameters: UntangledParameters,
@@ -116,20 +116,16 @@ pub struct Untangled {
     closures: Vec<[DVec2; 2]>,
     /// The centre of the first pixel (mm).
     origin: DVec2,
-    /// How wide and high all that is shown is (mm).
+    /// Width and height of all that is shown (mm).
     extent: DVec2,
     size: [usize; 2],
-    /// The segment that each pixel shows.
     segments: Arc<OnceLock<Vec<u32>>>,
 }
 
 impl Untangled {
-    /// Lays out a tree; of the camera the directions count.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Camera`] for a length outside its range or too many pixels, [`ErrorKind::VesselTree`] for a vessel without
-    /// length or a part without a free end, [`ErrorKind::Settings`] for an invalid unknown radius,
-    /// [`ErrorKind::Interrupted`] once `stop` says so.
+    /// Lays out a tree; only the directions of the camera apply. Fails with [`ErrorKind::Camera`] for a
+    /// length outside its range or too many pixels, [`ErrorKind::VesselTree`] for a vessel without length or
+    /// a part without a free end, [`ErrorKind::Settings`] for an invalid unknown radius.
     pub fn new(
         tree: &VesselTree,
         camera: &Camera,
@@ -171,9 +167,7 @@ impl Untangled {
         Ok(made)
     }
 
-    /// The same layout in pixels of another side (mm): nothing is looked for again.
-    ///
-    /// # Errors
+    /// The same layout, without a new search, in pixels of another side (mm). Fails with
     /// [`ErrorKind::Camera`] for a side outside its range or too many pixels.
     pub fn with_pixels(&self, pixel_spacing: f64) -> Result<Self> {
         let parameters = UntangledParameters { pixel_spacing, ..self.parameters };
@@ -193,30 +187,28 @@ impl Untangled {
         })
     }
 
-    /// How wide and high all that is shown is (mm).
+    /// Width and height of all that is shown (mm).
     pub fn extent(&self) -> DVec2 {
         self.extent
     }
 
-    /// The id of the vessel that a place in the image shows, column and row, and the place along it (mm); None where nothing is
-    /// shown.
+    /// The vessel id and arc length (mm) at an image position (column, row), if any.
     pub fn vessel_at(&self, pixel: DVec2) -> Option<(usize, f64)> {
         let place = self.sheet.place(self.seen(pixel))?;
         Some((self.laid_out[self.sheet.piece(&place)].vessel, self.sheet.arc_length(&place)))
     }
 
-    /// How it is laid out.
+    /// The parameters of the layout.
     pub fn parameters(&self) -> &UntangledParameters {
         &self.parameters
     }
 
-    /// All vessels, in parts between the places where they meet or end, in their order and along them.
+    /// All vessels, split where they meet or end, in their order and along them.
     pub fn laid_out(&self) -> &[LaidOut] {
         &self.laid_out
     }
 
-    /// Where each vessel ends in the image, column and row, by the ids: a vessel that grows backwards ends in its first part, others
-    /// in their last one.
+    /// The end of each vessel in the image (column, row), by id.
     pub fn ends(&self) -> Vec<DVec2> {
         let mut ends = vec![DVec2::NAN; self.vessels];
         for LaidOut { vessel, pixels, is_reversed, .. } in self.laid_out.iter() {
@@ -228,8 +220,7 @@ impl Untangled {
         ends
     }
 
-    /// By how much each vessel is turned where a part of it begins (radians, counter-clockwise in the image): of several turns the
-    /// largest one.
+    /// The largest turn of each vessel's parts (radians, counter-clockwise in the image).
     pub fn rotations(&self) -> Vec<f64> {
         let mut rotations = vec![0.0f64; self.vessels];
         for part in self.laid_out.iter() {
@@ -241,26 +232,23 @@ impl Untangled {
         rotations
     }
 
-    /// How far around a branching point vessels may overlap (mm) where the widest hull that meets it has a radius of `hull` mm:
-    /// vessels that part begin as one.
+    /// Radius around a branching point within which vessels may overlap (mm), if its widest hull is `hull`
+    /// mm.
     pub fn may_overlap_within(&self, hull: f64) -> f64 {
-        self.near * hull + BEYOND_NEAR
+        self.near * hull + OVERLAP_EXTRA_MM
     }
 
-    /// The vessels whose hulls overlap those of others, or fold over themselves, nevertheless.
+    /// The vessels whose hulls still overlap others, or fold over themselves.
     pub fn overlaps(&self) -> &[usize] {
         &self.overlaps
     }
 
-    /// Where cycles are cut open: the two places in the image that are one place of the body.
+    /// Where cycles are cut open: pairs of image positions of one point of the body.
     pub fn closures(&self) -> &[[DVec2; 2]] {
         &self.closures
     }
 
     /// The vessel that each pixel shows, row by row; [`NO_VESSEL`] where nothing is shown.
-    ///
-    /// # Errors
-    /// [`crate::error::ErrorKind::Interrupted`] once the caller asks to stop.
     pub fn vessel(&self, stop: Stop) -> Result<Vec<i32>> {
         self.each(NO_VESSEL, stop, |place| self.laid_out[self.sheet.piece(place)].vessel as i32)
     }
@@ -284,25 +272,22 @@ impl Untangled {
         [at(piece, usize::from(!growth.is_reversed[piece])), at(there, end)]
     }
 
-    /// Where a place of the image (mm) is in pixels.
     fn pixel(&self, seen: DVec2) -> DVec2 {
         let from = (seen - self.origin) / self.parameters.pixel_spacing;
         DVec2::new(from.x, -from.y)
     }
 
-    /// Where a pixel is in the image (mm).
     fn seen(&self, pixel: DVec2) -> DVec2 {
         self.origin + DVec2::new(pixel.x, -pixel.y) * self.parameters.pixel_spacing
     }
 
-    /// The segment that each pixel shows, found at the first call.
     fn segments(&self, stop: Stop) -> Result<&[u32]> {
-        // Made outside the lock: a thread of the pool that waited for its part could wait for itself.
+        // Computed outside the lock: a pool thread waiting for its part could wait for itself.
         if let Some(known) = self.segments.get() {
             return Ok(known);
         }
         let [width, height] = self.size;
-        let mut segments = filled(width * height, NONE, stop)?;
+        let mut segments = filled(width * height, NO_SEGMENT, stop)?;
         segments.par_chunks_mut(TILE * width).enumerate().try_for_each(|(n, rows)| {
             (0..width).step_by(TILE).try_for_each(|first| {
                 go_on(stop)?;
@@ -313,7 +298,6 @@ impl Untangled {
         Ok(self.segments.get_or_init(|| segments))
     }
 
-    /// Finds the segments of a square of pixels; `rows` begin with its first row.
     fn fill_tile(&self, [first, top]: [usize; 2], rows: &mut [u32]) {
         let width = self.size[0];
         let side = (TILE - 1) as f64 / 2.0;
@@ -332,25 +316,23 @@ impl Untangled {
         }
     }
 
-    /// The place that a pixel shows, column and row; None where nothing is shown.
-    fn shown(&self, segments: &[u32], [i, j]: [usize; 2]) -> Option<Place> {
+    fn shown(&self, segments: &[u32], [i, j]: [usize; 2]) -> Option<SheetPosition> {
         let segment = segments[j * self.size[0] + i];
         let seen = self.seen(DVec2::new(i as f64, j as f64));
-        (segment != NONE).then(|| self.sheet.on_segment(segment as usize, seen))
+        (segment != NO_SEGMENT).then(|| self.sheet.on_segment(segment as usize, seen))
     }
 
-    /// What a function says of the place that each pixel shows, row by row, and `nothing` where none is shown.
     fn each<T: Clone + Send>(
         &self,
         nothing: T,
         stop: Stop,
-        told: impl Fn(&Place) -> T + Sync,
+        value_of: impl Fn(&SheetPosition) -> T + Sync,
     ) -> Result<Vec<T>> {
         let segments = self.segments(stop)?;
         by_rows(self.size, nothing, stop, |j, row| {
             for (i, pixel) in row.iter_mut().enumerate() {
                 if let Some(place) = self.shown(segments, [i, j]) {
-                    *pixel = told(&place);
+                    *pixel = value_of(&place);
                 }
             }
         })

@@ -1,11 +1,11 @@
-//! The wall of a vessel as a table: its radius at places along the vessel, in directions around it.
+//! The wall of a vessel as a table: its radius by arc length and direction.
 
 use std::f64::consts::TAU;
 
 use crate::error::{Error, ErrorKind, Result};
 use crate::math::arc_length::segment_at;
 
-/// The radius of a wall (mm) by arc length and direction, and where it is open. Between entries it is bilinear.
+/// The radius of a wall (mm) by arc length and direction, and where it is open, interpolated bilinearly.
 #[derive(Clone, Debug)]
 pub struct Wall {
     at: Vec<f64>,
@@ -15,18 +15,16 @@ pub struct Wall {
 }
 
 impl Wall {
-    /// The wall at arc lengths that rise (mm), each with its radius (mm) and whether it is open in evenly spaced directions, the
-    /// first of which is to the right of the straightened vessel and the next ones turned into the scene.
-    ///
-    /// # Errors
-    /// [`ErrorKind::VesselTree`] for a table of other sizes, arc lengths that do not rise, or a radius that is not above 0.
+    /// The wall at rising arc lengths (mm): radius (mm) and opening in evenly spaced directions, from the
+    /// right of the straightened vessel into the scene. Fails with [`ErrorKind::VesselTree`] for a table of
+    /// other sizes, arc lengths that do not rise, or a radius that is not above 0.
     pub fn new(at: Vec<f64>, radius: Vec<f64>, open: Vec<bool>) -> Result<Self> {
         let directions = if at.is_empty() { 0 } else { radius.len() / at.len() };
         let rises = at.windows(2).all(|ends| ends[1] > ends[0]);
         let is_table = directions > 0 && radius.len() == directions * at.len() && open.len() == radius.len();
         if !is_table || !rises {
-            let found = format!("{} places, {} radii", at.len(), radius.len());
-            let expected = "as many radii at each of the places, which rise";
+            let found = format!("{} arc lengths, {} radii", at.len(), radius.len());
+            let expected = "the same number of radii for each arc length, in rising order";
             return Err(Error::new(ErrorKind::VesselTree, "wall of the vessel", found, expected));
         }
         if let Some(wrong) = radius.iter().find(|radius| !(**radius > 0.0 && radius.is_finite())) {
@@ -59,7 +57,6 @@ impl Wall {
         self.open[row * self.directions + column]
     }
 
-    /// The rows around an arc length, and how far it lies from the first to the second (0 to 1).
     fn rows(&self, at: f64) -> ([usize; 2], f64) {
         if self.at.len() == 1 {
             return ([0, 0], 0.0);

@@ -1,4 +1,4 @@
-//! Settings as hosts choose them, one by one and in any order, and the checked settings that they stand for.
+//! Settings as hosts choose them, one by one and in any order, and the checked settings they result in.
 
 use super::context::{Context, ContextMode, ContextName};
 use super::table::{ContextChoices, Settings};
@@ -14,10 +14,7 @@ pub struct Choices {
 }
 
 impl Choices {
-    /// Chooses the value of a setting by its name in the table.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Settings`] for an unknown setting, a value of another kind, or a name that the setting does not have.
+    /// Fails with [`ErrorKind::Settings`] for an unknown setting, another kind of value, or an invalid name.
     pub fn set(&mut self, name: &str, value: Value) -> Result<()> {
         if ContextChoices::ROWS.iter().any(|setting| setting.name == name) {
             self.context.set(name, value)
@@ -26,12 +23,9 @@ impl Choices {
         }
     }
 
-    /// The settings, checked.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Settings`] naming the first setting outside its range.
+    /// The checked settings. Fails with [`ErrorKind::Settings`] naming the first setting outside its range.
     pub fn settings(&self) -> Result<Settings> {
-        // The context is checked even where it is not wanted: what is wrong with it shows at once.
+        // Checks the context even if it is not wanted, so that errors in it appear at once.
         self.context.check_gamma()?;
         self.context.check_step()?;
         self.settings.check_rows()?;
@@ -43,10 +37,7 @@ impl Choices {
 }
 
 impl Settings {
-    /// Checks every setting against its range.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Settings`] naming the first setting outside its range.
+    /// Fails with [`ErrorKind::Settings`] naming the first setting outside its range.
     pub fn check(&self) -> Result<()> {
         self.check_rows()?;
         self.check_chosen()?;
@@ -59,7 +50,7 @@ impl Settings {
 }
 
 impl ContextChoices {
-    /// The context; that of the default name where none is wanted.
+    /// The context; that of the default name if none is wanted.
     pub fn context(&self) -> Context {
         let name = self.context.unwrap_or(ContextName::Mida);
         let transfer = self.context_transfer.clone().unwrap_or(Transfer::Preset(name.default_transfer()));
@@ -76,7 +67,6 @@ impl ContextChoices {
         }
     }
 
-    /// Refuses a gamma for a context that has none.
     fn check_gamma(&self) -> Result<()> {
         let gamma = self.context_gamma;
         if gamma == 0.0 || self.context == Some(ContextName::Mida) {
@@ -89,20 +79,19 @@ impl ContextChoices {
         Err(Error::new(ErrorKind::Settings, "context_gamma", found, expected))
     }
 
-    /// Refuses a step for a context that takes no samples.
     fn check_step(&self) -> Result<()> {
         let (Some(step), Some(name)) = (self.context_step, self.context) else { return Ok(()) };
         if name.mode(self.context_gamma).is_sampled() {
             return Ok(());
         }
         let found = format!("{step} mm with the context '{}'", name.name());
-        let expected = "no step: the values along each ray are exact there";
+        let expected = "no step: this context has exact values along rays";
         Err(Error::new(ErrorKind::Settings, "context_step", found, expected))
     }
 }
 
 impl From<&Context> for ContextChoices {
-    /// The choices with the same ranges to keep to: a blend by its γ, a transfer function by its points.
+    /// The choices that result in `context`: a blend by its γ, a transfer function by its points.
     fn from(context: &Context) -> Self {
         let (name, gamma) = match context.mode {
             ContextMode::Blend { gamma } => (ContextName::Mida, gamma),

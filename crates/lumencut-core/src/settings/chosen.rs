@@ -1,4 +1,4 @@
-//! The chosen vessels, which come before all others: what they make of the other settings.
+//! The effect of chosen vessels, which take precedence over all others, on the other settings.
 
 use std::borrow::Cow;
 
@@ -6,15 +6,12 @@ use super::table::Settings;
 use crate::error::{Error, ErrorKind, Result};
 
 impl Settings {
-    /// These settings for a tree of so many vessels. Where some of them are chosen, silhouettes are drawn; where all are, none is
-    /// set apart, as if none were chosen.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Settings`] for the id of a vessel that is not there.
-    pub fn for_vessels(&self, count: usize) -> Result<Cow<'_, Self>> {
+    /// These settings for `count` vessels: silhouettes if some are chosen, no choice if all are. Fails with
+    /// [`ErrorKind::Settings`] for the id of a missing vessel.
+    pub(crate) fn for_vessels(&self, count: usize) -> Result<Cow<'_, Self>> {
         let chosen = &self.focus_vessels;
         if let Some(id) = chosen.iter().find(|id| **id >= count) {
-            let found = format!("the vessel {id} of a tree of {count}");
+            let found = format!("vessel {id} in a tree of {count}");
             let expected = format!("ids from 0 to {}", count.saturating_sub(1));
             return Err(Error::new(ErrorKind::Settings, "focus_vessels", found, expected));
         }
@@ -27,19 +24,19 @@ impl Settings {
         Ok(Cow::Owned(Self { silhouettes: true, ..self.clone() }))
     }
 
-    /// The setting that tells some vessels from what is around them, and what it is in words.
+    /// The setting that sets some vessels apart from their surroundings, and its words.
     pub fn focused(&self) -> Option<(&'static str, &'static str)> {
         let chosen = (!self.focus_vessels.is_empty()).then_some(("focus_vessels", "chosen vessels"));
         self.focus.map(|_| ("focus", "a focus")).or(chosen)
     }
 
-    /// Refuses chosen vessels where lumen and wall have no tiers.
+    /// Rejects chosen vessels where lumen and wall have no tiers.
     pub(super) fn check_chosen(&self) -> Result<()> {
         if self.focus_vessels.is_empty() || self.lumen_first {
             return Ok(());
         }
         let found = "chosen vessels without lumen_first";
-        let expected = "lumen_first, whose tiers those of the chosen vessels come before";
+        let expected = "lumen_first, which chosen vessels need";
         Err(Error::new(ErrorKind::Settings, "focus_vessels", found, expected)
             .mend("set lumen_first, or choose no vessels"))
     }

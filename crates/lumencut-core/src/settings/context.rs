@@ -1,13 +1,13 @@
-//! The context: what the rays gather where the cut surface shows nothing, and the names of the ways to do so.
+//! The context: what the rays gather where the cut surface shows nothing, and the names of its modes.
 
 use super::transfer::{Preset, TransferFunction};
 use super::window::Window;
 use crate::named::Named;
 
-/// The ways to show the context, by name.
+/// The modes of the context, by name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ContextName {
-    /// Maximum intensity difference accumulation, the one whose γ can be chosen.
+    /// Maximum intensity difference accumulation, with adjustable γ.
     Mida,
     /// Direct volume rendering.
     Dvr,
@@ -41,8 +41,8 @@ impl ContextName {
         }
     }
 
-    /// The transfer function where none is chosen: a maximum is one intensity, whose grey says most.
-    pub fn default_transfer(self) -> Preset {
+    /// The default transfer function: grey for a maximum, because it is a single intensity.
+    pub(crate) fn default_transfer(self) -> Preset {
         match self {
             Self::Mip => Preset::Grey,
             _ => Preset::Angio,
@@ -66,8 +66,8 @@ impl Named for ContextFrom {
 /// What the rays of the context gather.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ContextMode {
-    /// Colour and opacity: γ = −1 is direct volume rendering (DVR), 0 maximum intensity difference accumulation
-    /// (MIDA), 1 maximum intensity projection (MIP).
+    /// Colour and opacity: γ = −1 is direct volume rendering (DVR), 0 maximum intensity difference
+    /// accumulation (MIDA), 1 maximum intensity projection (MIP).
     Blend {
         /// γ, from −1 to 1.
         gamma: f64,
@@ -79,14 +79,14 @@ pub enum ContextMode {
 }
 
 impl ContextMode {
-    /// Where rays start around the focus unless it is chosen: what opacities hide is not seen from a cut surface on, while the
-    /// largest, smallest or mean value of half a ray leaps where the cut surface does.
+    /// Opacities hide what lies behind a cut surface, but a largest, smallest or mean value leaps where the
+    /// cut surface does.
     pub fn default_from(self) -> ContextFrom {
         if self.is_sampled() { ContextFrom::Cut } else { ContextFrom::Whole }
     }
 
     /// Whether samples along rays are blended, at a step; the other modes have exact values and no step.
-    pub fn is_sampled(self) -> bool {
+    pub(crate) fn is_sampled(self) -> bool {
         matches!(self, Self::Blend { gamma } if gamma < 1.0)
     }
 }
@@ -100,15 +100,15 @@ pub struct Context {
     pub window: Window,
     /// Colour and opacity of the intensities.
     pub transfer: TransferFunction,
-    /// The longest distance between samples (mm); `None` is the smallest side of a voxel, and half of it for DVR and
-    /// MIDA at full resolution, whose opaque borders would show rings otherwise.
+    /// The longest distance between samples (mm). `None` is the smallest side of a voxel, and half of it for
+    /// DVR and MIDA at full resolution, whose opaque borders would otherwise show rings.
     pub step: Option<f64>,
-    /// Shade DVR and MIDA by the gradient, with light from the viewer.
+    /// Whether DVR and MIDA are shaded by the gradient, with light from the viewer.
     pub shading: bool,
     /// Where rays start around the focus.
     pub from: ContextFrom,
-    /// What its colours are multiplied by in the picture, 0 to 1.
+    /// Factor on its colours in the picture, 0 to 1.
     pub strength: f64,
-    /// Trace one ray for each square of four pixels only.
+    /// Whether only one ray is traced for each square of four pixels.
     pub preview: bool,
 }

@@ -1,4 +1,4 @@
-//! The types that the fields of settings have: what hosts give for them, and how they are checked.
+//! The types of settings' fields: conversion from and to hosts' values, and checks.
 
 use super::focus::Focus;
 use super::slab::{Slab, SlabMode};
@@ -9,31 +9,24 @@ use crate::error::{Error, ErrorKind, Result};
 use crate::limits::Limits;
 use crate::named::Named;
 
-/// A type that the field of a setting can have.
 pub(super) trait Field: Sized {
-    /// What kind of value hosts give for it.
     const KIND: Kind;
     /// Whether hosts may leave it open with [`Value::None`].
     const OPTIONAL: bool = false;
 
-    /// The names that can be chosen for it, or for a part of it.
     fn choices() -> Vec<&'static str> {
         Vec::new()
     }
 
-    /// The field of the setting `name` that a value stands for.
     fn from_value(name: &str, value: Value) -> Result<Self>;
 
-    /// What a host would give for this field.
     fn to_value(&self) -> Value;
 
-    /// Checks the field of the setting `name`.
     fn check(&self, _name: &str, _limits: Option<&Limits>) -> Result<()> {
         Ok(())
     }
 }
 
-/// The error for a value of another kind.
 fn of_another_kind<T: Field>(name: &str, value: &Value) -> Error {
     let expected = format!("a value of the kind {}", T::KIND.name());
     Error::new(ErrorKind::Settings, name, format!("{value:?}"), expected)
@@ -142,7 +135,7 @@ impl<T: Named> Field for T {
     }
 }
 
-/// A window that is left open is that of [`Window::default`]; hosts that know the data put one from the data there.
+/// An open window is [`Window::default`]; hosts that know the data replace it.
 impl Field for Window {
     const KIND: Kind = Kind::Window;
     const OPTIONAL: bool = true;
@@ -220,7 +213,7 @@ impl Field for Focus {
     }
 }
 
-/// Names of vessels are known once there is a tree: hosts leave the ids open until then.
+/// Vessel names are known once there is a tree: hosts leave the ids open until then.
 impl Field for Vec<usize> {
     const KIND: Kind = Kind::Vessels;
 

@@ -3,28 +3,25 @@
 use crate::error::Result;
 use crate::limits::Limits;
 
-/// Margins; those far below 0 leave the context alone.
-const MARGIN: Limits = Limits::new(-1e6, 1e6, "mm");
-/// Fades.
-const FADE: Limits = Limits::new(0.0, 1e6, "mm");
+/// Margins far below 0 leave the context alone.
+const MARGIN_LIMITS: Limits = Limits::new(-1e6, 1e6, "mm");
+const FADE_LIMITS: Limits = Limits::new(0.0, 1e6, "mm");
 
 /// The cut surface around the vessels amid the context.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Focus {
-    /// How far beyond the nearest wall, in the view plane, all of the cut surface is shown (mm). Below 0 lumens fade too.
+    /// Distance beyond the nearest wall (mm, in the view plane) with all of the cut surface; below 0 lumens
+    /// fade.
     pub margin: f64,
-    /// Over which distance from there the cut surface fades into the context (mm); 0 is a hard edge.
+    /// Distance over which the cut surface then fades into the context (mm); 0 is a hard edge.
     pub fade: f64,
 }
 
 impl Focus {
-    /// Checks margin and fade.
-    ///
-    /// # Errors
-    /// [`crate::error::ErrorKind::Settings`] for one outside its range.
+    /// Checks margin and fade. Fails with [`crate::error::ErrorKind::Settings`] for one outside its range.
     pub fn check(&self) -> Result<()> {
-        MARGIN.check("focus margin", self.margin)?;
-        FADE.check("focus fade", self.fade)
+        MARGIN_LIMITS.check("focus margin", self.margin)?;
+        FADE_LIMITS.check("focus fade", self.fade)
     }
 }
 

@@ -6,25 +6,25 @@ use super::slab::{Slab, SlabMode};
 use super::value::Value;
 use crate::named::Named;
 
-/// A focus that leaves nothing of the cut surface: what is shown is the context alone.
+/// A focus that shows the context alone.
 const NOTHING_OF_THE_CUT: Focus = Focus { margin: -1e6, fade: 0.0 };
-/// How thick the slab of a thick slab is (mm).
-const THICK: f64 = 10.0;
+/// Thickness of the look with a thick slab (mm).
+const THICK_SLAB_MM: f64 = 10.0;
 
 /// Several settings under one name; all others have their defaults.
 #[derive(Clone, Copy, Debug)]
 pub struct Look {
     /// Its name on the command line and in Python.
     pub name: &'static str,
-    /// What a page calls it.
+    /// Its label on a page.
     pub words: &'static str,
     /// What it shows.
     pub sentence: &'static str,
-    /// The settings that it chooses, with their values.
+    /// Its settings and their values.
     pub values: fn() -> Vec<(&'static str, Value)>,
 }
 
-/// All looks, in the order to show them to users.
+/// All looks, in display order.
 pub const LOOKS: [Look; 5] = [
     Look {
         name: "lumen",
@@ -79,5 +79,5 @@ fn mip() -> Vec<(&'static str, Value)> {
 }
 
 fn slab() -> Vec<(&'static str, Value)> {
-    vec![("slab", Value::Slab(Slab { thickness: THICK, mode: SlabMode::Max }))]
+    vec![("slab", Value::Slab(Slab { thickness: THICK_SLAB_MM, mode: SlabMode::Max }))]
 }

@@ -1,4 +1,4 @@
-//! Every setting of the method: what it is called, its range, unit and default, and what it does.
+//! Every setting of the method: name, range, unit, default and description.
 
 mod choices;
 mod chosen;
@@ -23,6 +23,7 @@ pub use rules::{LevelChoice, SilhouetteRule};
 pub use setting::Setting;
 pub use slab::{Slab, SlabMode};
 pub use table::{ContextChoices, MAX_LEVELS, Settings, table};
-pub use transfer::{ControlPoint, MAX_POINTS, Preset, TransferFunction};
+pub(crate) use transfer::MAX_POINTS;
+pub use transfer::{ControlPoint, Preset, TransferFunction};
 pub use value::{Kind, Transfer, Value};
 pub use window::{Opacity, Window};

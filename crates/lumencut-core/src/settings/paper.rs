@@ -1,4 +1,4 @@
-//! The settings that the paper's rules stand for.
+//! The settings of the paper's rules.
 
 use super::rules::{LevelChoice, SilhouetteRule};
 use super::table::Settings;

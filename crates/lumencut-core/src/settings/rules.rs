@@ -7,7 +7,7 @@ use crate::named::Named;
 pub enum LevelChoice {
     /// To the vessel that wins the pixel at the finest level: one decision for each pixel.
     Own,
-    /// To the vessel with the smallest cost at each level, which may be another one at each (paper section 3.1.4).
+    /// To the vessel with the smallest cost at each level, which may change (paper section 3.1.4).
     Nearest,
 }
 

@@ -6,15 +6,15 @@ use crate::limits::Limits;
 /// A row of the table of settings.
 #[derive(Clone, Copy, Debug)]
 pub struct Setting {
-    /// The name in Python; the command line has hyphens in the place of underscores.
+    /// The name in Python; the command line has hyphens instead of underscores.
     pub name: &'static str,
-    /// What kind of value it has.
+    /// The kind of its value.
     pub kind: Kind,
     /// Whether it may be left open.
     pub optional: bool,
     /// The range of a number.
     pub limits: Option<Limits>,
-    /// What holds where it is left open, for those that are open by default.
+    /// The meaning of the open value, for settings that are open by default.
     pub open: Option<&'static str>,
     pub(super) about: &'static str,
     pub(super) choices: fn() -> Vec<&'static str>,
@@ -27,17 +27,17 @@ impl Setting {
         self.paragraphs().next().unwrap_or_default()
     }
 
-    /// What else there is to say, for documents that have room for it.
+    /// Further details, for documents that have room for them.
     pub fn details(&self) -> String {
         self.paragraphs().skip(1).collect::<Vec<_>>().join(" ")
     }
 
-    /// The names that can be chosen: of the setting, or of the slab's mode.
+    /// The valid names: of the setting, or of the slab's mode.
     pub fn choices(&self) -> Vec<&'static str> {
         (self.choices)()
     }
 
-    /// The value where nothing is chosen.
+    /// The default value.
     pub fn default(&self) -> Value {
         if self.open.is_some() { Value::None } else { (self.default)() }
     }
@@ -47,9 +47,8 @@ impl Setting {
     }
 }
 
-/// Declares a structure of settings, one row for each: `name: type = default`, then the range and the unit of a number,
-/// and what holds where it is left open. The comment before a row is what users read: its first paragraph on the command
-/// line, all of it in the documents.
+/// Declares settings, one row each: `name: type = default`, range and unit, meaning of an open value. The
+/// comment before a row is the user's text: its first paragraph on the command line, all of it in documents.
 macro_rules! settings {
     (
         $(#[$attribute:meta])*
@@ -82,7 +81,7 @@ macro_rules! settings {
         }
 
         impl $structure {
-            /// The settings of this structure, in the order to show them to users.
+            /// The settings of this structure, in display order.
             pub const ROWS: &'static [Setting] = &[$(
                 Setting {
                     name: stringify!($name),
@@ -101,7 +100,6 @@ macro_rules! settings {
                 vec![$((stringify!($name), Field::to_value(&self.$name)),)+]
             }
 
-            /// Sets the setting `name`.
             pub(super) fn set(&mut self, name: &str, value: Value) -> Result<()> {
                 match name {
                     $(stringify!($name) => self.$name = Field::from_value(name, value)?,)+
@@ -110,7 +108,6 @@ macro_rules! settings {
                 Ok(())
             }
 
-            /// Checks the settings against their ranges.
             pub(super) fn check_rows(&self) -> Result<()> {
                 $(Field::check(&self.$name, stringify!($name), settings!(@limits $($low, $high, $unit)?).as_ref())?;)+
                 Ok(())

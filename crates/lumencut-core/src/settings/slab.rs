@@ -1,10 +1,9 @@
-//! The slab: how thick the cut surface is, and what it shows of its thickness.
+//! The slab: thickness of the cut surface, and what it shows of it.
 
 use crate::error::Result;
 use crate::limits::Limits;
 use crate::named::Named;
 
-/// The thicknesses that a slab can have.
 const THICKNESS: Limits = Limits::new(0.0, 1e3, "mm");
 
 /// What a thick cut surface shows of the values along the view direction.
@@ -33,10 +32,7 @@ pub struct Slab {
 }
 
 impl Slab {
-    /// Checks the thickness.
-    ///
-    /// # Errors
-    /// [`crate::error::ErrorKind::Settings`] for a thickness outside its range.
+    /// Fails with [`crate::error::ErrorKind::Settings`] for a thickness outside its range.
     pub fn check(&self) -> Result<()> {
         THICKNESS.check("slab thickness", self.thickness)
     }

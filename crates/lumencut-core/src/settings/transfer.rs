@@ -1,15 +1,13 @@
-//! Transfer functions: the colour and the opacity that an intensity has in the context, and those that have a name.
+//! Transfer functions: colour and opacity of an intensity in the context, and the named ones.
 
 use super::window::Window;
 use crate::error::{Error, ErrorKind, Result};
 use crate::limits::Limits;
 use crate::named::Named;
 
-/// The opacities that a control point can have.
 const OPACITY: Limits = Limits::new(0.0, 1.0, "per mm");
 
-/// The most control points of a transfer function.
-pub const MAX_POINTS: usize = 64;
+pub(crate) const MAX_POINTS: usize = 64;
 
 /// Colour and opacity at one intensity.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -18,23 +16,20 @@ pub struct ControlPoint {
     pub intensity: f64,
     /// RGB.
     pub color: [u8; 3],
-    /// Opacity of one millimetre of it, 0 to 1.
+    /// Opacity of one millimetre, 0 to 1.
     pub opacity: f64,
 }
 
-/// Control points by rising intensity. Between two of them colour and opacity are linear, beyond the outermost ones
-/// constant; two at one intensity make a step.
+/// Control points by rising intensity. Colour and opacity are linear between them and constant beyond the
+/// outermost ones; two points at one intensity make a step.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TransferFunction {
-    /// The points, at least one and at most [`MAX_POINTS`].
+    /// The points, 1 to 64.
     pub points: Vec<ControlPoint>,
 }
 
 impl TransferFunction {
-    /// Checks how many points there are, their order, and their numbers.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Settings`] for the first point that is wrong.
+    /// Fails with [`ErrorKind::Settings`] for the first invalid point.
     pub fn check(&self) -> Result<()> {
         let points = &self.points;
         if points.is_empty() || points.len() > MAX_POINTS {
@@ -55,15 +50,15 @@ impl TransferFunction {
     }
 }
 
-/// Transfer functions by name, placed within the context window: 0 is its black end, 1 its white end. A window from
-/// the data has the tissue around the vessels at 1/6 and their lumen at 1/2.
+/// Named transfer functions, placed within the context window: 0 is its black end, 1 its white end. A window
+/// from the data has the tissue around the vessels at 1/6 and their lumen at 1/2.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Preset {
-    /// Grey as the window shows it, brighter is more opaque.
+    /// Grey as in the window; brighter is more opaque.
     Grey,
-    /// Vessels red, calcifications, stents and bone ivory, tissue hardly visible.
+    /// Vessels red; calcifications, stents and bone ivory; tissue hardly visible.
     Angio,
-    /// What is brighter than contrast medium, ivory.
+    /// Everything brighter than contrast medium, ivory.
     Bone,
     /// Skin and muscle as a veil, vessels within.
     SoftTissue,
@@ -79,7 +74,7 @@ impl Named for Preset {
 }
 
 impl Preset {
-    /// Place in the window, colour and opacity per millimetre of each control point.
+    /// Position in the window, colour and opacity per millimetre of each control point.
     fn points(self) -> &'static [(f64, [u8; 3], f64)] {
         match self {
             Self::Grey => &[(0.0, [0, 0, 0], 0.0), (1.0, [255, 255, 255], 0.3)],

@@ -1,18 +1,18 @@
-//! The kinds of values that settings have, and such values as hosts give them.
+//! The kinds of settings' values, and values as hosts give them.
 
 use super::focus::Focus;
 use super::slab::Slab;
 use super::transfer::{Preset, TransferFunction};
 use super::window::{Opacity, Window};
 
-/// What kind of value a setting has.
+/// The kind of a setting's value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// Yes or no.
     Flag,
     /// A number.
     Number,
-    /// A whole number.
+    /// An integer.
     Count,
     /// A colour with this number of channels, 0 to 255: red, green, blue and, fourth, opacity.
     Color(usize),
@@ -26,7 +26,7 @@ pub enum Kind {
     Slab,
     /// A [`Focus`].
     Focus,
-    /// Some vessels of the tree, by their ids.
+    /// Vessels of the tree, by their ids.
     Vessels,
     /// A [`TransferFunction`], or the name of a [`Preset`].
     Transfer,
@@ -54,7 +54,7 @@ impl Kind {
 /// The value of a setting.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value {
-    /// None is chosen.
+    /// No choice.
     None,
     /// Of [`Kind::Flag`].
     Flag(bool),
@@ -90,7 +90,6 @@ pub enum Transfer {
 }
 
 impl Transfer {
-    /// The transfer function in the window of the context.
     pub(super) fn within(&self, window: Window) -> TransferFunction {
         match self {
             Self::Preset(preset) => preset.transfer_function(window),

@@ -3,7 +3,6 @@
 use crate::error::Result;
 use crate::limits::Limits;
 
-/// The widths that a window can have.
 const WIDTH: Limits = Limits::new(1e-12, Limits::LARGEST_INTENSITY, Limits::INTENSITY.unit);
 
 /// Intensities shown from black to white: `level` ± `width` / 2.
@@ -23,10 +22,7 @@ impl Default for Window {
 }
 
 impl Window {
-    /// Checks level and width of the window that is called `name`.
-    ///
-    /// # Errors
-    /// [`crate::error::ErrorKind::Settings`] for a number outside its range.
+    /// Checks the window called `name`. Fails with [`crate::error::ErrorKind::Settings`].
     pub fn check(&self, name: &str) -> Result<()> {
         Limits::INTENSITY.check(&format!("{name} level"), self.level)?;
         WIDTH.check(&format!("{name} width"), self.width)
@@ -43,10 +39,7 @@ pub struct Opacity {
 }
 
 impl Opacity {
-    /// Checks both intensities.
-    ///
-    /// # Errors
-    /// [`crate::error::ErrorKind::Settings`] for an intensity outside its range.
+    /// Fails with [`crate::error::ErrorKind::Settings`] for an intensity outside its range.
     pub fn check(&self) -> Result<()> {
         Limits::INTENSITY.check("opacity start", self.transparent)?;
         Limits::INTENSITY.check("opacity end", self.opaque)

@@ -1,5 +1,4 @@
-//! The largest, the smallest or the mean value of the volume along rays, exactly: not at samples, but everywhere on the chord
-//! of each ray.
+//! The exact largest, smallest or mean value of the volume along rays: over the whole chord, not at samples.
 
 use rayon::prelude::*;
 
@@ -15,16 +14,13 @@ use crate::math::sampling::Grid;
 use crate::volume::Volume;
 use crate::with_voxels;
 
-/// What is kept of the values along the rays of an image.
+/// A reduction of the values along the rays of an image.
 #[derive(Clone, Copy)]
 pub struct AlongRays<'a> {
-    /// Columns and rows of the image.
     pub size: [usize; 2],
-    /// The volume.
     pub volume: &'a Volume<'a>,
-    /// What can be skipped; `None` looks at everything, with the same result.
+    /// Blocks to skip; `None` reads everything, with the same result.
     pub blocks: Option<&'a Blocks>,
-    /// What is kept.
     pub reduction: Reduction,
     /// The value from which on a larger (smaller) one makes no difference.
     pub limit: f32,
@@ -32,19 +28,14 @@ pub struct AlongRays<'a> {
     pub step: f64,
 }
 
-/// Gives the rays of the sixteen pixels of a square, by their columns and rows.
 pub trait RaySource: Sync {
-    /// The rays; those of pixels beyond the image are not asked for.
     fn lines(&self, pixels: &[Option<[usize; 2]>; FAN]) -> Lines;
 }
 
-/// The parallel rays of a view, each between the two depths that `chord` gives for its pixel (mm).
+/// The parallel rays of a view, each between the two depths that `chord` returns for its pixel (mm).
 pub struct ViewRays<F> {
-    /// From view to index.
     pub to: IndexFromView,
-    /// Where the rays are.
     pub rays: RayGrid,
-    /// The first and the last depth of a pixel's ray.
     pub chord: F,
 }
 
@@ -55,17 +46,14 @@ impl<F: Fn(usize) -> [f64; 2] + Sync> RaySource for ViewRays<F> {
 }
 
 /// Writes the value of each ray; NaN where it meets no value.
-///
-/// # Errors
-/// [`crate::error::ErrorKind::Interrupted`].
 pub fn along_rays(work: &Work, along: &AlongRays, source: &dyn RaySource, values: &mut [f32]) -> Result<()> {
     let (grid, isa, width) = (Grid::new(along.volume), work.isa, along.size[0]);
     with_voxels!(along.volume.voxels(), voxels => {
         let sampler: &dyn Sampler = &TypedSampler { grid, voxels, isa };
         values.par_chunks_mut(ROWS * width).enumerate().try_for_each(|(row, values)| {
             for column in (0..width).step_by(PACKET[0]) {
-                if column % TILE == 0 {
-                    work.begin(ROWS * TILE)?;
+                if column % COLUMNS_PER_CHECK == 0 {
+                    work.begin(ROWS * COLUMNS_PER_CHECK)?;
                 }
                 for first in (0..ROWS).step_by(PACKET[1]) {
                     let place = [column, first];
@@ -77,19 +65,17 @@ pub fn along_rays(work: &Work, along: &AlongRays, source: &dyn RaySource, values
     })
 }
 
-/// The parts of a ray that are followed, or skipped, together.
-const PARTS: i32 = 8;
+/// Parts of a ray that are followed or skipped together.
+const PARTS_TOGETHER: i32 = 8;
 
-/// So many columns are followed before the work asks whether to go on.
-const TILE: usize = 32;
+/// Columns between two checks for stop.
+const COLUMNS_PER_CHECK: usize = 32;
 
-/// A square of pixels in some rows of the image.
 struct Square<'a> {
     along: &'a AlongRays<'a>,
     grid: Grid,
     sampler: &'a dyn Sampler,
     source: &'a dyn RaySource,
-    /// The first of the rows, and where the square lies in them.
     row: usize,
     place: [usize; 2],
     values: &'a mut [f32],
@@ -122,7 +108,7 @@ impl Kernel for Square<'_> {
 }
 
 impl Square<'_> {
-    /// The largest values, of the volume times `sign`: the segments with the largest values go first.
+    /// The largest values of `sign` · volume: segments with the largest values go first.
     #[inline(always)]
     fn largest(&self, packet: &Packet, sign: f32) -> [f32; FAN] {
         let limit = self.along.limit * sign;
@@ -134,7 +120,12 @@ impl Square<'_> {
             if top(segment.range) <= smallest(&best) {
                 break;
             }
-            self.sampler.widen(segment.base, &packet.stretch(segment, PARTS), [sign, limit], &mut best);
+            self.sampler.widen(
+                segment.base,
+                &packet.stretch(segment, PARTS_TOGETHER),
+                [sign, limit],
+                &mut best,
+            );
         }
         best.map(|best| if best > -HUGE && best < HUGE { best * sign } else { f32::NAN })
     }
@@ -143,7 +134,7 @@ impl Square<'_> {
     fn mean(&self, packet: &Packet) -> [f32; FAN] {
         let mut sums = [[0.0; FAN]; 2];
         for segment in self.segments(packet) {
-            self.sampler.sum_up(segment.base, &packet.stretch(&segment, PARTS), &mut sums);
+            self.sampler.sum_up(segment.base, &packet.stretch(&segment, PARTS_TOGETHER), &mut sums);
         }
         let mut mean = [f32::NAN; FAN];
         for l in 0..FAN {
@@ -156,7 +147,7 @@ impl Square<'_> {
     fn segments<'b>(&'b self, packet: &'b Packet) -> impl Iterator<Item = Segment> + 'b {
         let blocks = if self.along.reduction == Reduction::Mean { None } else { self.along.blocks };
         (0..packet.longest)
-            .step_by(PARTS as usize)
-            .map(move |first| packet.whole_segment(&self.grid, blocks, first, PARTS))
+            .step_by(PARTS_TOGETHER as usize)
+            .map(move |first| packet.whole_segment(&self.grid, blocks, first, PARTS_TOGETHER))
     }
 }

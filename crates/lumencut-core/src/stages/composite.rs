@@ -10,39 +10,31 @@ use crate::math::lanes::{Kernel, dispatch, smaller};
 use crate::math::window::Ramp;
 use crate::settings::Settings;
 
-/// What a picture is made of, from the front to the back.
+/// The layers of a picture, from the front to the back.
 #[derive(Clone, Copy, Debug)]
 pub struct Layers<'a> {
     /// The volume at the cut surface, NaN where it shows nothing.
     pub value: &'a [f32],
-    /// Strength of the silhouettes, where they are drawn.
+    /// Strength of the silhouettes, if they are drawn.
     pub strength: Option<&'a [f32]>,
-    /// How much of the surface and how much of its silhouettes is shown, 0 to 1, where not all of both is.
+    /// How much of the surface and of its silhouettes is shown, 0 to 1; `None` for all of both.
     pub focus: Option<&'a [Shares]>,
-    /// The context, colours times opacity and opacity, where there is one.
+    /// The context, premultiplied colours and opacity.
     pub context: Option<&'a [[f32; 4]]>,
 }
 
-/// The parameters of the stage: the colours of one picture, 0 to 1.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
 pub struct CompositeParameters {
-    /// Where there is nothing to show.
     pub background: [f32; 4],
-    /// Of the silhouettes.
     pub line: [f32; 3],
-    /// What the colours of the context are multiplied by.
+    /// Factor on the colours of the context.
     pub context: f32,
-    /// The values from black to white.
     pub grey: Ramp,
-    /// The values from transparent to opaque.
     pub opacity: Ramp,
 }
 
 /// Writes the RGBA picture, with straight alpha, of the layers over the background.
-///
-/// # Errors
-/// [`crate::error::ErrorKind::Interrupted`].
 pub fn composite(
     work: &Work,
     parameters: &CompositeParameters,
@@ -55,7 +47,7 @@ pub fn composite(
     layers.focus.iter().for_each(|focus| work.expect_whole(Image::Focus, focus));
     layers.context.iter().for_each(|context| work.expect_whole(Image::Gathered, context));
     let chunk = work.tile_row();
-    // What stands for a layer that is not there.
+    // Stand-ins for missing layers.
     let absent = vec![0.0; if layers.strength.is_some() { 0 } else { chunk }];
     let whole = vec![[1.0; 2]; if layers.focus.is_some() { 0 } else { chunk }];
     let empty = vec![[0.0; 4]; if layers.context.is_some() { 0 } else { chunk }];
@@ -70,15 +62,11 @@ pub fn composite(
     })
 }
 
-/// The pixels of a layer from `first` on; where it is not there, as many of what stands for it.
 fn part<'a, T>(layer: Option<&'a [T]>, instead: &'a [T], first: usize, count: usize) -> &'a [T] {
     layer.map_or_else(|| &instead[..count], |layer| &layer[first..][..count])
 }
 
-/// Writes a layer of colours times opacity and opacity as RGBA with straight alpha into an image that is transparent.
-///
-/// # Errors
-/// [`crate::error::ErrorKind::Interrupted`].
+/// Writes premultiplied colours and opacity as RGBA with straight alpha into a transparent image.
 pub fn layer(work: &Work, colors: &[[f32; 4]], image: &mut [[u8; 4]]) -> Result<()> {
     work.expect_whole(Image::Gathered, colors);
     work.expect_whole(Image::Context, image);
@@ -91,7 +79,6 @@ pub fn layer(work: &Work, colors: &[[f32; 4]], image: &mut [[u8; 4]]) -> Result<
 }
 
 impl CompositeParameters {
-    /// The colours that `settings` say.
     pub fn new(settings: &Settings) -> Self {
         let unit = |color: &u8| f32::from(*color) / 255.0;
         let strength = settings.context.as_ref().map_or(1.0, |context| context.strength);
@@ -104,8 +91,7 @@ impl CompositeParameters {
         }
     }
 
-    /// The surface, grey with the silhouette's colour over it, over the context over the background, as much of it as is
-    /// shown. Where there is no value there is no surface. Colours times opacity, and opacity.
+    /// The shown share of the grey surface and the silhouette's colour over context and background.
     #[inline(always)]
     fn pixel(&self, value: f32, strength: f32, [share, lines]: Shares, context: [f32; 4]) -> [f32; 4] {
         let nothing = value.is_nan();
@@ -124,7 +110,7 @@ impl CompositeParameters {
     }
 }
 
-/// RGBA with straight alpha of a colour times opacity; without any opacity the colour is `behind`.
+/// RGBA with straight alpha of a premultiplied colour; with opacity 0 the colour is `behind`.
 #[inline(always)]
 fn straight(pixel: [f32; 4], behind: [f32; 4]) -> [u8; 4] {
     let alpha = pixel[3];
@@ -138,20 +124,19 @@ fn straight(pixel: [f32; 4], behind: [f32; 4]) -> [u8; 4] {
     packed.to_le_bytes()
 }
 
-/// The nearest whole number to a value from 0 to 255, as which a little more counts too. From 2²³ on, a float's last bit
-/// counts ones: the sum's low byte is the number, without the checks of a conversion.
+/// The nearest integer to a value of at most a little over 255. From 2²³ on, a float's last bit counts ones,
+/// so the sum's low byte is the number: no conversion checks.
 #[inline(always)]
 fn byte(value: f32) -> u32 {
     (smaller(value, 255.0) + 8_388_608.0).to_bits() & 0xFF
 }
 
-/// The pixels in a row that are looked at together for whether they have any context.
-const RUN: usize = 64;
+/// Number of pixels that are checked together for any context.
+const PIXELS_TOGETHER: usize = 64;
 
-/// Whether a run of colours is nothing at all.
 #[inline(always)]
 fn is_nothing(colors: &[[f32; 4]]) -> bool {
-    // All bits of a run together: a loop without a way out is one of vectors.
+    // A fold without early exit vectorises.
     colors.as_flattened().iter().fold(0, |bits, channel| bits | channel.to_bits()) == 0
 }
 
@@ -167,13 +152,16 @@ struct PaintRows<'a> {
 impl Kernel for PaintRows<'_> {
     type Output = ();
 
-    /// Loops over pixels, which the compiler turns into vectors of as many as the instruction set holds.
+    /// Plain loops over pixels, which vectorise at any width.
     #[inline(always)]
     fn run(self) {
         let Self { paint, value, strength, focus, context, image } = self;
-        let runs =
-            value.chunks(RUN).zip(strength.chunks(RUN)).zip(focus.chunks(RUN)).zip(context.chunks(RUN));
-        for (image, (((value, strength), focus), context)) in image.chunks_mut(RUN).zip(runs) {
+        let runs = value
+            .chunks(PIXELS_TOGETHER)
+            .zip(strength.chunks(PIXELS_TOGETHER))
+            .zip(focus.chunks(PIXELS_TOGETHER))
+            .zip(context.chunks(PIXELS_TOGETHER));
+        for (image, (((value, strength), focus), context)) in image.chunks_mut(PIXELS_TOGETHER).zip(runs) {
             let pixels = image.iter_mut().zip(value).zip(strength).zip(focus);
             if is_nothing(context) {
                 for (((image, value), strength), share) in pixels {
@@ -198,8 +186,9 @@ impl Kernel for StraightRows<'_> {
 
     #[inline(always)]
     fn run(self) {
-        for (image, colors) in self.image.chunks_mut(RUN).zip(self.colors.chunks(RUN)) {
-            // Most of a picture has no context: what is not written costs no memory either.
+        for (image, colors) in self.image.chunks_mut(PIXELS_TOGETHER).zip(self.colors.chunks(PIXELS_TOGETHER))
+        {
+            // Most of a picture has no context: unwritten pages cost no memory.
             if !is_nothing(colors) {
                 for (image, color) in image.iter_mut().zip(colors) {
                     *image = straight(*color, [0.0; 4]);

@@ -3,43 +3,34 @@
 // import math/view
 // import math/window
 
-// Whether silhouettes are drawn; without, their binding holds nothing.
+// The bindings of missing layers are empty.
 override HAS_STRENGTH = true;
-// Whether not all of the cut surface is shown; where all of it is, their binding holds nothing.
 override HAS_FOCUS = false;
-// Whether there is a context; without, its binding holds nothing.
 override HAS_CONTEXT = true;
-// Whether there is no cut surface; its binding holds nothing then.
 override ALONE = false;
 
-// The colours of one picture, 0 to 1.
+// The colours of one picture, 0 to 1; composite.rs explains the fields.
 struct CompositeParameters {
     background: vec4f,
-    // Of the silhouettes.
     line: vec3f,
-    // What the colours of the context are multiplied by.
     context: f32,
-    // What an intensity is multiplied by, and what is added then.
     grey: vec2f,
     opacity: vec2f,
 }
 
-// Colours times opacity and opacity.
 @group(0) @binding(1) var<storage, read> context: array<vec4f>;
 // RGBA with straight alpha, a byte each, red lowest.
 @group(0) @binding(2) var<storage, read_write> image: array<u32>;
 @group(0) @binding(3) var<storage, read> parameters: CompositeParameters;
 @group(0) @binding(4) var<storage, read> value: array<f32>;
 @group(0) @binding(5) var<storage, read> strength: array<f32>;
-// How much of the surface and how much of its silhouettes is shown, 0 to 1.
 @group(0) @binding(6) var<storage, read> focus: array<vec2f>;
 
-// The nearest whole number to a value from 0 to 255, the even one of two, as which a little more counts too.
+// The nearest integer to a value of at most a little over 255; ties go to the even one.
 fn byte(value: f32) -> u32 {
     return u32(round(min(value, 255.0)));
 }
 
-// RGBA with straight alpha of colours times opacity; without any opacity the colour is `behind`.
 fn straight(pixel: vec4f, behind: vec3f) -> u32 {
     let any = pixel.w > 0.0;
     let per_alpha = 255.0 / select(1.0, pixel.w, any);
@@ -60,7 +51,7 @@ fn composite(@builtin(global_invocation_id) thread: vec3u) {
     let rest = (1.0 - behind.w) * parameters.background.w;
     let back = vec4f(behind.xyz + parameters.background.xyz * rest, behind.w + rest);
     var pixel = back;
-    // Where there is no value there is no surface.
+    // Without a value there is no surface.
     if !ALONE && value[place] < HUGE {
         let grey = ramp_at(parameters.grey, value[place]);
         var shares = vec2f(1.0);
@@ -77,7 +68,6 @@ fn composite(@builtin(global_invocation_id) thread: vec3u) {
     image[place] = straight(pixel, parameters.background.xyz);
 }
 
-// The context alone.
 @compute @workgroup_size(16, 4)
 fn layer(@builtin(global_invocation_id) thread: vec3u) {
     if !in_view(thread.xy) {

@@ -21,19 +21,17 @@ use crate::math::ray::{NONE, WHOLE};
 use crate::math::ray_lines::RayGrid;
 use crate::settings::{Context, Settings};
 
-/// What is known of the cut surface where rays may start.
 #[derive(Clone, Copy, Debug)]
 pub struct SurfaceImages<'a> {
     /// The volume there, NaN where it shows nothing.
     pub value: &'a [f32],
-    /// Its depth (mm).
     pub depth: &'a [f32],
-    /// How much of it and of its silhouettes is shown, where not all of both is.
+    /// How much of it and of its silhouettes is shown; `None` for all of both.
     pub focus: Option<&'a [Shares]>,
 }
 
-/// Writes where the ray of each pixel starts: nowhere behind an opaque cut surface, behind a transparent one, and in front
-/// of the volume where the cut surface is outside. Around a focus the rays start as the context says.
+/// Writes the start of each pixel's ray: nowhere behind an opaque cut surface, behind a transparent one, in
+/// front of the volume outside. Around a focus the parameters decide.
 pub fn starts(work: &Work, parameters: &StartParameters, surface: &SurfaceImages, start: &mut [f32]) {
     let &SurfaceImages { value, depth, focus } = surface;
     work.expect_whole(Image::Value, value);
@@ -58,12 +56,8 @@ pub fn starts(work: &Work, parameters: &StartParameters, surface: &SurfaceImages
     }
 }
 
-/// Writes what the rays of `context`, which is that of `settings`, gather: colours times opacity and opacity, 0 to 1;
-/// nothing where no ray starts.
-///
-/// # Errors
-/// [`crate::error::ErrorKind::Settings`] for a step so small that rays would have more than 65,536 samples,
-/// [`crate::error::ErrorKind::Interrupted`].
+/// Writes premultiplied colours and opacity, 0 to 1, of the rays of `context`; 0 where no ray starts. Fails
+/// with `Settings` for rays of more than 65,536 samples.
 pub fn context(
     work: &Work,
     surroundings: &Surroundings,

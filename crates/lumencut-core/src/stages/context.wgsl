@@ -1,9 +1,9 @@
-// The context: rays through the volume behind the cut surface (paper section 3.3.6). Two passes: where the ray of each
-// pixel starts, and the rays.
+// The context: rays through the volume behind the cut surface (paper section 3.3.6), in two passes: starts,
+// rays.
 // import math/reduce
 // import math/trace
 
-// What becomes of a ray: colours and opacities of samples are blended, or the largest, the smallest or the mean value is kept.
+// The codes of `Gathering`.
 const BLEND = 0u;
 const BRIGHTEST = 1u;
 const DARKEST = 2u;
@@ -11,30 +11,24 @@ const AVERAGE = 3u;
 
 override MODE: u32 = 0u;
 
-// One ray for each square of four pixels.
 override PREVIEW: bool = false;
 
-// Whether not all of the cut surface is shown; where all of it is, their binding holds nothing.
+// Without a focus its binding is empty.
 override HAS_FOCUS: bool = false;
 // Whether rays start at the cut surface where not all of it is shown; else in front of the volume.
 override FROM_CUT: bool = true;
 
-// A start in front of the volume, as the pixels of a square compare theirs: later than behind every cut surface, sooner
-// than nowhere.
+// See raster.rs.
 const IN_FRONT: f32 = NONE / 2.0;
 
-// What the first pass reads and writes.
 @group(0) @binding(2) var<storage, read> value: array<f32>;
 @group(0) @binding(3) var<storage, read> depth: array<f32>;
 @group(0) @binding(4) var<storage, read_write> start_image: array<f32>;
-// How much of the cut surface and of its silhouettes is shown, 0 to 1.
 @group(0) @binding(5) var<storage, read> focus: array<vec2f>;
-// What the rays read and write.
 @group(0) @binding(5) var<storage, read> start: array<f32>;
 @group(0) @binding(6) var<storage, read_write> context_image: array<vec4f>;
 
-// Where the ray of each pixel starts: nowhere behind an opaque cut surface, behind a transparent one, and in front of the
-// volume where the cut surface is outside. Around a focus the rays start as the context says.
+// The start of the ray of each pixel; context.rs explains the cases.
 @compute @workgroup_size(8, 8)
 fn starts(@builtin(global_invocation_id) thread: vec3u) {
     if !in_view(thread.xy) {
@@ -71,8 +65,6 @@ fn ray_from(n: vec2f, start: f32) -> vec4f {
     }
 }
 
-// A square of four pixels: its ray starts nearest behind a cut surface, so that none of them shows what lies before its
-// own; else in front of the volume, where one of them starts there.
 fn square(first: vec2u) {
     var nearest = NONE;
     for (var n = 0u; n < 4u; n++) {

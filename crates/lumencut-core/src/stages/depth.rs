@@ -1,5 +1,5 @@
-//! The depth of the cut surface: the piece with the smallest key at each pixel, and the blend of two levels of detail
-//! (paper sections 3.1.3, 3.1.4, 3.2.1 and 3.3.2; Eq. 2).
+//! The depth of the cut surface: the piece with the smallest key at each pixel, and the blend of two levels
+//! of detail (paper sections 3.1.3, 3.1.4, 3.2.1 and 3.3.2; Eq. 2).
 
 mod blend;
 mod nearest;
@@ -22,7 +22,7 @@ use crate::math::tile::{Tile, gather, scatter};
 use crate::math::walk::{Seeds, lowest_keys};
 use crate::settings::{LevelChoice, MAX_LEVELS, Settings};
 
-/// The levels of a tree in one view, the rule that orders their pieces, and how levels are selected.
+/// The levels of a tree in one view, the rule that orders their pieces, and the selection of levels.
 pub struct CutSurface<'a> {
     levels: &'a [Level],
     projected: &'a [ProjectedLevel],
@@ -35,7 +35,7 @@ pub struct CutSurface<'a> {
 }
 
 impl<'a> CutSurface<'a> {
-    /// The cut surface of `projected`, which are the `levels` in the view of `camera`, finest first.
+    /// The cut surface of `projected`: the `levels` in the view of `camera`, finest first.
     pub fn new(
         levels: &'a [Level],
         projected: &'a [ProjectedLevel],
@@ -55,28 +55,24 @@ impl<'a> CutSurface<'a> {
         }
     }
 
-    /// The view.
     pub fn camera(&self) -> &'a Camera {
         self.camera
     }
 
-    /// The finest level in projection.
     pub fn finest(&self) -> &'a Hierarchy {
         self.hierarchy(0)
     }
 
-    /// More than the rounding error of a projected distance (mm).
+    /// A bound on the rounding error of a projected distance (mm).
     pub fn distance_slack(&self) -> f32 {
         self.rule.distance_slack
     }
 
-    /// A level in projection.
     #[inline(always)]
     pub(crate) fn hierarchy(&self, level: usize) -> &'a Hierarchy {
         &self.projected[level].hierarchy
     }
 
-    /// The pieces of a level in the order of its vessels.
     #[inline(always)]
     pub(crate) fn own_pieces(&self, level: usize) -> OwnPieces<'_> {
         OwnPieces {
@@ -87,9 +83,7 @@ impl<'a> CutSurface<'a> {
     }
 }
 
-/// How the pieces that a tile shows are found.
 pub(crate) trait Search {
-    /// The winners of one level.
     fn lowest<const LUMEN_FIRST: bool>(
         &mut self,
         level: usize,
@@ -98,11 +92,10 @@ pub(crate) trait Search {
         envelope: &mut Envelope,
     );
 
-    /// The pieces of one level that belong to the vessels already decided on.
     fn own<const SHEET: bool>(&mut self, pieces: OwnPieces, part: &Part, nearest: &mut NearestPieces);
 }
 
-/// By the walk through the hierarchy, seeded with the winners of the tile before, and along the vessels.
+/// By a walk through the hierarchy, seeded with the winners of the previous tile, and along the vessels.
 struct LowestKeySearch<'a> {
     surface: &'a CutSurface<'a>,
     seeds: [Seeds; MAX_LEVELS + 1],
@@ -128,15 +121,16 @@ impl Search for LowestKeySearch<'_> {
     }
 }
 
-/// What is known of the surface beside its depth in a pixel: how its depth changes to the right and upwards (mm per mm),
-/// the radius of its vessel (mm, negative beside the lumen), and the gap along the vessel between the two places that are blended there
-/// (mm; [`crate::math::lanes::FAR`] where they belong to different vessels, [`FIRST`] where a chosen vessel is shown before all others).
+/// Per pixel: the change of depth to the right and upwards (mm per mm), the vessel's radius (mm, negative
+/// outside the lumen), and the gap along the vessel between the two points that are blended (mm). The gap is
+/// [`crate::math::lanes::FAR`] between different vessels and [`CHOSEN_GAP`] where a chosen vessel takes
+/// precedence.
 pub type Sheet = [f32; 4];
 
-/// The gap in a sheet where a chosen vessel is shown before all others.
-pub const FIRST: f32 = -1.0;
+/// The gap in a sheet where a chosen vessel takes precedence.
+pub const CHOSEN_GAP: f32 = -1.0;
 
-/// The images that the stage writes. `sheet` is empty where nothing reads it.
+/// The images that the stage writes. `sheet` is empty if nothing reads it.
 #[derive(Debug)]
 #[allow(missing_docs)]
 pub struct DepthImages<'a> {
@@ -145,17 +139,14 @@ pub struct DepthImages<'a> {
     pub sheet: &'a mut [Sheet],
 }
 
-/// Writes depth (mm), vessel id and sheet of the cut surface at each pixel of the view. With the level choice `nearest`
-/// it needs the distances; with `own` they may be empty.
-///
-/// # Errors
-/// [`crate::error::ErrorKind::Interrupted`].
+/// Writes depth (mm), vessel id and sheet of the cut surface at each pixel of the view. The level choice
+/// `nearest` needs the distances; for `own` they may be empty.
 pub fn depth(work: &Work, surface: &CutSurface, distance: &[f32], images: DepthImages) -> Result<()> {
     let seeds = [Seeds::default(); MAX_LEVELS + 1];
     depth_by(work, surface, distance, images, || LowestKeySearch { surface, seeds })
 }
 
-/// [`depth`] with a search of its own for each row of tiles.
+/// [`depth`] with a separate search for each row of tiles.
 pub(crate) fn depth_by<S: Search>(
     work: &Work,
     surface: &CutSurface,
@@ -190,7 +181,6 @@ pub(crate) fn depth_by<S: Search>(
     })
 }
 
-/// One row of tiles.
 struct DepthRow<'a> {
     surface: &'a CutSurface<'a>,
     row: usize,
@@ -214,7 +204,6 @@ impl<S: Search, const LUMEN_FIRST: bool> Kernel for DepthKernel<'_, S, LUMEN_FIR
     }
 }
 
-/// The surface over one tile.
 struct TileSurface {
     depth: [f32; PIXELS],
     vessel: [i32; PIXELS],
@@ -222,7 +211,6 @@ struct TileSurface {
 }
 
 impl DepthRow<'_> {
-    /// Fills the row, tile by tile.
     #[inline(always)]
     fn fill<const LUMEN_FIRST: bool>(self, search: &mut impl Search) {
         let (surface, camera) = (self.surface, self.surface.camera);

@@ -1,12 +1,10 @@
-// The depth of the cut surface: the piece with the smallest key at each pixel, and the blend of two levels of detail (paper
-// sections 3.1.3, 3.1.4, 3.2.1 and 3.3.2; Eq. 2).
+// The depth of the cut surface: the piece with the smallest key at each pixel, and the blend of two levels of
+// detail (paper sections 3.1.3, 3.1.4, 3.2.1 and 3.3.2; Eq. 2).
 // import math/walk
 // import math/own_pieces
 
-// The gap in a sheet where a chosen vessel is shown before all others.
-const FIRST: f32 = -1.0;
+const CHOSEN_GAP: f32 = -1.0;
 
-// Whether the sheet is written.
 override HAS_SHEET: bool = false;
 
 @group(0) @binding(4) var<storage, read> vessel_of_slot: array<i32>;
@@ -15,20 +13,18 @@ override HAS_SHEET: bool = false;
 @group(0) @binding(7) var<storage, read_write> sheet_image: array<vec4f>;
 @group(0) @binding(9) var<storage, read> distance_image: array<f32>;
 
-// The finer of the two levels that each pixel blends, and the weight of the coarser; 0 where there is none.
+// The finer of the two levels that each pixel blends, and the weight of the coarser, or 0.
 var<private> fine_level: array<vec4f, MAX_QUADS>;
 var<private> coarse_weight: array<vec4f, MAX_QUADS>;
 // The blended depth so far, the largest weight so far, and the slot that has it, counted over all levels.
 var<private> blended: array<vec4f, MAX_QUADS>;
 var<private> ruling_weight: array<vec4f, MAX_QUADS>;
 var<private> ruling_slot: array<vec4u, MAX_QUADS>;
-// The sheet so far; and of the finer of two levels the vessel, counted from 1 so that 0 is none yet, and the arc length.
+// The sheet so far; of the finer level the vessel, counted from 1 (0: none yet), and the arc length.
 var<private> sheets: array<array<vec4f, QUAD>, MAX_QUADS>;
 var<private> finer_vessel: array<vec4u, MAX_QUADS>;
 var<private> finer_arc_length: array<vec4f, MAX_QUADS>;
 
-// Level selection at the distances of the tile: f = √(N·D/σ) between ⌊f⌋ and ⌊f⌋ + 1, N beyond. Bit k tells whether
-// some pixel needs level k.
 fn select_levels(tile: Tile) -> u32 {
     var needed = vec4u(0u);
     for (var r = 0u; r < ROWS; r++) {
@@ -52,16 +48,14 @@ fn distances_at(tile: Tile, a: u32, r: u32) -> vec4f {
     return distances;
 }
 
-// The weights of level `k` in a quad; 0 where it is not needed.
 fn weights(q: u32, k: f32) -> vec4f {
     let coarse = select(vec4f(0.0), coarse_weight[q], fine_level[q] + 1.0 == vec4f(k));
     return select(coarse, 1.0 - coarse_weight[q], fine_level[q] == vec4f(k));
 }
 
-// No winner yet where a level has weight, settled elsewhere.
 fn begin(k: f32) {
     for (var q = 0u; q < ACROSS * ROWS; q++) {
-        winner_key[q] = select(vec4f(SETTLED), vec4f(UNSET), weights(q, k) > vec4f(0.0));
+        winner_key[q] = select(vec4f(EXCLUDED), vec4f(UNSET), weights(q, k) > vec4f(0.0));
         winner_z[q] = vec4f(0.0);
         winner_piece[q] = vec4u(NO_SLOT);
     }
@@ -79,7 +73,6 @@ fn blend(level: u32) {
     }
 }
 
-// Adds a level to the sheets by its weights, finest first.
 fn add_to_sheets(tile: Tile, level: u32) {
     for (var r = 0u; r < ROWS; r++) {
         for (var a = 0u; a < ACROSS; a++) {
@@ -91,14 +84,14 @@ fn add_to_sheets(tile: Tile, level: u32) {
                     let vessel = vessel_of_slot[parameters.levels[level].first_slot + piece / 2u];
                     let q = vec2f(quad_x[a][c], row_y[r]);
                     let found = decide(level, winner_key[n][c], piece, vessel, q);
-                    // Lumen is what every level that is blended shows as lumen.
+                    // Lumen is what every blended level shows as lumen.
                     let radius = abs(sheets[n][c].z) + weight[c] * abs(found.sheet_radius);
                     let is_beside = sheets[n][c].z < 0.0 || found.sheet_radius < 0.0;
                     let slope = sheets[n][c].xy + weight[c] * found.slope;
                     sheets[n][c] = vec4f(slope, select(radius, -radius, is_beside), sheets[n][c].w);
                     let counted = u32(vessel) + 1u;
-                    if found.is_first && (finer_vessel[n][c] == 0u || sheets[n][c].w == FIRST) {
-                        sheets[n][c].w = FIRST;
+                    if found.is_first && (finer_vessel[n][c] == 0u || sheets[n][c].w == CHOSEN_GAP) {
+                        sheets[n][c].w = CHOSEN_GAP;
                     } else if finer_vessel[n][c] != 0u {
                         let apart = abs(found.arc_length - finer_arc_length[n][c]);
                         sheets[n][c].w = select(FAR, apart, counted == finer_vessel[n][c]);
@@ -111,7 +104,6 @@ fn add_to_sheets(tile: Tile, level: u32) {
     }
 }
 
-// The paper's way: at each level the piece with the smallest key, whichever vessel it belongs to.
 @compute @workgroup_size(TILES)
 fn nearest(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) thread: u32) {
     let tile = tile_at(group.xy, thread);
@@ -145,7 +137,6 @@ fn nearest(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index)
     }
 }
 
-// One decision: the winner on the finest level decides the vessel; the levels are those of that vessel alone.
 fn blend_own(place: u32, decision: Decision, z: f32, q: vec2f) {
     let f = min(sqrt(parameters.selection * decision.beyond_wall), f32(parameters.coarsest));
     let fine = floor(f);
@@ -162,7 +153,7 @@ fn blend_own(place: u32, decision: Decision, z: f32, q: vec2f) {
     vessel_image[place] = decision.vessel;
     if HAS_SHEET {
         let slope = (1.0 - weight) * fine_piece.slope + weight * coarse_piece.slope;
-        let gap = select(abs(coarse_piece.along - fine_piece.along), FIRST, decision.is_first);
+        let gap = select(abs(coarse_piece.along - fine_piece.along), CHOSEN_GAP, decision.is_first);
         sheet_image[place] = vec4f(slope, decision.sheet_radius, gap);
     }
 }

@@ -1,4 +1,4 @@
-//! The depth filter: a 7×7 Gaussian with σ = 2√(2 ln 2)/π pixels that takes the steps of the pixel grid out of
+//! The depth filter: a 7×7 Gaussian with σ = 2√(2 ln 2)/π pixels that smooths the steps of the pixel grid in
 //! the cut surface (paper section 3.3.3), over the whole image or within influence zones.
 
 use bytemuck::{Pod, Zeroable};
@@ -9,24 +9,20 @@ use crate::error::Result;
 use crate::math::lanes::{Kernel, ROWS, dispatch};
 use crate::settings::Settings;
 
-/// Pixels to each side of the middle.
-const REACH: usize = 3;
-/// Pixels along an axis that a pixel is made of.
-const SPAN: usize = 2 * REACH + 1;
-/// The zone of what is not in the image: that of no vessel.
+/// The half-width of the Gaussian in pixels.
+const HALF_WIDTH: usize = 3;
+const SPAN: usize = 2 * HALF_WIDTH + 1;
+/// The zone of pixels beyond the image, different from that of any vessel.
 const OUTSIDE: i32 = i32::MIN;
 
-/// The parameters of the stage.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
 pub struct DepthFilterParameters {
     /// The weights of the Gaussian from the middle outwards; with both sides they sum to 1.
-    pub weights: [f32; REACH + 1],
-    /// Within zones: how far a pair of neighbours may lie off a straight line (mm).
+    pub weights: [f32; HALF_WIDTH + 1],
+    /// Within zones: the largest deviation of a pair of neighbours from a straight line (mm).
     pub leap: f32,
-    /// Nothing; the structure ends at a multiple of 16 bytes.
     pub padding: f32,
-    /// Nothing.
     pub more_padding: [f32; 2],
 }
 
@@ -34,13 +30,13 @@ impl DepthFilterParameters {
     /// The Gaussian of the paper, over the whole image.
     pub fn new() -> Self {
         let sigma = 2.0 * (2.0 * 2f64.ln()).sqrt() / std::f64::consts::PI;
-        let bell: [f64; REACH + 1] =
+        let bell: [f64; HALF_WIDTH + 1] =
             std::array::from_fn(|n| (-((n * n) as f64) / (2.0 * sigma * sigma)).exp());
         let sum = bell[0] + 2.0 * bell[1..].iter().sum::<f64>();
         Self { weights: bell.map(|w| (w / sum) as f32), leap: 0.0, ..Self::zeroed() }
     }
 
-    /// The same, and the leap that these settings name.
+    /// The Gaussian, with the leap of these settings.
     pub fn of(settings: &Settings) -> Self {
         Self { leap: settings.depth_leap as f32, ..Self::new() }
     }
@@ -52,11 +48,7 @@ impl Default for DepthFilterParameters {
     }
 }
 
-/// Writes the smoothed `image`: over the whole of it, continued beyond its border by the border's own pixels, or within
-/// the zones of `vessel`, where it is given.
-///
-/// # Errors
-/// [`crate::error::ErrorKind::Interrupted`].
+/// Writes the smoothed `image`, extended by its border pixels, or within the zones of `vessel` if given.
 pub fn depth_filter(
     work: &Work,
     parameters: &DepthFilterParameters,
@@ -86,7 +78,7 @@ struct FilterRows<'a> {
     image: &'a [f32],
     width: usize,
     first: usize,
-    weights: [f32; REACH + 1],
+    weights: [f32; HALF_WIDTH + 1],
     smoothed: &'a mut [f32],
 }
 
@@ -98,19 +90,19 @@ impl Kernel for FilterRows<'_> {
         let (width, weights) = (self.width, self.weights);
         let height = self.image.len() / width;
         let row = |j: usize| &self.image[j * width..(j + 1) * width];
-        let mut padded = vec![0.0; width + 2 * REACH];
+        let mut padded = vec![0.0; width + 2 * HALF_WIDTH];
         for (j, smoothed) in (self.first..).zip(self.smoothed.chunks_mut(width)) {
-            let middle = &mut padded[REACH..REACH + width];
+            let middle = &mut padded[HALF_WIDTH..HALF_WIDTH + width];
             set(middle, weights[0], row(j));
-            for n in 1..=REACH {
+            for n in 1..=HALF_WIDTH {
                 add(middle, weights[n], row(j.saturating_sub(n)), row((j + n).min(height - 1)));
             }
             let (first, last) = (middle[0], middle[width - 1]);
-            padded[..REACH].fill(first);
-            padded[REACH + width..].fill(last);
-            set(smoothed, weights[0], &padded[REACH..]);
-            for n in 1..=REACH {
-                add(smoothed, weights[n], &padded[REACH - n..], &padded[REACH + n..]);
+            padded[..HALF_WIDTH].fill(first);
+            padded[HALF_WIDTH + width..].fill(last);
+            set(smoothed, weights[0], &padded[HALF_WIDTH..]);
+            for n in 1..=HALF_WIDTH {
+                add(smoothed, weights[n], &padded[HALF_WIDTH - n..], &padded[HALF_WIDTH + n..]);
             }
         }
     }
@@ -149,32 +141,33 @@ impl Kernel for ZoneRows<'_> {
         let width = self.width;
         let height = self.image.len() / width;
         let outside = vec![OUTSIDE; width];
-        // A row with what is beside it, which belongs to no zone.
-        let (mut depths, mut zones) = (vec![0.0; width + 2 * REACH], vec![OUTSIDE; width + 2 * REACH]);
+        // A row padded with pixels that belong to no zone.
+        let (mut depths, mut zones) =
+            (vec![0.0; width + 2 * HALF_WIDTH], vec![OUTSIDE; width + 2 * HALF_WIDTH]);
         for (j, smoothed) in (self.first..).zip(self.smoothed.chunks_mut(width)) {
-            let row = |o: usize| (j + o).checked_sub(REACH).filter(|row| *row < height);
+            let row = |o: usize| (j + o).checked_sub(HALF_WIDTH).filter(|row| *row < height);
             let pixels = |row: usize| row * width..(row + 1) * width;
             let z = OFFSETS.map(|o| &self.image[pixels(row(o).unwrap_or(j))]);
             let zone = OFFSETS.map(|o| row(o).map_or(&outside[..], |row| &self.vessel[pixels(row)]));
-            filter_within_zones(self.parameters, z, zone, &mut depths[REACH..REACH + width]);
-            zones[REACH..REACH + width].copy_from_slice(&self.vessel[pixels(j)]);
+            filter_within_zones(self.parameters, z, zone, &mut depths[HALF_WIDTH..HALF_WIDTH + width]);
+            zones[HALF_WIDTH..HALF_WIDTH + width].copy_from_slice(&self.vessel[pixels(j)]);
             let (z, zone) = (OFFSETS.map(|o| &depths[o..]), OFFSETS.map(|o| &zones[o..]));
             filter_within_zones(self.parameters, z, zone, smoothed);
         }
     }
 }
 
-/// The places of the pixels along an axis that a pixel is made of, itself in the middle.
 const OFFSETS: [usize; SPAN] = [0, 1, 2, 3, 4, 5, 6];
 
-/// Filters a row of pixels along one axis, within zones. Number n of `z` and `zone` holds, for each pixel of the row, the
-/// one that lies n − `REACH` beside it along that axis.
+/// Filters a row of pixels along one axis, within zones. Entry n of `z` and `zone` is the row shifted by n −
+/// `HALF_WIDTH` along that axis.
 ///
-/// A pair of neighbours counts where both, and all pairs nearer in, are in the zone of the middle pixel, and where it
-/// does not leap. What is added to the middle is how far pairs lie off a straight line through it, not the pairs
-/// themselves: on a plane that is 0 but for the rounding of the depths, and where no pair counts the middle is kept to the
-/// bit. Neighbours are subtracted from the middle one by one, since close numbers have an exact difference, whereas the sum
-/// of two has lost a digit. The middle always counts, so that the sum of the weights is never 0.
+/// A pair of neighbours counts if both, and all pairs nearer in, are in the zone of the middle pixel, and if
+/// it does not leap. The deviations of the pairs from a straight line through the middle are added to the
+/// middle: on a plane they are 0 but for the rounding of the depths, and if no pair counts the middle is kept
+/// to the bit. Neighbours are subtracted from the middle one by one, since close numbers have an exact
+/// difference, whereas a sum of two loses a digit. The middle always counts, so the sum of the weights is
+/// never 0.
 #[inline(always)]
 fn filter_within_zones(
     parameters: &DepthFilterParameters,
@@ -184,7 +177,7 @@ fn filter_within_zones(
 ) {
     let &DepthFilterParameters { weights: [w0, w1, w2, w3], leap, .. } = parameters;
     let width = filtered.len();
-    // Slices of one length, pairs without an index and choices of numbers, so that the compiler can use vectors.
+    // Slices of one length, no indices, and selects of numbers let the loop vectorise.
     let [a3, a2, a1, z, b1, b2, b3] = z.map(|z| &z[..width]);
     let [u3, u2, u1, zone, v1, v2, v3] = zone.map(|zone| &zone[..width]);
     for i in 0..width {

@@ -1,14 +1,12 @@
-// The depth filter: a 7×7 Gaussian (paper section 3.3.3), over the whole image in one pass, or within zones in two, one
-// along each axis.
+// The depth filter: a 7×7 Gaussian (paper section 3.3.3), over the whole image in one pass, or within zones
+// in one pass per axis.
 // import math/view
 
-// Within zones: whether this pass goes along columns; else it goes along rows.
+// Within zones: whether this pass goes along columns or rows.
 override DOWN: bool = true;
 
 struct DepthFilterParameters {
-    // From the middle outwards.
     weights: vec4f,
-    // Within zones: how far a pair of neighbours may lie off a straight line (mm).
     leap: f32,
     padding: f32,
     more_padding: vec2f,
@@ -17,10 +15,9 @@ struct DepthFilterParameters {
 @group(0) @binding(1) var<uniform> parameters: DepthFilterParameters;
 @group(0) @binding(2) var<storage, read> image: array<f32>;
 @group(0) @binding(3) var<storage, read_write> smoothed: array<f32>;
-// Read within zones alone.
+// Read only within zones.
 @group(0) @binding(4) var<storage, read> vessel: array<i32>;
 
-// The image, continued beyond its border by the border's own pixels.
 fn continued(column: i32, row: i32) -> f32 {
     let last = vec2i(view.size) - 1;
     return image[place_of(vec2u(clamp(vec2i(column, row), vec2i(0), last)))];
@@ -48,8 +45,7 @@ fn depth_filter(@builtin(global_invocation_id) thread: vec3u) {
     smoothed[place_of(thread.xy)] = sum;
 }
 
-// A pair of neighbours counts where both, and all pairs nearer in, are in the zone of the middle pixel, and where it does
-// not leap. How far the pairs lie off a straight line is added to the middle, as on the CPU.
+// The rule of `filter_within_zones` in depth_filter.rs.
 @compute @workgroup_size(16, 4)
 fn within_zones(@builtin(global_invocation_id) thread: vec3u) {
     if !in_view(thread.xy) {

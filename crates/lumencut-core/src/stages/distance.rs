@@ -14,9 +14,6 @@ use crate::math::tile::{Tile, scatter};
 use crate::math::walk::smallest_distances;
 
 /// Writes the distance (mm) of each pixel of the view to the nearest segment of the finest level.
-///
-/// # Errors
-/// [`crate::error::ErrorKind::Interrupted`].
 pub fn distance(work: &Work, surface: &CutSurface, distance: &mut [f32]) -> Result<()> {
     distance_by(work, surface, distance, || NearestSearch {
         finest: surface.finest(),
@@ -24,13 +21,11 @@ pub fn distance(work: &Work, surface: &CutSurface, distance: &mut [f32]) -> Resu
     })
 }
 
-/// How the distances of one tile are found.
 pub(crate) trait Measure {
-    /// Lowers the squared distances (mm²) to those of the nearest segments.
     fn lower(&mut self, tile: &Tile, squared: &mut [f32; PIXELS]);
 }
 
-/// By the walk through the hierarchy, which begins at the point nearest to the tile before.
+/// By a walk through the hierarchy, starting at the point nearest to the previous tile.
 struct NearestSearch<'a> {
     finest: &'a Hierarchy,
     nearest: NearestPoint,
@@ -43,7 +38,7 @@ impl Measure for NearestSearch<'_> {
     }
 }
 
-/// [`distance`] with a measure of its own for each row of tiles.
+/// [`distance`] with a separate measure for each row of tiles.
 pub(crate) fn distance_by<M: Measure>(
     work: &Work,
     surface: &CutSurface,
@@ -59,7 +54,6 @@ pub(crate) fn distance_by<M: Measure>(
     })
 }
 
-/// One row of tiles.
 struct DistanceRow<'a, M: Measure> {
     camera: &'a Camera,
     measure: M,

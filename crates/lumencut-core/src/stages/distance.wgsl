@@ -1,16 +1,15 @@
-// The distance of every pixel to the nearest vessel of the finest level, in the view plane (paper section 3.3.1).
+// The distance of every pixel to the nearest vessel of the finest level, in the view plane (paper section
+// 3.3.1).
 // import math/hierarchy
 // import math/nearest
 
 @group(0) @binding(4) var<storage, read_write> distance_image: array<f32>;
 
-// The squared distance between the tile and a node of the finest level.
 fn square_to_node(tile: Tile, node: Node) -> f32 {
     let around = boxes[box_of(0u, node)];
     return squared_distance(tile, around.low, around.high);
 }
 
-// The nearest to the tile of a node and its brothers after it.
 fn nearest_node(tile: Tile, first: Node) -> Node {
     var nearest = first;
     var least = HUGE;
@@ -23,7 +22,6 @@ fn nearest_node(tile: Tile, first: Node) -> Node {
     return nearest;
 }
 
-// A bundle near the tile: from the root to the nearest box of each height.
 fn near_bundle(tile: Tile) -> u32 {
     var node = nearest_node(tile, first_node(0u));
     while node.height > 0u {
@@ -49,7 +47,6 @@ fn next_bundle(tile: Tile, first: Node, limit: f32) -> Node {
     return node;
 }
 
-// Meets the segments of a bundle that can lower a distance; gives the largest squared distance that is left.
 fn meet(tile: Tile, bundle: u32, limit: f32) -> f32 {
     // No pixel is farther than the radius from the middle.
     let reach = sqrt(limit) + tile.radius + slack(tile);
@@ -74,7 +71,6 @@ fn distance(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index
     for (var q = 0u; q < ACROSS * ROWS; q++) {
         least_square[q] = vec4f(UNSET);
     }
-    // A bundle that is near, and then all others that matter.
     var limit = meet(tile, near_bundle(tile), FAR * FAR);
     var node = next_bundle(tile, first_node(0u), limit);
     while !is_beyond(0u, node) {

@@ -1,5 +1,5 @@
-//! The focus: how much of the cut surface and of its silhouettes each pixel shows, by its distance from the nearest wall of any
-//! vessel. After the VesselGlyph of Straka et al. 2004.
+//! The focus: how much of the cut surface and of its silhouettes each pixel shows, by its distance from the
+//! nearest vessel wall. After the VesselGlyph of Straka et al. 2004.
 
 use bytemuck::{Pod, Zeroable};
 use rayon::prelude::*;
@@ -15,31 +15,29 @@ use crate::math::tile::{Tile, scatter};
 use crate::math::walls::{WallRange, nearest_walls};
 use crate::settings::{Focus, Settings};
 
-/// What a hard edge takes for 1 / fade (per mm): beyond all distances that rounding tells apart.
-const HARD: f64 = 1e20;
-/// A fade is at least this wide (pixels): a narrower one would be a row of steps.
-const NARROWEST: f64 = 2.0;
+/// 1 / fade of a hard edge (per mm): beyond all distances that rounding distinguishes.
+const HARD_EDGE_PER_MM: f64 = 1e20;
+/// Minimum width of a fade (pixels): a narrower one would show steps.
+const MIN_FADE_PIXELS: f64 = 2.0;
 
-/// The parameters of the stage.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
 pub struct FocusParameters {
-    /// How far from the wall all of the cut surface and all of its silhouettes are shown (mm).
+    /// Distance from the wall up to which all of the cut surface and of its silhouettes is shown (mm).
     pub margin: [f32; 2],
-    /// 1 / fade of both (per mm); 0 where they are shown everywhere.
+    /// 1 / fade of both (per mm); 0 if they are shown everywhere.
     pub per_fade: [f32; 2],
-    /// What is nearer to the wall than this (mm) counts as this near.
+    /// Smaller distances from the wall (mm) count as this.
     pub near: f32,
-    /// What is farther than this (mm) counts as this far.
+    /// Larger distances (mm) count as this.
     pub far: f32,
-    /// How much of what is shown around the other vessels, where some are chosen, is left, 0 to 1.
+    /// The share that remains around the other vessels if some are chosen, 0 to 1.
     pub others: f32,
-    /// Nothing; the structure ends at a multiple of 8 bytes.
     pub padding: f32,
 }
 
 impl FocusParameters {
-    /// The parameters of the focus and of the reach of silhouettes in pictures of a camera; none where neither is asked for.
+    /// The parameters of the focus and of the reach of silhouettes for a camera; `None` if neither is set.
     pub fn new(settings: &Settings, camera: &Camera) -> Option<Self> {
         let reach = settings.silhouette_reach.filter(|_| settings.silhouettes);
         let lines = reach.map(|reach| Focus { margin: reach, fade: reach });
@@ -51,14 +49,18 @@ impl FocusParameters {
         let others = if has_others { settings.others_strength as f32 } else { 1.0 };
         let mut parameters = Self { others, ..Self::zeroed() };
         for (n, Focus { margin, fade }) in both.into_iter().enumerate().filter_map(|(n, f)| Some((n, f?))) {
-            let per_fade = if fade > 0.0 { 1.0 / fade.max(NARROWEST * camera.pixel_spacing()) } else { HARD };
+            let per_fade = if fade > 0.0 {
+                1.0 / fade.max(MIN_FADE_PIXELS * camera.pixel_spacing())
+            } else {
+                HARD_EDGE_PER_MM
+            };
             (parameters.margin[n], parameters.per_fade[n]) = (margin as f32, per_fade as f32);
         }
         [parameters.near, parameters.far] = parameters.between(&[SURFACE, LINES])?;
         Some(parameters)
     }
 
-    /// Between which distances from the wall (mm) some of the shares change; none where they are 1 everywhere.
+    /// The distances from the wall (mm) between which shares change; `None` if they are 1 everywhere.
     fn between(&self, which: &[usize]) -> Option<[f32; 2]> {
         let fading = which.iter().filter(|n| self.per_fade[**n] > 0.0);
         // A little more than where the share becomes 0.
@@ -67,12 +69,12 @@ impl FocusParameters {
         ends.reduce(|[near, far], [nearer, farther]| [smaller(near, nearer), larger(far, farther)])
     }
 
-    /// The same as what is asked of the distances, whose rounding error is less than `slack` (mm).
+    /// The same as a range for distances with a rounding error below `slack` (mm).
     fn range(&self, which: &[usize], slack: f32) -> Option<WallRange> {
         self.between(which).map(|[near, far]| WallRange { near, far: far + slack, slack })
     }
 
-    /// How much of the cut surface and of its silhouettes is shown this far (mm) from the wall, 0 to 1.
+    /// The shares of the cut surface and of its silhouettes at a distance (mm) from the wall, 0 to 1.
     #[inline(always)]
     fn shares(&self, beyond: f32) -> Shares {
         let beyond = larger(beyond, 0.0);
@@ -85,18 +87,15 @@ impl FocusParameters {
     }
 }
 
-/// How much of the cut surface and how much of its silhouettes a pixel shows, 0 to 1.
+/// How much of the cut surface and of its silhouettes a pixel shows, 0 to 1.
 pub type Shares = [f32; 2];
 
-/// The share of the cut surface, and that of its silhouettes.
+/// Indices into [`Shares`].
 const SURFACE: usize = 0;
 const LINES: usize = 1;
 
-/// Writes how much of the cut surface and of its silhouettes each pixel shows. Where `leap` tells that no line can lie in a tile of
-/// pixels, how much of it would be shown is any number from 0 to 1; it is told everywhere where `leap` is empty.
-///
-/// # Errors
-/// [`crate::error::ErrorKind::Interrupted`].
+/// Writes the shares of cut surface and silhouettes. In tiles where `leap` rules out lines, the latter is
+/// arbitrary; with an empty `leap` it is exact everywhere.
 pub fn focus(
     work: &Work,
     surface: &CutSurface,
@@ -116,7 +115,7 @@ pub fn focus(
     })
 }
 
-/// For each tile in a row of tiles whether the line of a leap can lie in it; none where that is not known.
+/// For each tile in a row of tiles whether the line of a leap can lie in it; empty if unknown.
 fn tiles_with_lines(leap: &[u32], width: usize, row: usize) -> Vec<bool> {
     let first = (row * ROWS).saturating_sub(FARTHEST_LEAP) * width;
     let end = ((row + 1) * ROWS + FARTHEST_LEAP) * width;
@@ -130,11 +129,9 @@ fn tiles_with_lines(leap: &[u32], width: usize, row: usize) -> Vec<bool> {
     around.map(|around| columns[around].iter().any(|bits| bits & LEAPS != 0)).collect()
 }
 
-/// One row of tiles.
 struct FocusRow<'a> {
     surface: &'a CutSurface<'a>,
     parameters: &'a FocusParameters,
-    /// Whether a line can lie in each tile; empty where that is not known.
     has_lines: &'a [bool],
     row: usize,
     pixels: &'a mut [Shares],
@@ -152,7 +149,7 @@ impl Kernel for FocusRow<'_> {
             [&[SURFACE, LINES][..], &[SURFACE]].map(|which| self.parameters.range(which, slack));
         for column in (0..width).step_by(COLUMNS) {
             let tile = Tile::new(camera, column, self.row * ROWS);
-            // What is not found is farther than whatever matters, and its products are finite.
+            // A finite distance beyond all that matters.
             let mut beyond = [FAR; PIXELS];
             let has_lines = self.has_lines.get(column / COLUMNS).is_none_or(|has_lines| *has_lines);
             let range = if has_lines { of_both } else { of_surface };
@@ -172,7 +169,7 @@ impl Kernel for FocusRow<'_> {
 }
 
 impl FocusRow<'_> {
-    /// Takes away from the other vessels what is not left of them around a focus; chosen vessels keep all of theirs.
+    /// Reduces the shares around the other vessels; chosen vessels keep theirs.
     #[inline(always)]
     fn keep_first(&self, tile: &Tile, range: &WallRange, shares: &mut [Shares; PIXELS]) {
         let mut beyond = [FAR; PIXELS];

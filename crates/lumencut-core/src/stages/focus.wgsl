@@ -1,15 +1,12 @@
-// The focus: how much of the cut surface and of its silhouettes each pixel shows, by its distance from the nearest wall of any vessel.
+// The focus: how much of the cut surface and of its silhouettes each pixel shows; focus.rs explains the
+// fields.
 // import math/walls
 
 struct FocusParameters {
-    // How far from the wall all of the cut surface and all of its silhouettes are shown (mm).
     margin: vec2f,
-    // 1 / fade of both (per mm); 0 where they are shown everywhere.
     per_fade: vec2f,
-    // Between which distances from the wall (mm) it matters how far a pixel is.
     near: f32,
     far: f32,
-    // How much of what is shown around the other vessels, where some are chosen, is left, 0 to 1.
     others: f32,
     padding: f32,
 }
@@ -19,7 +16,6 @@ struct FocusParameters {
 
 var<private> shown: array<array<vec2f, QUAD>, MAX_QUADS>;
 
-// How much of the cut surface and of its silhouettes is shown this far (mm) from the wall, 0 to 1.
 fn shares(beyond_wall: f32) -> vec2f {
     let past = (max(beyond_wall, 0.0) - focus_parameters.margin) * focus_parameters.per_fade;
     let away = clamp(past, vec2f(0.0), vec2f(1.0));

@@ -1,5 +1,5 @@
-//! Leaps: neighbours whose depths do not belong to one surface, and on which side of a leap its line lies. Both are decided
-//! once, here; silhouettes follow them.
+//! Leaps: neighbours whose depths do not belong to one surface, and the side of a leap on which its line
+//! lies. Silhouettes follow both decisions.
 
 use bytemuck::{Pod, Zeroable};
 use rayon::prelude::*;
@@ -14,29 +14,23 @@ use crate::math::leaps::{DOWNWARDS, LINE_DOWNWARDS, LINE_TO_THE_RIGHT, LUMEN, TO
 /// The smallest leap (mm), for vessels whose diameter is smaller.
 pub const SMALLEST_LEAP: f32 = 2.0;
 
-/// The parameters of the stage.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
 pub struct LeapParameters {
-    /// The side of a pixel (mm).
     pub pixel_spacing: f32,
 }
 
 impl LeapParameters {
-    /// The parameters of a view.
     pub fn new(camera: &Camera) -> Self {
         Self { pixel_spacing: camera.pixel_spacing() as f32 }
     }
 }
 
-/// Writes between which neighbours the depth (mm, before its filter) leaps: where it differs by more than the diameter of
-/// the vessel, and by more than [`SMALLEST_LEAP`], from what the slope of either side alone would make it; by more than
-/// [`SMALLEST_LEAP`] alone where a chosen vessel that is shown before all others ends. Also which
-/// pixels show lumen, and on which side the line of a leap lies: beside the lumen where one side alone is lumen, else on
-/// the farther side, which the nearer one hides in part.
-///
-/// # Errors
-/// [`crate::error::ErrorKind::Interrupted`].
+/// Writes between which neighbours the depth (mm, before its filter) leaps: where it differs by more than the
+/// vessel's diameter and [`SMALLEST_LEAP`] from what the slope of either side predicts; where a chosen vessel
+/// with precedence ends, by more than [`SMALLEST_LEAP`]. Also writes which pixels show lumen, and the side of
+/// each line: outside the lumen if only one side is lumen, else on the farther side, which the nearer one
+/// partly hides.
 pub fn leap(
     work: &Work,
     parameters: &LeapParameters,
@@ -56,7 +50,6 @@ pub fn leap(
     })
 }
 
-/// The surface whose leaps are looked for.
 #[derive(Clone, Copy)]
 struct Surface<'a> {
     depth: &'a [f32],
@@ -125,20 +118,18 @@ impl Surface<'_> {
     }
 }
 
-/// Sixteen entries of a row from column `i` on; fewer where the row ends before.
+/// Sixteen entries of a row from column `i` on, unless the row ends before.
 #[inline(always)]
 fn whole<T>(row: &[T], i: usize) -> Option<&[T; FAN]> {
     row.get(i..).and_then(|rest| rest.first_chunk())
 }
 
-/// Sixteen pixels of a row, field by field.
 struct Strip {
     z: [f32; FAN],
     slope: [[f32; FAN]; 2],
-    /// From how much on a change counts as a leap (mm).
+    /// The smallest change that counts as a leap (mm).
     threshold: [f32; FAN],
     is_lumen: [bool; FAN],
-    /// Whether a chosen vessel is shown before all others.
     is_first: [bool; FAN],
 }
 
@@ -155,8 +146,7 @@ impl Strip {
         }
     }
 
-    /// The bits, of either way, of a leap from each of these pixels to one of the others, which lies `step` (view x and y,
-    /// mm) from it.
+    /// The bits, of either axis, of leaps to other pixels at `step` (view x and y, mm).
     #[inline(always)]
     fn leaps_to(&self, others: &Self, step: [f32; 2]) -> [u32; FAN] {
         let mut leaps = [0; FAN];
@@ -173,8 +163,8 @@ impl Strip {
         leaps
     }
 
-    /// Whether a change of depth over a step is another than the slope of pixel `l` makes it; `ends_first` tells whether a chosen
-    /// vessel ends there.
+    /// Whether a change of depth differs from the slope at pixel `l`; `ends_first`: a chosen vessel ends
+    /// there.
     #[inline(always)]
     fn is_off(&self, l: usize, change: f32, step: [f32; 2], ends_first: bool) -> bool {
         let expected = self.slope[0][l] * step[0] + self.slope[1][l] * step[1];

@@ -1,12 +1,11 @@
-// Leaps: neighbours whose depths do not belong to one surface, and on which side of a leap its line lies.
+// Leaps: neighbours whose depths do not belong to one surface, and the side of a leap on which its line lies;
+// see leap.rs.
 // import math/view
 // import math/leaps
 
-// The smallest leap (mm), for vessels whose diameter is smaller.
 const SMALLEST_LEAP: f32 = 2.0;
 
 struct LeapParameters {
-    // The side of a pixel (mm).
     pixel_spacing: f32,
 }
 
@@ -15,15 +14,12 @@ struct LeapParameters {
 @group(0) @binding(3) var<storage, read> sheet: array<vec4f>;
 @group(0) @binding(4) var<storage, read_write> leap_image: array<u32>;
 
-// Whether a change of depth over a step (view x and y, mm) is another than the slope of a sheet makes it; `ends_first` tells
-// whether a chosen vessel, shown before all others, ends there.
 fn is_off(change: f32, sheet: vec4f, step: vec2f, ends_first: bool) -> bool {
     let expected = sheet.x * step.x + sheet.y * step.y;
     return abs(change - expected) > select(max(2.0 * abs(sheet.z), SMALLEST_LEAP), SMALLEST_LEAP, ends_first);
 }
 
-// The bits, of either way, of a leap from one pixel to another. The line lies beside the lumen where one side alone is lumen,
-// else on the farther side.
+// The line lies outside the lumen if only one side is lumen, else on the farther side.
 fn leap_bits(here: u32, there: u32, step: vec2f) -> u32 {
     let change = depth[there] - depth[here];
     let ends_first = (sheet[here].w < 0.0) != (sheet[there].w < 0.0);
@@ -43,7 +39,6 @@ fn leap(@builtin(global_invocation_id) thread: vec3u) {
     }
     let here = place_of(thread.xy);
     let side = parameters.pixel_spacing;
-    // Beyond the last column and the last row there is nothing to leap to.
     var bits = select(0u, LUMEN, sheet[here].z > 0.0);
     if thread.y + 1u < view.size.y {
         bits |= leap_bits(here, here + view.size.x, vec2f(0.0, -side)) & (DOWNWARDS | LINE_DOWNWARDS);

@@ -1,9 +1,9 @@
-//! Levels of detail: ever smoother copies of the tree, whose surfaces run calmly far from the vessels
+//! Levels of detail: increasingly smooth copies of the tree, whose surfaces are smooth far from the vessels
 //! (paper sections 3.1.4 and 3.2.2).
 //!
 //! Level k + 1 is the clamped cubic B-spline with uniform knots over the points of level k, evaluated at half
-//! as many parameters. The ends stay exactly where they are, so branches stay connected. Radii and arc lengths go
-//! through the same filter.
+//! as many parameters. The ends stay exactly where they are, so branches stay connected. Radii and arc
+//! lengths are filtered alike.
 
 use glam::DVec4;
 
@@ -19,10 +19,9 @@ pub fn levels(tree: &VesselTree, count: usize) -> Vec<VesselTree> {
     levels
 }
 
-/// A control point of the spline: a point (mm) with its radius (mm), and its arc length on the vessel itself (mm).
+/// A control point of the spline: a point with its radius, and its arc length on the original vessel (mm).
 type Control = (DVec4, f64);
 
-/// The next coarser level of one vessel.
 fn smooth(vessel: &Vessel) -> Vessel {
     let points = vessel.points();
     let count = points.len().div_ceil(2).max(2);
@@ -64,7 +63,6 @@ fn spline(controls: &[Control], u: f64) -> Control {
     d[3]
 }
 
-/// The control point at the share `t` of the way from one to another.
 fn between(from: Control, to: Control, t: f64) -> Control {
     (from.0.lerp(to.0, t), from.1 * (1.0 - t) + to.1 * t)
 }

@@ -1,15 +1,27 @@
-//! The stages of the pipeline, one room each, in the order of the paper's Fig. 4, and the one table of them.
+//! The stages of the pipeline, one module each, in the order of the paper's Fig. 4, and the table of them. Hidden
+//! modules are public only for the other crates of this workspace.
 
+#[doc(hidden)]
 pub mod along_rays;
+#[doc(hidden)]
 pub mod composite;
+#[doc(hidden)]
 pub mod context;
+#[doc(hidden)]
 pub mod depth;
+#[doc(hidden)]
 pub mod depth_filter;
+#[doc(hidden)]
 pub mod distance;
+#[doc(hidden)]
 pub mod focus;
+#[doc(hidden)]
 pub mod leap;
+#[doc(hidden)]
 pub mod levels;
+#[doc(hidden)]
 pub mod silhouette;
+#[doc(hidden)]
 pub mod surface;
 mod table;
 
@@ -22,32 +34,25 @@ use crate::stop::{Stop, go_on};
 
 /// What every stage of one view shares.
 #[derive(Clone, Copy)]
+#[doc(hidden)]
 pub struct Work<'a> {
-    /// The width and height of the view in pixels.
     pub size: [usize; 2],
     /// The instruction set of the kernels; the result does not depend on it.
     pub isa: Isa,
-    /// Whether to stop.
     pub stop: Stop<'a>,
-    /// Where to tell how far the view is.
     pub progress: Option<&'a Progress>,
 }
 
 impl Work<'_> {
-    /// The number of pixels.
     pub fn pixels(&self) -> usize {
         self.size[0] * self.size[1]
     }
 
-    /// The pixels of one row of tiles.
-    pub fn tile_row(&self) -> usize {
+    pub(crate) fn tile_row(&self) -> usize {
         ROWS * self.size[0]
     }
 
     /// Begins this number of pixels, unless the caller asks to stop.
-    ///
-    /// # Errors
-    /// [`crate::error::ErrorKind::Interrupted`].
     pub fn begin(&self, pixels: usize) -> Result<()> {
         if let Some(progress) = self.progress {
             progress.begin_pixels(pixels);
@@ -55,11 +60,8 @@ impl Work<'_> {
         go_on(self.stop)
     }
 
-    /// Every image of a view has one entry for each of its pixels.
-    ///
-    /// # Panics
-    /// Where the caller's buffers are not of this view: a mistake in the program, never in its input.
-    pub fn expect_whole<T>(&self, image: Image, pixels: &[T]) {
+    /// Panics unless the image has one entry for each pixel of the view.
+    pub(crate) fn expect_whole<T>(&self, image: Image, pixels: &[T]) {
         let [width, height] = self.size;
         assert_eq!(
             pixels.len(),

@@ -1,5 +1,4 @@
-//! Silhouettes: lines beside the leaps of the cut surface; or, as in the paper (section 3.3.5), where it is steep, strongest
-//! between influence zones.
+//! Silhouettes: lines at the leaps of the cut surface, or at steep depth as in the paper (section 3.3.5).
 
 use bytemuck::{Pod, Zeroable};
 use rayon::prelude::*;
@@ -14,21 +13,20 @@ use crate::error::Result;
 use crate::math::lanes::{Kernel, ROWS, dispatch, smaller};
 use crate::settings::Settings;
 
-/// How much a leap between the influence zones of two vessels counts beside one within a zone.
+/// Weight of a leap between the influence zones of two vessels, relative to one within a zone.
 pub const ZONE_BORDER: f32 = 4.0;
-/// Far beyond any slope squared.
+/// Far beyond any squared slope.
 pub const STEEPEST: f32 = 1e12;
-/// How wide the line of a leap is (mm), as the wall around a lumen is by default.
-pub const LINE_WIDTH: f64 = 1.0;
-/// The narrowest line of a leap (pixels): less would not be seen.
-pub const NARROWEST_LINE: f64 = 0.5;
+/// Width of the line of a leap (mm), equal to the default wall around a lumen.
+pub(crate) const LINE_WIDTH: f64 = 1.0;
+/// The narrowest line of a leap (pixels): a narrower one would be invisible.
+pub(crate) const NARROWEST_LINE: f64 = 0.5;
 /// The widest line of a leap (pixels), however close the view.
-pub const WIDEST_LINE: f64 = 1.5;
-/// No line covers a pixel that is farther than this from its leap (pixels): [`WIDEST_LINE`] in whole pixels.
-pub const FARTHEST_LEAP: usize = 2;
+pub(crate) const WIDEST_LINE: f64 = 1.5;
+/// No line covers a pixel farther than this from its leap (pixels): [`WIDEST_LINE`] in whole pixels.
+pub(crate) const FARTHEST_LEAP: usize = 2;
 const _: () = assert!(WIDEST_LINE <= FARTHEST_LEAP as f64);
 
-/// The parameters of the stage.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
 pub struct SilhouetteParameters {
@@ -36,13 +34,13 @@ pub struct SilhouetteParameters {
     pub per_slope: f32,
     /// The square of the slope that has half the strength.
     pub half: f32,
-    /// How wide the line of a leap is (pixels).
+    /// Width of the line of a leap (pixels).
     pub line_width: f32,
 }
 
 impl SilhouetteParameters {
-    /// The parameters of a view: a smooth surface looks the same at every zoom, and a line is as wide in mm wherever that
-    /// is neither too few pixels to be seen nor more than are needed.
+    /// A smooth surface looks the same at every zoom; lines have a constant width in mm, within limits in
+    /// pixels.
     pub fn new(settings: &Settings, camera: &Camera) -> Self {
         let slope = settings.silhouette_slope;
         let line_width = (LINE_WIDTH / camera.pixel_spacing()).clamp(NARROWEST_LINE, WIDEST_LINE);
@@ -54,11 +52,8 @@ impl SilhouetteParameters {
     }
 }
 
-/// Writes the strength of the silhouette, 0 to 1, at each pixel: the slope of the depth (Sobel, mm per mm), raised at
-/// borders of influence zones, smoothed, and mapped by s / (s + half) after the square of both.
-///
-/// # Errors
-/// [`crate::error::ErrorKind::Interrupted`].
+/// Writes the strength of the silhouette, 0 to 1, at each pixel: the slope of the depth (Sobel, mm per mm),
+/// raised at borders of influence zones, smoothed, and mapped by s / (s + half) after squaring both.
 pub fn silhouette(
     work: &Work,
     parameters: &SilhouetteParameters,
@@ -83,11 +78,8 @@ pub fn silhouette(
 }
 
 /// Writes the strength of the silhouette, 0 to 1, at each pixel: how much of it the lines of the leaps cover.
-/// `value` is the volume on the surface, NaN where it shows nothing: a line that would lie there lies on the other
-/// side of its leap, unless that is lumen. Without values every pixel counts as shown.
-///
-/// # Errors
-/// [`crate::error::ErrorKind::Interrupted`].
+/// `value` is the volume on the surface, NaN where it shows nothing: a line there moves to the other side of
+/// its leap, unless that is lumen. Without values every pixel counts as shown.
 pub fn silhouette_of_leaps(
     work: &Work,
     parameters: &SilhouetteParameters,
@@ -108,7 +100,6 @@ pub fn silhouette_of_leaps(
     })
 }
 
-/// Maps slopes to strengths.
 struct Strength<'a> {
     slopes: &'a mut [f32],
     half: f32,
@@ -147,7 +138,7 @@ impl Kernel for SlopeRows<'_> {
             let z = rows.map(|j| &self.depth[j * width..(j + 1) * width]);
             let v = rows.map(|j| &self.vessel[j * width..(j + 1) * width]);
             let inner = width.saturating_sub(2);
-            // Neighbours as slices of one length, so that the compiler can use vectors.
+            // Neighbours as slices of one length, which vectorise.
             let [zl, zm, zr] = [0, 1, 2].map(|o| z.map(|row| row.get(o..o + inner).unwrap_or_default()));
             let [vl, vm, vr] = [0, 1, 2].map(|o| v.map(|row| row.get(o..o + inner).unwrap_or_default()));
             for i in 0..inner {
@@ -155,7 +146,7 @@ impl Kernel for SlopeRows<'_> {
                 let border = is_border(vm[1][i], [vl[1][i], vr[1][i], vm[0][i], vm[2][i]]);
                 raised[i + 1] = raise(depths, border) * self.per_slope;
             }
-            // The first and the last column repeat themselves beyond the border.
+            // The first and the last column repeat beyond the border.
             for i in [0, width - 1] {
                 let (left, right) = (i.saturating_sub(1), (i + 1).min(width - 1));
                 let depths = z.map(|row| [row[left], row[i], row[right]]);
@@ -166,7 +157,6 @@ impl Kernel for SlopeRows<'_> {
     }
 }
 
-/// Whether a neighbour belongs to another influence zone.
 #[inline(always)]
 fn is_border(here: i32, neighbours: [i32; 4]) -> bool {
     let [a, b, c, d] = neighbours.map(|n| n != here);

@@ -1,31 +1,24 @@
-// Silhouettes: lines where the cut surface leaps; or, as in the paper (section 3.3.5), where it is steep, strongest between
-// influence zones. The first in one pass, `lines`. The second in three: the raised slope, the depth filter over it, and its
-// strength.
+// Silhouettes: lines where the cut surface leaps (one pass, `lines`), or where it is steep (paper section
+// 3.3.5; three passes: raised slope, depth filter over it, strength). silhouette.rs explains the constants.
 // import math/view
 // import math/lanes
 // import math/leaps
 
-// How much a leap between the influence zones of two vessels counts beside one within a zone.
 const ZONE_BORDER: f32 = 4.0;
-// Far beyond any slope squared.
 const STEEPEST: f32 = 1e12;
 
 struct SilhouetteParameters {
-    // From the sum of the Sobel weights to mm per mm.
     per_slope: f32,
-    // The square of the slope that has half the strength.
     half: f32,
-    // How wide the line of a leap is (pixels).
     line_width: f32,
 }
 
 @group(0) @binding(1) var<uniform> parameters: SilhouetteParameters;
-// Raised slopes in the first pass, slopes that become strengths in the last; of `lines` the strengths.
+// Raised slopes in the first pass, slopes that become strengths in the last; strengths in `lines`.
 @group(0) @binding(2) var<storage, read_write> slopes: array<f32>;
 @group(0) @binding(3) var<storage, read> depth: array<f32>;
 @group(0) @binding(4) var<storage, read> vessel: array<i32>;
 
-// The Sobel magnitude of a 3 × 3 neighbourhood (row by row), raised at a border.
 fn raise(above: vec3f, here: vec3f, below: vec3f, border: bool) -> f32 {
     let dx = (above.z - above.x) + 2.0 * (here.z - here.x) + (below.z - below.x);
     let dy = (below.x - above.x) + 2.0 * (below.y - above.y) + (below.z - above.z);
@@ -71,16 +64,14 @@ fn strength(@builtin(global_invocation_id) thread: vec3u) {
 // HUGE where the surface shows nothing.
 @group(0) @binding(4) var<storage, read> value: array<f32>;
 
-// The bits of a pixel; none beyond the image.
 fn bits_at(pixel: vec2i) -> u32 {
     let is_inside = all(pixel >= vec2i(0)) && all(pixel < vec2i(view.size));
     return select(0u, leap[place_of(vec2u(select(vec2i(0), pixel, is_inside)))], is_inside);
 }
 
-// The border between a pixel and the neighbour a step to the right, to the left, down or up away.
+// The border between a pixel and the neighbour at a step to the right, to the left, down or up.
 struct Border {
     is_leap: bool,
-    // Whether the line of the leap lies in the pixel.
     has_line: bool,
 }
 
@@ -97,16 +88,12 @@ fn ends(here: vec2i, step: vec2i) -> bool {
     return border(here, step).has_line && (bits_at(here) & bits_at(here + step) & LUMEN) != 0u;
 }
 
-// How much of a pixel a line covers whose leap has its middle this far from that of the pixel (pixels).
 fn cover_at(apart: vec2f) -> f32 {
     let within = max(line_parameters.line_width, 1.0) + 0.5;
     let distance = sqrt(apart.x * apart.x + apart.y * apart.y);
-    // A line narrower than a pixel is one of a pixel, only fainter.
     return min(line_parameters.line_width, 1.0) * clamp(within - distance, 0.0, 1.0);
 }
 
-// How much of a pixel of a lumen the line of a leap in one direction covers: only straight across from a leap to another
-// lumen, at which the pixel's own lumen ends.
 fn cover_of_lumen(here: vec2i, step: vec2i) -> f32 {
     if ends(here, step) {
         return min(line_parameters.line_width, 1.0);
@@ -115,24 +102,20 @@ fn cover_of_lumen(here: vec2i, step: vec2i) -> f32 {
     return select(0.0, cover_at(vec2f(1.5, 0.0)), goes_on && ends(here + step, step));
 }
 
-// Whether a pixel of the image shows anything.
 fn is_shown(pixel: vec2i) -> bool {
     return value[place_of(vec2u(pixel))] < HUGE;
 }
 
-// Whether the line of the leap to a neighbour is shown in a pixel: it lies there, or it would lie where nothing is shown and
-// there is no lumen here.
 fn shows_line(here: vec2i, step: vec2i) -> bool {
     let may_lie_here = (bits_at(here) & LUMEN) == 0u && !is_shown(here + step);
     return is_shown(here) && (border(here, step).has_line || may_lie_here);
 }
 
-// Whether the line of the leap from a pixel to the neighbour a step away is shown on one side of it, beyond it or not.
 fn shows_line_of(owner: vec2i, step: vec2i, beyond: bool) -> bool {
     return shows_line(select(owner, owner + step, beyond), select(step, -step, beyond));
 }
 
-// Whether a pixel beside all lumens lies beside leaps, and none of their lines is shown in it.
+// Whether a pixel outside all lumens lies at leaps and shows none of their lines.
 fn is_other_side(here: vec2i) -> bool {
     var is_beside = false;
     for (var n = 0; n < 4; n++) {
@@ -147,8 +130,8 @@ fn is_other_side(here: vec2i) -> bool {
     return is_beside;
 }
 
-// How much of a pixel beside all lumens the lines of the leaps of another pixel cover: by its distance to the nearest leap on
-// whose line's side it lies. It is seen from that other pixel.
+// Cover of pixel `seen`, outside all lumens, by another pixel's lines: by distance to the nearest leap on its
+// line's side.
 fn cover_beside_lumen(owner: vec2i, seen: vec2i) -> f32 {
     let bits = bits_at(owner);
     var cover = 0.0;

@@ -1,4 +1,4 @@
-//! The surface: the volume at the world point where each pixel looks (paper section 3.3.4).
+//! The surface: the volume at the world position of each pixel (paper section 3.3.4).
 
 use bytemuck::{Pod, Zeroable};
 use glam::DAffine3;
@@ -18,23 +18,20 @@ use crate::settings::Slab;
 use crate::volume::{Volume, Voxel};
 use crate::with_voxels;
 
-/// The parameters of the stage, as the shader reads them.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
 pub struct SurfaceParameters {
-    /// How far a slab reaches before and behind the cut surface (mm); 0 without one.
+    /// Half the thickness of the slab (mm); 0 without one.
     pub half: f32,
     /// What is shown of it: the code of a [`Reduction`].
     pub mode: u32,
-    /// Parts of a ray of the view per mm, at least: one for each voxel along the axis where it meets most of them.
+    /// Minimum parts per mm of a view ray: one per voxel along its main axis.
     pub per_step: f32,
-    /// Fills the structure as the shaders' rules of layout want it.
     pub padding: u32,
 }
 
 impl SurfaceParameters {
-    /// The parameters for a slab, or for the cut surface alone, in a view whose rays go from a voxel to the next in
-    /// `voxel` mm.
+    /// The parameters for a slab or the thin cut surface in a view with `voxel` mm between voxels.
     pub fn new(slab: Option<Slab>, voxel: f64) -> Self {
         let mode = slab.map_or(Reduction::Mean, |slab| Reduction::of(slab.mode)).code();
         let half = slab.map_or(0.0, |slab| slab.thickness / 2.0) as f32;
@@ -42,24 +39,17 @@ impl SurfaceParameters {
     }
 }
 
-/// What a surface is a picture of.
 #[derive(Clone, Copy)]
 pub struct SurfaceScene<'a> {
-    /// Where the pixels look.
     pub geometry: &'a Geometry,
-    /// The volume.
     pub volume: &'a Volume<'a>,
-    /// What a slab can skip; `None` looks at everything, with the same result.
+    /// Blocks that a slab can skip; `None` reads everything, with the same result.
     pub blocks: Option<&'a Blocks>,
-    /// How thick the surface is.
     pub slab: Option<Slab>,
 }
 
-/// Writes the volume's value where each pixel looks, NaN outside the volume; with a slab the largest, mean or smallest
-/// value within it, as far as it lies in the volume.
-///
-/// # Errors
-/// [`crate::error::ErrorKind::Interrupted`].
+/// Writes the volume's value at each pixel's position, NaN outside the volume; with a slab the largest, mean
+/// or smallest value of its part within the volume.
 pub fn surface(work: &Work, scene: &SurfaceScene, value: &mut [f32]) -> Result<()> {
     work.expect_whole(Image::Value, value);
     thin(work, scene, value)?;
@@ -67,13 +57,12 @@ pub fn surface(work: &Work, scene: &SurfaceScene, value: &mut [f32]) -> Result<(
     let mut thick = vec![f32::NAN; value.len()];
     thicken(work, scene, slab, value, &mut thick)?;
     value.par_iter_mut().zip(&thick).for_each(|(value, thick)| {
-        // A slab is shown where there is a cut surface.
+        // A slab is shown only where there is a cut surface.
         *value = if value.is_nan() || thick.is_nan() { *value } else { *thick };
     });
     Ok(())
 }
 
-/// The values on the cut surface itself.
 fn thin(work: &Work, &SurfaceScene { geometry, volume, .. }: &SurfaceScene, value: &mut [f32]) -> Result<()> {
     with_voxels!(volume.voxels(), voxels => {
         let voxels = GridVoxels { grid: Grid::new(volume), voxels };
@@ -81,17 +70,16 @@ fn thin(work: &Work, &SurfaceScene { geometry, volume, .. }: &SurfaceScene, valu
             Geometry::Orthographic { camera, depth } => {
                 work.expect_whole(Image::Depth, depth);
                 let index_from_view = IndexFromView::new(volume, camera);
-                fill(work, &OrthographicPlaces { camera, depth, index_from_view, voxels }, value)
+                fill(work, &OrthographicPixels { camera, depth, index_from_view, voxels }, value)
             }
             Geometry::Curved(curved) => {
                 let index_from_world = volume.index_from_world();
-                fill(work, &CurvedPlaces { curved, index_from_world, voxels }, value)
+                fill(work, &CurvedPixels { curved, index_from_world, voxels }, value)
             }
         }
     })
 }
 
-/// What the slab shows where the cut surface has a `value`.
 fn thicken(work: &Work, scene: &SurfaceScene, slab: Slab, value: &[f32], thick: &mut [f32]) -> Result<()> {
     let (half, volume) = (slab.thickness / 2.0, scene.volume);
     let reduction = Reduction::of(slab.mode);
@@ -115,7 +103,6 @@ fn thicken(work: &Work, scene: &SurfaceScene, slab: Slab, value: &[f32], thick: 
     }
 }
 
-/// The slabs of pixels with places of their own.
 struct CurvedRays<'a> {
     curved: &'a Curved,
     index_from_world: DAffine3,
@@ -144,8 +131,7 @@ impl RaySource for CurvedRays<'_> {
     }
 }
 
-/// Fills the values row by row.
-fn fill(work: &Work, places: &impl Places, value: &mut [f32]) -> Result<()> {
+fn fill(work: &Work, places: &impl PixelPositions, value: &mut [f32]) -> Result<()> {
     value.par_chunks_mut(work.size[0]).enumerate().try_for_each(|(row, value)| {
         work.begin(value.len())?;
         dispatch(work.isa, SurfaceRow { places, row, value });
@@ -153,43 +139,40 @@ fn fill(work: &Work, places: &impl Places, value: &mut [f32]) -> Result<()> {
     })
 }
 
-/// Pixels in a row that are sampled together.
-const RUN: usize = 8 * FAN;
-type Run = [[f32; FAN]; RUN / FAN];
+/// Pixels of a row that are sampled together.
+const PIXELS_TOGETHER: usize = 8 * FAN;
+type Run = [[f32; FAN]; PIXELS_TOGETHER / FAN];
 /// Continuous indices of a run of pixels, axis by axis.
-type Indices = [[[f64; FAN]; 3]; RUN / FAN];
+type Indices = [[[f64; FAN]; 3]; PIXELS_TOGETHER / FAN];
 
-/// Where the pixels of a geometry lie in the volume.
-trait Places: Sync {
-    /// The volume at the places of the run of pixels that begins at (`i`, `j`); those beyond the image mean nothing.
+trait PixelPositions: Sync {
+    /// The volume at the run of pixels that begins at (`i`, `j`); entries beyond the image are arbitrary.
     fn sample(&self, i: usize, j: usize) -> Run;
 }
 
-/// The voxels of a volume and the grid they lie on.
 #[derive(Clone, Copy)]
 struct GridVoxels<'a, T> {
     grid: Grid,
     voxels: &'a [T],
 }
 
-/// The points where a camera's rays meet the cut surface.
-struct OrthographicPlaces<'a, T> {
+struct OrthographicPixels<'a, T> {
     camera: &'a Camera,
     depth: &'a [f32],
     index_from_view: IndexFromView,
     voxels: GridVoxels<'a, T>,
 }
 
-impl<T: Voxel> Places for OrthographicPlaces<'_, T> {
+impl<T: Voxel> PixelPositions for OrthographicPixels<'_, T> {
     #[inline(always)]
     fn sample(&self, i: usize, j: usize) -> Run {
         let (to, width) = (&self.index_from_view, self.camera.size()[0]);
-        let depths = &self.depth[j * width..][i..width.min(i + RUN)];
-        let mut depth: Run = [[0.0; FAN]; RUN / FAN];
+        let depths = &self.depth[j * width..][i..width.min(i + PIXELS_TOGETHER)];
+        let mut depth: Run = [[0.0; FAN]; PIXELS_TOGETHER / FAN];
         depth.as_flattened_mut()[..depths.len()].copy_from_slice(depths);
         let row = (to.origin + to.y * self.camera.view_y(j)).to_array();
-        let mut index: Indices = [[[0.0; FAN]; 3]; RUN / FAN];
-        for n in 0..RUN / FAN {
+        let mut index: Indices = [[[0.0; FAN]; 3]; PIXELS_TOGETHER / FAN];
+        for n in 0..PIXELS_TOGETHER / FAN {
             for a in 0..3 {
                 let (x_step, z_step) = (to.x[a], to.z[a]);
                 for l in 0..FAN {
@@ -202,19 +185,18 @@ impl<T: Voxel> Places for OrthographicPlaces<'_, T> {
     }
 }
 
-/// A world point of its own for every pixel.
-struct CurvedPlaces<'a, T> {
+struct CurvedPixels<'a, T> {
     curved: &'a Curved,
     index_from_world: DAffine3,
     voxels: GridVoxels<'a, T>,
 }
 
-impl<T: Voxel> Places for CurvedPlaces<'_, T> {
+impl<T: Voxel> PixelPositions for CurvedPixels<'_, T> {
     #[inline(always)]
     fn sample(&self, i: usize, j: usize) -> Run {
         let width = self.curved.size()[0];
-        let pixels = j * width + i..j * width + width.min(i + RUN);
-        let mut index: Indices = [[[NOWHERE; FAN]; 3]; RUN / FAN];
+        let pixels = j * width + i..j * width + width.min(i + PIXELS_TOGETHER);
+        let mut index: Indices = [[[NOWHERE; FAN]; 3]; PIXELS_TOGETHER / FAN];
         for (l, point) in self.curved.position()[pixels].iter().enumerate() {
             let place = self.index_from_world.transform_point3(*point);
             if place.is_finite() {
@@ -236,13 +218,13 @@ struct SurfaceRow<'a, P> {
     value: &'a mut [f32],
 }
 
-impl<P: Places> Kernel for SurfaceRow<'_, P> {
+impl<P: PixelPositions> Kernel for SurfaceRow<'_, P> {
     type Output = ();
 
     #[inline(always)]
     fn run(self) {
-        for (n, value) in self.value.chunks_mut(RUN).enumerate() {
-            let shown = self.places.sample(n * RUN, self.row);
+        for (n, value) in self.value.chunks_mut(PIXELS_TOGETHER).enumerate() {
+            let shown = self.places.sample(n * PIXELS_TOGETHER, self.row);
             value.copy_from_slice(&shown.as_flattened()[..value.len()]);
         }
     }

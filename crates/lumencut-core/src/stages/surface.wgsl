@@ -1,29 +1,26 @@
-// The surface: the volume at the world point where each pixel looks (paper section 3.3.4).
+// The surface: the volume at the world position of each pixel (paper section 3.3.4).
 // import math/cell_walk
 
-// Whether pixels have places of their own; else they look along the rays of a camera, at depths.
+// Whether pixels have separate positions; else they lie on the rays of a camera, at depths.
 override CURVED: bool = false;
 
 const MEAN = 0u;
 const LARGEST = 1u;
 const SMALLEST = 2u;
-// The parts of a slab that are followed in a row.
+// Parts of a slab that are followed together.
 const STRETCH: i32 = 8;
 
-// A thick cut surface.
+// A thick cut surface; surface.rs explains the fields.
 struct SurfaceParameters {
-    // How far it reaches before and behind the cut surface (mm); 0 where it is not thick.
     half: f32,
-    // What it shows.
     mode: u32,
-    // Parts of a ray per mm, at least.
     per_step: f32,
     padding: u32,
 }
 
-// Where a pixel of a curved geometry lies in the volume: the whole numbers of its index, what is to be added to them, and
-// the index per mm along the direction in which a slab is thick. The last numbers mean nothing.
-struct CurvedPlace {
+// A pixel of a curved geometry in the volume: the whole numbers of its index, their summands, and the index
+// per mm along the slab direction. The fourth components are padding.
+struct CurvedPixel {
     whole: vec4f,
     part: vec4f,
     per_mm: vec4f,
@@ -32,10 +29,9 @@ struct CurvedPlace {
 @group(0) @binding(1) var<uniform> parameters: SurfaceParameters;
 @group(0) @binding(4) var<storage, read> depth: array<f32>;
 @group(0) @binding(5) var<storage, read_write> value: array<f32>;
-// Where pixels have no places of their own, its binding holds nothing.
-@group(0) @binding(6) var<storage, read> places: array<CurvedPlace>;
+// Empty for a camera.
+@group(0) @binding(6) var<storage, read> places: array<CurvedPixel>;
 
-// Where a pixel looks.
 struct Target {
     pixel: u32,
     foot: Foot,
@@ -52,16 +48,15 @@ fn target_of(pixel: vec2u) -> Target {
     return seen;
 }
 
-// Where a pixel looks.
-fn place_of_target(seen: Target) -> Place {
+fn place_of_target(seen: Target) -> GridPosition {
     if CURVED {
         let own = places[seen.pixel];
-        return Place(own.whole.xyz, own.part.xyz);
+        return GridPosition(own.whole.xyz, own.part.xyz);
     }
     return place_at(seen.foot, seen.depth);
 }
 
-// The volume where a pixel looks; HUGE outside it.
+// The volume at a pixel; HUGE outside it.
 fn thin(seen: Target) -> f32 {
     let place = place_of_target(seen);
     if is_outside(place) {
@@ -70,8 +65,8 @@ fn thin(seen: Target) -> f32 {
     return value_in(cell_of(place));
 }
 
-// The first and the last place of a curved pixel's slab within the volume (mm from the pixel's own place).
-fn slab_within(own: CurvedPlace) -> vec2f {
+// The ends of a curved pixel's slab within the volume (mm from the pixel's position).
+fn slab_within(own: CurvedPixel) -> vec2f {
     var ends = vec2f(-parameters.half, parameters.half);
     let above_first = own.whole.xyz + 0.5 + own.part.xyz;
     let above_last = own.whole.xyz - grid.last - 0.5 + own.part.xyz;
@@ -86,14 +81,12 @@ fn slab_within(own: CurvedPlace) -> vec2f {
     return ends;
 }
 
-// What becomes of a stretch of the slab.
-fn join(shown: Found, start: Place, way: vec3f, share: f32) -> Found {
+fn join(shown: Found, start: GridPosition, way: vec3f, share: f32) -> Found {
     let sign = select(1.0, -1.0, parameters.mode == SMALLEST);
     let found = walk_cells(start, way, sign, HUGE, parameters.mode == MEAN, shown.best);
     return Found(found.best, shown.sum + share * found.sum, shown.share + share * found.share);
 }
 
-// All of a slab that lies in the volume.
 fn thick(seen: Target, center: f32) -> f32 {
     var shown = Found(-HUGE, 0.0, 0.0);
     if CURVED {
@@ -103,7 +96,7 @@ fn thick(seen: Target, center: f32) -> f32 {
         let length = (ends.y - ends.x) / f32(max(count, 1));
         for (var n = 0; n < count; n++) {
             let begin = ends.x + f32(n) * length;
-            let start = Place(own.whole.xyz, own.part.xyz + begin * own.per_mm.xyz);
+            let start = GridPosition(own.whole.xyz, own.part.xyz + begin * own.per_mm.xyz);
             shown = join(shown, start, length * own.per_mm.xyz, 1.0);
         }
     } else {

@@ -1,5 +1,5 @@
-//! The one table of the stages: their names, the images that they read and write, and which of them a view needs.
-//! Timings, computing single stages on the CPU in the place of the GPU, tests and benches all go by it.
+//! The table of the stages: names, images read and written, and conditions. Timings, fallbacks, tests and
+//! benches use it.
 
 use crate::error::{Error, ErrorKind, Result};
 use crate::geometry::Geometry;
@@ -20,7 +20,7 @@ pub enum Image {
     Sheet,
     /// Where the cut surface leaps, as bits of u32 (`stages::leap`).
     Leap,
-    /// How much of the cut surface and how much of its silhouettes is shown, 0 to 1, two f32.
+    /// How much of the cut surface and of its silhouettes is shown, 0 to 1, two f32.
     Focus,
     /// The volume at the cut surface, f32; NaN outside the volume (on a GPU 3·10³⁸).
     Value,
@@ -28,7 +28,7 @@ pub enum Image {
     Strength,
     /// Depth at which the ray of the context starts (mm), f32.
     Start,
-    /// The context: colours times opacity, and opacity, four f32.
+    /// The context: premultiplied colours and opacity, four f32.
     Gathered,
     /// The context alone as RGBA with straight alpha, four bytes.
     Context,
@@ -66,10 +66,7 @@ impl Image {
         ("context", Self::Context),
     ];
 
-    /// The image that a frame has under this name.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Settings`] for another name.
+    /// The image that a frame has under this name. Fails with [`ErrorKind::Settings`] for another name.
     pub fn of_frame(name: &str) -> Result<Self> {
         let known = Self::OF_FRAME.iter().find(|(known, _)| *known == name);
         known.map(|(_, image)| *image).ok_or_else(|| {
@@ -79,7 +76,7 @@ impl Image {
     }
 }
 
-/// Some images.
+/// A set of images.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ImageSet(u16);
 
@@ -94,7 +91,7 @@ impl ImageSet {
         Image::Picture,
     ]);
 
-    /// These images.
+    /// The set of these images.
     pub const fn of(images: &[Image]) -> Self {
         let (mut bits, mut n) = (0, 0);
         while n < images.len() {
@@ -104,29 +101,28 @@ impl ImageSet {
         Self(bits)
     }
 
-    /// These and those.
+    /// The union with another set.
     #[must_use]
     pub const fn and(self, others: Self) -> Self {
         Self(self.0 | others.0)
     }
 
-    /// These but for one.
+    /// The set without one image.
     #[must_use]
     pub const fn without(self, image: Image) -> Self {
         Self(self.0 & !(1 << image as u16))
     }
 
-    /// Whether an image is one of them.
+    /// Whether an image is in the set.
     pub const fn has(self, image: Image) -> bool {
         self.0 & 1 << image as u16 != 0
     }
 }
 
-/// What a view is made of, step by step. The name of a stage is that of its file, its function, its shader, its entry
-/// in the timings and its heading in METHOD.md.
+/// The stages of a view. File, function, shader, timings and heading in docs/method have the same name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stage {
-    /// Levels of detail of the tree, made once per tree.
+    /// Levels of detail of the tree, computed once per tree.
     Levels,
     /// The levels in the view.
     Projection,
@@ -144,12 +140,11 @@ pub enum Stage {
     Surface,
     /// Lines where the cut surface leaps.
     Silhouette,
-    /// Ranges of values of the volume, made once per volume. (On the CPU its time holds that of finding where rays start:
-    /// where none does, no blocks are made.)
+    /// Ranges of values of the volume, computed once per volume; on the CPU timed with the starts of rays.
     Blocks,
     /// Rays through the volume.
     Context,
-    /// All of it in one picture.
+    /// The picture of all layers.
     Composite,
 }
 
@@ -188,8 +183,7 @@ impl Stage {
         }
     }
 
-    /// How long it usually takes for a pixel beside the others: about milliseconds for 512 × 512 of them. Nothing but
-    /// the share that `progress` tells depends on it.
+    /// Relative cost per pixel: about milliseconds for 512 × 512 pixels. Only `progress` depends on it.
     pub const fn cost(self) -> usize {
         match self {
             Self::Levels | Self::Projection | Self::Blocks => 0,
@@ -202,7 +196,7 @@ impl Stage {
         }
     }
 
-    /// The images that it reads, where they are there.
+    /// The images that it reads, if present.
     pub const fn reads(self) -> &'static [Image] {
         match self {
             Self::Levels | Self::Projection | Self::Distance | Self::Blocks => &[],
@@ -217,8 +211,7 @@ impl Stage {
         }
     }
 
-    /// The images that it writes, one after the other and for every pixel, where something needs them. A stage without
-    /// images prepares for others.
+    /// The images that it writes, in order, if something needs them; a stage without images prepares.
     pub const fn writes(self) -> &'static [Image] {
         match self {
             Self::Levels | Self::Projection | Self::Blocks => &[],
@@ -234,8 +227,7 @@ impl Stage {
         }
     }
 
-    /// The stages that find where a view cuts through the projected vessels, in their order; `wanted` are the images that
-    /// shall come of the view.
+    /// The stages that find the cut surface of a view with the images `wanted`, in their order.
     pub fn of_cut_surface(settings: &Settings, wanted: ImageSet) -> Vec<Self> {
         let own = settings.level_choice == LevelChoice::Own;
         let draws_leaps = settings.silhouettes && settings.silhouette_rule == SilhouetteRule::Leap;
@@ -258,14 +250,14 @@ impl Stage {
         matches!(self, Self::Distance | Self::Depth | Self::Leap | Self::DepthFilter | Self::Focus)
     }
 
-    /// Whether the stage `depth` of such a view writes the sheet: for leaps, or where it is wanted.
+    /// Whether the stage `depth` of such a view writes the sheet: for leaps, or if it is wanted.
     pub fn has_sheet(settings: &Settings, wanted: ImageSet) -> bool {
         wanted.has(Image::Sheet) || Self::of_cut_surface(settings, wanted).contains(&Self::Leap)
     }
 
-    /// The stages that show what is there, in their order. `made` are the images that are there: without a depth the context
-    /// alone is shown, and silhouettes need leaps or vessels too. At places of their own, which no camera looks at, there are neither
-    /// silhouettes nor a context. `wanted` are the images that shall come of the view.
+    /// The stages that show what is there, in their order. Of the images `made` so far, the surface needs a
+    /// depth, and silhouettes leaps or vessels too. A curved geometry has neither silhouettes nor context.
+    /// The frame shall have the images `wanted`.
     pub fn of_look(settings: &Settings, geometry: &Geometry, made: ImageSet, wanted: ImageSet) -> Vec<Self> {
         let has_camera = geometry.camera().is_some();
         let has_surface = !has_camera || made.has(Image::Depth);
@@ -278,7 +270,7 @@ impl Stage {
         let has_silhouettes = has_picture && settings.silhouettes && can_have_silhouettes;
         let wants_context = has_picture || wanted.has(Image::Context);
         let has_context = wants_context && has_camera && settings.context.is_some();
-        // The rays of a context start by the values.
+        // Rays of a context start by the values.
         let has_values = has_surface && (has_picture || has_context || wanted.has(Image::Value));
         let stages = [
             (Self::Surface, has_values),
@@ -291,7 +283,6 @@ impl Stage {
     }
 }
 
-/// Those of some stages that are needed.
 fn needed(stages: &[(Stage, bool)]) -> Vec<Stage> {
     stages.iter().filter(|(_, is_needed)| *is_needed).map(|(stage, _)| *stage).collect()
 }

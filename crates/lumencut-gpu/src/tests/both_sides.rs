@@ -1,4 +1,4 @@
-//! One scene on the GPU and on the CPU, and whether the frames are the same.
+//! One scene on the GPU and on the CPU, and the comparison of the frames.
 
 use std::sync::Arc;
 
@@ -15,44 +15,42 @@ use super::ties;
 use crate::device::Device;
 use crate::renderer::GpuRenderer;
 
-/// One phantom on both sides.
 pub(crate) struct BothSides {
     pub phantom: Phantom,
     pub gpu: GpuRenderer,
 }
 
 impl BothSides {
-    pub fn new(device: &Arc<Device>, phantom: Phantom) -> Self {
+    pub(super) fn new(device: &Arc<Device>, phantom: Phantom) -> Self {
         Self { phantom, gpu: GpuRenderer::new(Arc::clone(device)) }
     }
 
-    pub fn scene(&self) -> Scene<'_> {
+    pub(super) fn scene(&self) -> Scene<'_> {
         Scene::new(self.phantom.volume().unwrap(), self.phantom.tree.clone())
     }
 
-    pub fn on_gpu(&mut self, camera: &Camera, settings: &Settings) -> Frame {
+    pub(super) fn on_gpu(&mut self, camera: &Camera, settings: &Settings) -> Frame {
         let scene = Scene::new(self.phantom.volume().unwrap(), self.phantom.tree.clone());
         pollster::block_on(self.gpu.render(&scene, &Request::new(camera, settings))).unwrap()
     }
 
-    pub fn on_cpu(&self, camera: &Camera, settings: &Settings) -> Frame {
+    pub(super) fn on_cpu(&self, camera: &Camera, settings: &Settings) -> Frame {
         CpuRenderer::default().render(&self.scene(), &Request::new(camera, settings)).unwrap()
     }
 
-    /// The same picture on both sides.
-    pub fn check(&mut self, camera: &Camera, settings: &Settings) {
+    pub(super) fn check(&mut self, camera: &Camera, settings: &Settings) {
         let (gpu, cpu) = (self.on_gpu(camera, settings), self.on_cpu(camera, settings));
         self.assert_same(gpu, &cpu, settings);
     }
 
-    /// [`assert_same`], but for the ties around joints.
-    pub fn assert_same(&self, mut gpu: Frame, cpu: &Frame, settings: &Settings) {
+    /// [`assert_same`], except for the ties around joints.
+    pub(super) fn assert_same(&self, mut gpu: Frame, cpu: &Frame, settings: &Settings) {
         ties::excuse(&mut gpu, cpu, &self.phantom.tree, settings);
         assert_same(&gpu, cpu);
     }
 }
 
-/// Refuses frames that differ by more than rounding in the picture, the cut surface, its distance or the context.
+/// Frames are equal up to rounding in the picture, the cut surface, its distance and the context.
 pub(crate) fn assert_same(gpu: &Frame, cpu: &Frame) {
     assert_equal(gpu, cpu);
     assert_eq!(gpu.value.len(), cpu.value.len());

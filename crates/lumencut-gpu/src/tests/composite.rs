@@ -1,4 +1,4 @@
-//! Pictures against the CPU's: bytes equal, but for less than one in a thousand that is 1 apart.
+//! Pictures against the CPU's: equal bytes, except that less than one in a thousand may be 1 apart.
 
 use lumencut_core::settings::{Context, Opacity, Settings, Window};
 use lumencut_core::stages::composite::{self, CompositeParameters, layer};
@@ -39,7 +39,6 @@ impl Scene {
     }
 }
 
-/// How many bytes are as the CPU's, and how many are not.
 #[derive(Default)]
 struct Tally {
     bytes: usize,
@@ -84,7 +83,7 @@ fn settings() -> Vec<Settings> {
         .collect()
 }
 
-/// The picture of layers on the GPU; without values there is no cut surface.
+/// Without values there is no cut surface.
 fn on_the_gpu(
     device: &Device,
     composite: &Composite,
@@ -182,7 +181,7 @@ fn the_layer_is_that_of_the_cpu() {
 #[test]
 fn halves_become_the_even_byte() {
     let Some(device) = device() else { return };
-    // Opaque: 255 times the colour is a half exactly, where a float holds it.
+    // Opaque: 255 times the colour is exactly a half where a float holds it.
     let context: Vec<[f32; 4]> = (0..=510).map(|n| [n as f32 / 510.0, 0.0, 0.0, 1.0]).collect();
     let camera = front([511, 1], 1.0);
     let mut expected = vec![[0; 4]; 511];

@@ -1,5 +1,5 @@
-//! Every constant of a shader is the one of that name in Rust, to the last bit; the few that only shaders have are listed
-//! with the reason.
+//! Every constant of a shader equals the one of that name in Rust to the last bit; the few that only shaders
+//! have are listed with the reason.
 
 use std::collections::BTreeMap;
 use std::f32::consts;
@@ -19,10 +19,8 @@ use naga::{Expression, Handle, Literal, Module};
 use crate::cut_surface;
 use crate::shader::assemble_from;
 
-/// A room and the name of one of its constants.
 type Name = (String, String);
 
-/// A constant as the numbers it holds; a shader's floats have 32 bits.
 trait Numbers {
     fn numbers(&self) -> Vec<f64>;
 }
@@ -63,7 +61,7 @@ impl Numbers for Range {
     }
 }
 
-/// The constants of Rust, by the room of the shader that has a constant of the same name.
+/// The constants of Rust, by the module of the shader that has a constant of the same name.
 macro_rules! in_rust {
     ($($room:literal: $($constant:path),+;)*) => {
         BTreeMap::from([$($((name($room, stringify!($constant)), $constant.numbers())),+),*])
@@ -79,7 +77,7 @@ fn in_rust() -> BTreeMap<Name, Vec<f64>> {
     let mut all = in_rust! {
         "math/accumulate": accumulate::OPAQUE;
         "math/blocks": blocks::SIDE_BITS, Range::ALL;
-        "math/lanes": lanes::FAN, lanes::UNSET, lanes::ABSENT, lanes::FAR, lanes::SETTLED, hierarchy::NO_SLOT,
+        "math/lanes": lanes::FAN, lanes::UNSET, lanes::ABSENT, lanes::FAR, lanes::EXCLUDED, hierarchy::NO_SLOT,
             blocks::HUGE;
         "math/leaps": leaps::TO_THE_RIGHT, leaps::DOWNWARDS, leaps::LINE_TO_THE_RIGHT, leaps::LINE_DOWNWARDS,
             leaps::LUMEN;
@@ -87,13 +85,13 @@ fn in_rust() -> BTreeMap<Name, Vec<f64>> {
         "math/light": light::AMBIENT, light::DIFFUSE, light::SPECULAR, light::STEEPEST, light::UNSHADED;
         "math/projection": projection::COLLINEAR_LENGTH, cut_surface::POINT_THREADS;
         "math/ray": ray::WHOLE, ray::NONE, ray::NEVER, ray::SPARE;
-        "math/sampling": sampling::PLACE_ROUNDING;
+        "math/sampling": sampling::POSITION_ROUNDING;
         "math/thickness": thickness::ROOT_HALF, consts::LOG2_E, consts::LN_2;
         "math/tile": cut_surface::QUAD, cut_surface::TILES, cut_surface::TILES_ACROSS;
         "math/transfer": transfer::INVISIBLE;
-        "math/walls": walls::MOST_LEAN;
+        "math/walls": walls::MAX_LEAN;
         "stages/context": context::IN_FRONT;
-        "stages/depth": depth::FIRST;
+        "stages/depth": depth::CHOSEN_GAP;
         "stages/leap": leap::SMALLEST_LEAP;
         "stages/silhouette": silhouette::ZONE_BORDER, silhouette::STEEPEST;
         "math/cell_walk": cell_walk::NO_MEETING, cell_walk::ALONG_PLANE;
@@ -116,7 +114,7 @@ fn in_rust() -> BTreeMap<Name, Vec<f64>> {
     all
 }
 
-/// The constants that only shaders have, by room, and why.
+/// The constants that only shaders have, by module, and why.
 const ONLY_IN_SHADERS: [(&str, &str, &str); 12] = [
     ("math/blocks", "FARTHEST", "rays of the CPU skip whole segments and count no samples"),
     ("math/projection", "SPAN_THREADS", "the threads of a group"),
@@ -132,7 +130,7 @@ const ONLY_IN_SHADERS: [(&str, &str, &str); 12] = [
     ("stages/surface", "STRETCH", "how many cells a thread follows in a row, which changes no picture"),
 ];
 
-/// The names of the constants that a room declares itself. They stand outside functions, where this test sees them.
+/// The constants that a module declares outside functions.
 fn declared(shader: &Shader) -> Vec<String> {
     let lines = shader.text.lines().filter(|line| line.trim_start().starts_with("const "));
     let name = |line: &str| {
@@ -143,7 +141,6 @@ fn declared(shader: &Shader) -> Vec<String> {
     lines.map(name).collect()
 }
 
-/// The numbers of an expression.
 fn numbers(module: &Module, expression: Handle<Expression>) -> Vec<f64> {
     match &module.global_expressions[expression] {
         Expression::Literal(Literal::F32(number)) => vec![f64::from(*number)],
@@ -157,7 +154,6 @@ fn numbers(module: &Module, expression: Handle<Expression>) -> Vec<f64> {
     }
 }
 
-/// The constants that some rooms declare themselves.
 fn in_shaders(shaders: &[Shader]) -> BTreeMap<Name, Vec<f64>> {
     let mut found = BTreeMap::new();
     for shader in shaders {
@@ -173,7 +169,7 @@ fn in_shaders(shaders: &[Shader]) -> BTreeMap<Name, Vec<f64>> {
     found
 }
 
-/// The constants of shaders that are not those of Rust and not among the `alone`, as lines to read.
+/// The constants of shaders that differ from Rust's and are not among the `alone`, as lines to read.
 fn differences(
     shaders: &BTreeMap<Name, Vec<f64>>,
     rust: &BTreeMap<Name, Vec<f64>>,

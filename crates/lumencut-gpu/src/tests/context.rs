@@ -1,4 +1,4 @@
-//! The context is that of the CPU.
+//! The context equals the CPU's.
 #![allow(clippy::unwrap_used)]
 
 use glam::{DAffine3, DVec3};
@@ -68,7 +68,6 @@ fn contexts() -> Vec<Context> {
     all
 }
 
-/// Where the rays of the CPU start.
 fn starts_on_cpu(camera: &Camera, settings: &Settings, surface: &CutSurface) -> Vec<f32> {
     let mut start = vec![0.0; surface.value.len()];
     let parameters = StartParameters::new(settings);
@@ -96,7 +95,6 @@ fn on_gpu(
     starts_and_context(stage, placed, settings, surface).1
 }
 
-/// Where the rays start, and what they gather.
 fn starts_and_context(
     stage: &mut ContextStage,
     placed: &Placed,
@@ -178,11 +176,10 @@ fn around_a_focus_rays_start_where_those_of_the_cpu_do() {
     }
 }
 
-/// How two pictures differ.
 #[derive(Debug, Default)]
 struct Difference {
     pixels: usize,
-    /// Pixels with a channel further apart than [`CONTEXT`] and [`CONTEXT_LEAP`] say.
+    /// Pixels with a channel farther apart than [`CONTEXT`] and [`CONTEXT_LEAP`] allow.
     visible: usize,
     large: usize,
     most: f32,
@@ -201,7 +198,7 @@ impl Difference {
     }
 
     fn check(&self, what: &str) {
-        // A picture of few pixels may have one that is visible, too.
+        // Even a small picture may have one visible difference.
         let few_are_visible = self.visible <= 1 || CONTEXT.allows(self.visible, self.pixels);
         assert!(few_are_visible && CONTEXT_LEAP.allows(self.large, self.pixels), "{what}: {self:?}");
     }
@@ -247,7 +244,7 @@ fn compare(volume: &Volume, contexts: &[Context], scale: f64, what: &str) {
     }
 }
 
-/// The same context of a volume whose values are `scale` times as large.
+/// The same context for a volume whose values are `scale` times as large.
 fn scaled(context: &Context, scale: f64) -> Context {
     let mut context = context.clone();
     context.window = Window { level: context.window.level * scale, width: context.window.width * scale };
@@ -281,7 +278,7 @@ fn other_types_of_voxels_give_the_same() {
 
 #[test]
 fn voxels_without_a_number() {
-    // No sample of a ray lies on a voxel, where rounding decides whether a neighbour counts that has no value.
+    // No sample lies on a voxel, where rounding would decide whether a neighbour without a value counts.
     const EVEN: [usize; 3] = [40, 36, 28];
     let mut floats: Vec<f32> = ball_and_rod(EVEN).into_iter().map(f32::from).collect();
     for n in (0..floats.len()).step_by(977) {

@@ -1,4 +1,5 @@
-//! No pixel is left uncovered: at every level that a pixel uses some piece covers it, on every GPU of this machine.
+//! No pixel is left uncovered: at every level that a pixel uses some piece covers it, on every GPU of this
+//! machine.
 
 use std::sync::Arc;
 
@@ -16,13 +17,12 @@ use super::every_device;
 use crate::device::Device;
 use crate::renderer::GpuRenderer;
 
-/// How far the trees lie behind the view's origin (mm). A pixel that no piece covers has depth 0 at that level, which
-/// takes its depth out of the tree's range, however small the level's weight.
-const AWAY: f64 = 2e4;
-/// More than the rounding of such depths (mm).
+/// Distance of the trees behind the view's origin (mm). An uncovered pixel has depth 0 at a level, which
+/// takes its depth out of the tree's range even for a small weight of the level.
+const TREE_DEPTH: f64 = 2e4;
+/// A bound on the rounding of such depths (mm).
 const ROUNDING: f64 = 0.05;
 
-/// Directions along an axis and oblique to all.
 const DIRECTIONS: [[f64; 3]; 2] = [[0.0, 1.0, 0.0], [0.31, 0.83, -0.47]];
 
 /// Sizes and pixel spacings (mm), from far within a segment to a whole tree in a pixel.
@@ -36,13 +36,12 @@ const VIEWS: [([usize; 2], f64); 7] = [
     ([33, 20], 40.0),
 ];
 
-/// The view from [`AWAY`] mm in front of the origin.
 fn view(direction: [f64; 3], size: [usize; 2], pixel_spacing: f64) -> Camera {
     let direction = DVec3::from_array(direction).normalize();
-    Camera::new(direction * -AWAY, direction, DVec3::Z, size, pixel_spacing).unwrap()
+    Camera::new(direction * -TREE_DEPTH, direction, DVec3::Z, size, pixel_spacing).unwrap()
 }
 
-/// The default and the paper's rules, and of both some levels alone wherever the distance is not 0.
+/// The default and the paper's rules, and both with single levels wherever the distance is not 0.
 fn all_settings() -> Vec<Settings> {
     let alone = |levels, rules: &Settings| Settings { levels, level_distance: 1e-3, ..rules.clone() };
     let (own, paper) = (unfiltered(), paper_unfiltered());
@@ -50,7 +49,8 @@ fn all_settings() -> Vec<Settings> {
     both.chain([alone(0, &own), own.clone(), paper.clone()]).collect()
 }
 
-/// A vessel given in the view coordinates of views along `direction`, and nothing that covers what it leaves out.
+/// A vessel given in the view coordinates of views along `direction`, with nothing that covers what it leaves
+/// out.
 fn seen_along(direction: [f64; 3], points: &[[f64; 3]]) -> VesselTree {
     let camera = view(direction, [1, 1], 1.0);
     let place = |[x, y, z]: &[f64; 3]| camera.right() * *x + camera.up() * *y + camera.direction() * *z;
@@ -68,28 +68,27 @@ fn runs() -> Vec<Vec<[f64; 3]>> {
     vec![within.to_vec(), at_the_end.to_vec(), first.to_vec(), alone.to_vec()]
 }
 
-/// Segments about as long in projection as the shortest that are none of a run.
+/// Segments about as long in projection as the shortest that are not collinear with the view.
 fn nearly_collinear() -> Vec<Vec<[f64; 3]>> {
     let steep = |i: i32| [f64::from(i) * 1e-3 * (1.0 + 0.1 * f64::from(i % 7 - 3)), 0.0, f64::from(i % 5)];
     let round = |i: i32| [1e-3 * f64::from(i).cos(), 1e-3 * f64::from(i).sin(), f64::from(i) * 0.5];
     vec![(0..60).map(steep).collect(), (0..60).map(round).collect()]
 }
 
-/// Vessels that are hardly more than a point: shorter than the shortest segment, and in steps about as long.
+/// Vessels hardly larger than a point: shorter than the shortest segment, or in steps about as long.
 fn tiny() -> Vec<Vec<[f64; 3]>> {
     let line =
         |count: i32, step: f64, y: f64| (0..count).map(move |i| [f64::from(i) * step, y, 0.0]).collect();
     vec![line(2, 1e-4, 0.0), line(40, 4e-4, 3.0), line(3, 1.01e-3, -3.0), line(50, 0.999e-3, 5.0)]
 }
 
-/// Borders of pieces through the centres of pixels: along rows, columns and diagonals, and back again.
+/// Borders of pieces through the centres of pixels: along rows, columns and diagonals, and back.
 fn through_pixels() -> Vec<Vec<[f64; 3]>> {
     let steps = [[0.5, 0.5, 0.0], [4.5, 0.5, 1.0], [4.5, 4.5, 2.0], [8.5, 8.5, 0.0], [0.5, 0.5, 3.0]];
     let back = [[-9.5, 0.5, 1.0], [-3.5, 0.5, 2.0], [-9.5, 0.5, 3.0], [-3.5, -5.5, 4.0], [-3.5, 6.5, 5.0]];
     vec![steps.to_vec(), back.to_vec()]
 }
 
-/// Small trees, and what each is.
 fn trees(direction: [f64; 3]) -> Vec<(&'static str, VesselTree)> {
     let made = [
         ("runs", runs()),
@@ -107,7 +106,6 @@ fn trees(direction: [f64; 3]) -> Vec<(&'static str, VesselTree)> {
         .collect()
 }
 
-/// The depths (mm) between which the points of a tree lie.
 fn depth_range(tree: &VesselTree, camera: &Camera) -> [f64; 2] {
     let points = tree.vessels().iter().flat_map(|vessel| vessel.points());
     let depths = points.map(|point| camera.view_from_world(*point).z);
@@ -123,7 +121,7 @@ fn uncovered(depth: &[f32], vessel: &[i32], [low, high]: [f64; 2], vessels: usiz
     (0..depth.len()).filter(|p| !is_covered(p)).collect()
 }
 
-/// Renders a tree from everywhere; the number of pixels.
+/// Renders a tree in all views; returns the number of pixels.
 fn cover(device: &Arc<Device>, name: &str, tree: &VesselTree, direction: [f64; 3]) -> usize {
     let mut renderer = GpuRenderer::new(Arc::clone(device));
     let scene = Scene::default().with_tree(tree.clone());

@@ -1,4 +1,4 @@
-//! What a renderer says where the GPU is lost or too small, or where it is to stop.
+//! The errors of a renderer whose GPU is lost or too small, or that shall stop.
 
 use std::pin::pin;
 use std::sync::Arc;
@@ -29,7 +29,7 @@ fn render(renderer: &mut GpuRenderer, scene: &Scene, stop: Stop) -> Result<Frame
     pollster::block_on(renderer.render(scene, &Request { stop, ..Request::new(&camera, &settings) }))
 }
 
-/// An error of the GPU in one line that says what would mend it.
+/// An error of the GPU in one line with a mend.
 fn check(error: &Error) {
     let line = error.to_string();
     assert_eq!(error.kind, ErrorKind::Device, "{line}");
@@ -55,15 +55,15 @@ fn a_lost_gpu_is_an_error_before_and_after_the_first_view() {
         device.lose();
         for _ in 0..2 {
             check(&render(&mut renderer, &scene, &|| false).unwrap_err());
-            // The driver tells of the loss when it is asked for news; then it stays lost, however often it is asked.
+            // The driver reports the loss when polled; then it stays lost.
             let _ = device.device.poll(wgpu::PollType::Poll);
             check(&device.check().unwrap_err());
             assert!(device.is_lost());
         }
-        // Who waits hears of it, and who asks later does not wait.
+        // Waiting callers are woken, and later ones do not wait.
         assert!(has_ended());
         pollster::block_on(device.loss());
-        // What is made on it afterwards does not compute either.
+        // A new renderer on it does not compute either.
         let mut late = GpuRenderer::new(device);
         check(&render(&mut late, &scene, &|| false).unwrap_err());
     }
@@ -86,7 +86,7 @@ fn a_picture_too_large_for_the_buffers_is_refused_by_its_size() {
     check(&error);
     assert_eq!(error.found, format!("{} × 4096 pixels", most / 4096 + 1));
     assert!(error.expected.contains(&format!("at most {most} pixels")), "{error}");
-    // The renderer goes on.
+    // The renderer still works.
     render(&mut renderer, &scene, &|| false).unwrap();
 }
 
@@ -98,13 +98,13 @@ fn a_renderer_that_was_stopped_renders_again() {
     let mut renderer = GpuRenderer::new(Arc::clone(device));
     let mut fresh = GpuRenderer::new(Arc::clone(device));
     let expected = render(&mut fresh, &scene, &|| false).unwrap();
-    // Stopped at once, and whenever it asks for the second, third … time: while it sends the volume or waits.
+    // Stopped at once, and at the second, third … poll: while it sends the volume or waits.
     for patience in 0..6 {
         let asked = AtomicUsize::new(0);
         let stop = || asked.fetch_add(1, Ordering::Relaxed) >= patience;
         match render(&mut renderer, &scene, &stop) {
             Err(error) => assert_eq!(error.kind, ErrorKind::Interrupted, "{error}"),
-            // A fast GPU is done before it is asked so often.
+            // A fast GPU is done before that many polls.
             Ok(_) => assert!(patience > 0 && asked.into_inner() <= patience),
         }
     }

@@ -21,8 +21,8 @@ use crate::renderer::GpuRenderer;
 use crate::stages::on_either;
 
 const SIZE: [usize; 2] = [96, 80];
-/// Far from the knot two of its pieces cost the same at single pixels, and the depth filter spreads each over nine: that is
-/// less than a thousandth of the picture only where the picture is larger.
+/// Far from the knot two of its pieces tie at single pixels, and the depth filter spreads each over nine:
+/// only in a larger picture is that less than a thousandth.
 const KNOT_SIZE: [usize; 2] = [130, 108];
 
 fn with(change: impl Fn(&mut Settings)) -> Settings {
@@ -31,7 +31,7 @@ fn with(change: impl Fn(&mut Settings)) -> Settings {
     settings
 }
 
-/// The default and what else shaders are compiled or told differently for.
+/// The default, and every setting that changes a shader or its parameters.
 fn all_settings() -> Vec<(&'static str, Settings)> {
     vec![
         ("default", Settings::default()),
@@ -148,7 +148,7 @@ fn each_stage() -> impl Iterator<Item = (Stage, Vec<String>)> {
     on_either().map(move |stage| (stage, others(stage)))
 }
 
-/// Something of everything: a filter within zones, a slab, silhouettes, a focus, and context behind what is transparent.
+/// A filter within zones, a slab, silhouettes, a focus, and context behind what is transparent.
 fn everything() -> Settings {
     with(|s| {
         s.slab = Some(Slab { thickness: 3.0, mode: SlabMode::Mean });
@@ -242,7 +242,7 @@ fn looking_where_the_cpu_found_the_cut_surface_shows_the_same() {
     for settings in [everything(), Settings::default()] {
         let request = Request::new(&camera, &settings);
         let cut = Scene { volume: None, ..scene.clone() };
-        // A cut surface alone has leaps, and how far their lines reach, only where they are asked for.
+        // A cut surface alone has leaps, and the reach of their lines, only if requested.
         let images = ImageSet::ALL.and(ImageSet::of(&[Image::Leap, Image::Focus]));
         let surface = CpuRenderer::default().render(&cut, &Request { images, ..request }).unwrap();
         assert!(surface.leap.iter().any(|leap| *leap & LEAPS != 0), "no silhouettes to show");

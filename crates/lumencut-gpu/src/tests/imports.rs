@@ -1,4 +1,4 @@
-//! Shaders from rooms: each room once, after what it imports.
+//! Shaders from modules: each module once, after its imports.
 
 use lumencut_core::shaders::Shader;
 
@@ -15,7 +15,6 @@ const ROOMS: &[Shader] = &[
     Shader { room: "lost", text: "// import nowhere\nLOST" },
 ];
 
-/// The lines that import nothing.
 fn declarations(room: &str) -> Vec<String> {
     assemble_from(ROOMS, room).lines().filter(|line| !line.starts_with("//")).map(str::to_owned).collect()
 }

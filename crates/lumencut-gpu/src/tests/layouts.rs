@@ -1,11 +1,11 @@
-//! Structures lie in memory as shaders read them: every field of every host structure has the name, the offset and the
-//! size of the field in WGSL.
+//! Structures lie in memory as shaders read them: every field of every host structure has the name, the
+//! offset and the size of the field in WGSL.
 
 use std::collections::BTreeSet;
 
 use bytemuck::Zeroable;
 use lumencut_core::math::context_parameters::{ContextParameters, RiseParameters};
-use lumencut_core::math::levels::{CutSurfaceParameters, LevelPlace};
+use lumencut_core::math::levels::{CutSurfaceParameters, LevelLayout};
 use lumencut_core::shaders::SHADERS;
 use lumencut_core::stages::composite::CompositeParameters;
 use lumencut_core::stages::depth_filter::DepthFilterParameters;
@@ -17,21 +17,19 @@ use naga::{AddressSpace, Handle, Module, Type, TypeInner};
 
 use crate::levels::{Along, NodeBox, Point, Projected, Slot, Span};
 use crate::shader::assemble;
-use crate::surface::CurvedPlace;
+use crate::surface::CurvedPixel;
 use crate::view::{Axis, ViewParameters};
 use crate::volume::GridParameters;
 
-/// A field: its name, offset and size.
 type Field = (String, u32, u32);
 
-/// A structure: its fields and its size in all.
 #[derive(Clone, Debug, PartialEq)]
 struct Layout {
     fields: Vec<Field>,
     span: u32,
 }
 
-/// The room, the name and the layout of a structure; every field has to be listed.
+/// Module, name and layout of a structure; every field has to be listed.
 macro_rules! host {
     ($room:literal, $name:ident { $($field:ident),+ $(,)? }) => {{
         let $name { $($field),+ } = $name::zeroed();
@@ -44,7 +42,6 @@ macro_rules! host {
     }};
 }
 
-/// Every structure that Rust writes for shaders.
 fn hosts() -> Vec<(&'static str, &'static str, Layout)> {
     vec![
         host!("math/hierarchy", NodeBox { low, high, z, radius, tiers, padding }),
@@ -67,7 +64,7 @@ fn hosts() -> Vec<(&'static str, &'static str, Layout)> {
                 levels
             }
         ),
-        host!("math/levels", LevelPlace { first_slot, first_bundle, bundle_count, height_count, heights }),
+        host!("math/levels", LevelLayout { first_slot, first_bundle, bundle_count, height_count, heights }),
         host!(
             "math/pieces",
             Slot {
@@ -147,12 +144,11 @@ fn hosts() -> Vec<(&'static str, &'static str, Layout)> {
         host!("stages/composite", CompositeParameters { background, line, context, grey, opacity }),
         host!("stages/depth_filter", DepthFilterParameters { weights, leap, padding, more_padding }),
         host!("stages/silhouette", SilhouetteParameters { per_slope, half, line_width }),
-        host!("stages/surface", CurvedPlace { whole, part, per_mm }),
+        host!("stages/surface", CurvedPixel { whole, part, per_mm }),
         host!("stages/surface", SurfaceParameters { half, mode, per_step, padding }),
     ]
 }
 
-/// The layout of the structure `name` in WGSL, where there is one.
 fn shader_layout(text: &str, name: &str) -> Option<Layout> {
     let module = naga::front::wgsl::parse_str(text).unwrap_or_else(|e| panic!("{}", e.emit_to_string(text)));
     module.types.iter().find_map(|(_, ty)| match &ty.inner {
@@ -165,7 +161,7 @@ fn shader_layout(text: &str, name: &str) -> Option<Layout> {
     })
 }
 
-/// The names of the structures that lie in buffers, elements of arrays and fields included.
+/// The names of the structures that lie in buffers, including elements of arrays and fields.
 fn in_buffers(module: &Module) -> BTreeSet<String> {
     fn collect(module: &Module, ty: Handle<Type>, names: &mut BTreeSet<String>) {
         match &module.types[ty].inner {

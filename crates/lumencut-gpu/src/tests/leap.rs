@@ -1,4 +1,4 @@
-//! Leaps against the CPU's: from the same depths and sheets to the bit, and the sheets that they are made from.
+//! Leaps against the CPU's: from the same depths and sheets to the bit, and their sheets.
 
 use lumencut_core::math::leaps::{DOWNWARDS, LUMEN, TO_THE_RIGHT};
 use lumencut_core::pipeline::{CpuRenderer, Request, SurfaceDetails};
@@ -23,7 +23,7 @@ use crate::leap::Leap;
 use crate::levels::DeviceLevels;
 use crate::recording::Recording;
 
-/// The leaps on both sides, the GPU's first. Numbers are whole quarters, so that no sum is rounded.
+/// The leaps on both sides, the GPU's first. Numbers are multiples of a quarter, so that no sum is rounded.
 fn both(device: &Device, size: [usize; 2], depth: &[f32], sheet: &[Sheet]) -> [Vec<u32>; 2] {
     let camera = front(size, 0.5);
     let mut expected = vec![0; depth.len()];
@@ -70,7 +70,6 @@ fn a_steep_surface_has_no_leap_at_the_borders_of_the_image() {
     }
 }
 
-/// Sheets of a tree on the GPU.
 fn sheet_on_gpu(device: &Device, tree: &LeveledTree, request: &Request) -> Vec<Sheet> {
     let settings = request.settings;
     let levels = DeviceLevels::new(device, &tree.levels(settings.levels, 0.0)).unwrap();

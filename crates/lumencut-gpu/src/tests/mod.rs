@@ -1,4 +1,4 @@
-//! Each stage against the CPU's, and what holds the two together.
+//! Each stage against the CPU's, and consistency of the two.
 #![allow(clippy::unwrap_used)]
 
 mod both_sides;
@@ -31,15 +31,15 @@ use crate::device::Device;
 use crate::recording::{Recording, Results};
 use crate::view;
 
-/// Images that no group of threads fits.
+/// Images that no workgroup fits.
 pub(crate) const SIZES: [[usize; 2]; 5] = [[1, 1], [1, 17], [17, 1], [257, 257], [33, 20]];
 
-/// The GPU that all tests share; where there is none, why, and nothing, unless `LUMENCUT_REQUIRE_GPU` is set.
+/// The GPU that all tests share. Without one, prints why and returns `None`, unless `LUMENCUT_REQUIRE_GPU` is
+/// set.
 pub(crate) fn device() -> Option<&'static Device> {
     shared().map(Arc::as_ref)
 }
 
-/// The same, for renderers.
 pub(crate) fn shared() -> Option<&'static Arc<Device>> {
     static DEVICE: OnceLock<Option<Arc<Device>>> = OnceLock::new();
     let open = || match pollster::block_on(Device::open(Choice::Any)) {
@@ -53,7 +53,7 @@ pub(crate) fn shared() -> Option<&'static Arc<Device>> {
     DEVICE.get_or_init(open).as_ref()
 }
 
-/// Every GPU of this machine that has what the stages need, software too.
+/// Every GPU of this machine within the limits of the stages, including software.
 pub(crate) fn every_device() -> Vec<Arc<Device>> {
     if shared().is_none() {
         return Vec::new();
@@ -68,19 +68,17 @@ pub(crate) fn every_device() -> Vec<Arc<Device>> {
     pollster::block_on(adapters()).into_iter().filter_map(open).collect()
 }
 
-/// The GPU's view.
 pub(crate) fn on_gpu(device: &Device, camera: &Camera) -> Buffer {
     let buffer = device.uniform::<view::ViewParameters>("view");
     device.write(&buffer, &[view::ViewParameters::new(camera)]);
     buffer
 }
 
-/// Runs everything.
 pub(crate) fn finish(recording: Recording) -> Results {
     pollster::block_on(recording.finish(&|| false)).unwrap()
 }
 
-/// Values as shaders have them: HUGE where there is none.
+/// Replaces NaN by HUGE, as shaders have it.
 pub(crate) fn without_holes(values: &[f32]) -> Vec<f32> {
     values.iter().map(|v| if v.is_nan() { HUGE } else { *v }).collect()
 }

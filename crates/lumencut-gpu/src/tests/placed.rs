@@ -1,4 +1,4 @@
-//! Volumes on the GPU in a view, which several tests share.
+//! Volumes on the GPU in a view, for several tests.
 #![allow(clippy::unwrap_used)]
 
 use lumencut_core::camera::Camera;
@@ -12,8 +12,7 @@ use crate::device::Device;
 use crate::recording::Recording;
 use crate::volume::{DeviceVolume, GridParameters};
 
-/// A volume in a view on the GPU.
-pub struct Placed<'a> {
+pub(super) struct Placed<'a> {
     pub device: &'a Device,
     pub camera: &'a Camera,
     pub volume: &'a Volume<'a>,
@@ -23,32 +22,29 @@ pub struct Placed<'a> {
 }
 
 impl<'a> Placed<'a> {
-    pub fn new(device: &'a Device, volume: &'a Volume<'a>, camera: &'a Camera) -> Self {
+    pub(super) fn new(device: &'a Device, volume: &'a Volume<'a>, camera: &'a Camera) -> Self {
         let on_device = DeviceVolume::new(device, volume, &|| false).unwrap();
         let grid = device.uniform::<GridParameters>("grid");
         device.write(&grid, &[on_device.grid(volume, Some(camera))]);
         Self { device, camera, volume, on_device, view: on_gpu(device, camera), grid }
     }
 
-    pub fn pixels(&self) -> usize {
+    pub(super) fn pixels(&self) -> usize {
         self.camera.size()[0] * self.camera.size()[1]
     }
 
-    /// An image of these numbers.
-    pub fn image(&self, numbers: &[f32]) -> Buffer {
+    pub(super) fn image(&self, numbers: &[f32]) -> Buffer {
         let image = self.device.image("image", numbers.len(), 4);
         self.device.write(&image, numbers);
         image
     }
 
-    /// The blocks of the volume.
-    pub fn blocks(&self) -> DeviceBlocks {
+    pub(super) fn blocks(&self) -> DeviceBlocks {
         DeviceBlocks::new(self.device, &Blocks::new(self.volume, &|| false).unwrap()).unwrap()
     }
 }
 
-/// Runs a recording and gives an image of it.
-pub fn finish<T: bytemuck::Pod + Send + Sync>(mut recording: Recording, image: &Buffer) -> Vec<T> {
+pub(super) fn finish<T: bytemuck::Pod + Send + Sync>(mut recording: Recording, image: &Buffer) -> Vec<T> {
     recording.read(image, image.size());
     super::finish(recording).numbers(0)
 }

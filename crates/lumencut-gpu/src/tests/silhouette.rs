@@ -1,4 +1,5 @@
-//! Silhouettes against the CPU's: where the depth is smooth, where zones meet, at single leaps; and the lines of leaps.
+//! Silhouettes against the CPU's: where the depth is smooth, where zones meet, at single leaps; and the lines
+//! of leaps.
 
 use lumencut_core::math::blocks::HUGE;
 use lumencut_core::math::leaps::{DOWNWARDS, LINE_DOWNWARDS, LINE_TO_THE_RIGHT, LUMEN, TO_THE_RIGHT};
@@ -89,7 +90,7 @@ fn three_passes_are_one_stage() {
     assert!(names.is_empty() || names == ["silhouette"], "{names:?}");
 }
 
-/// Leaps, lumens and values at random, and the strengths of their lines on both sides.
+/// Random leaps, lumens and values, and the strengths of their lines on both sides.
 fn lines(device: &Device, size: [usize; 2], spacing: f64) -> [Vec<f32>; 2] {
     let (camera, settings, mut random) = (front(size, spacing), Settings::default(), Random::new(17));
     let pixels = size[0] * size[1];

@@ -1,4 +1,4 @@
-//! The surface is that of the CPU.
+//! The surface equals the CPU's.
 #![allow(clippy::unwrap_used)]
 
 use glam::{DAffine3, DVec3};
@@ -51,7 +51,7 @@ fn on_gpu(placed: &Placed, slab: Option<Slab>, geometry: &Geometry) -> Vec<f32> 
     finish(recording, &value)
 }
 
-/// The places where a camera's rays have these depths, as places of their own.
+/// The positions at these depths on a camera's rays, as a curved geometry.
 fn curved(camera: &Camera, depth: &[f32]) -> Geometry {
     let [width, height] = camera.size();
     let place = |p: usize| {
@@ -160,7 +160,8 @@ fn axes_of_one_voxel_and_any_strides() {
 
 #[test]
 fn a_long_volume_keeps_its_places() {
-    // The value is the index, counted from the middle: so values differ as places do, by a 10,000th of a voxel at most.
+    // The value is the index, counted from the middle: it shows differences of positions, at most a 10,000th
+    // of a voxel.
     const SIZE: [usize; 3] = [64, 48, 1300];
     let voxels: Vec<i16> = (0..SIZE.iter().product()).map(|n: usize| (n / (64 * 48)) as i16 - 650).collect();
     let middle = DAffine3::from_translation(-DVec3::from(SIZE.map(|n| (n - 1) as f64)) / 2.0);

@@ -1,5 +1,5 @@
-//! Ties around joints: vessels that end in one point cost the same there, and so the last digit decides which of them a
-//! pixel belongs to. It may be any of them, in few pixels and there alone.
+//! Ties around joints: vessels that end in one point cost the same there, so the last digit decides which of
+//! them a pixel belongs to. Either is accepted, in few pixels and only there.
 
 use std::collections::BTreeSet;
 
@@ -11,19 +11,17 @@ use lumencut_core::vessel_tree::VesselTree;
 use lumencut_scenes::pictures::depth_of;
 use lumencut_scenes::tolerances::TIED;
 
-/// How far the depth filter reaches (pixels).
-const REACH: usize = 3;
+/// Half-width of the depth filter (pixels).
+const FILTER_HALF_WIDTH: usize = 3;
 
-/// The end of a vessel in a view.
 struct End {
     point: DVec3,
     place: DVec2,
-    /// How far lumen and wall reach from it (mm).
+    /// Reach of lumen and wall from it (mm).
     reach: f64,
     vessel: i32,
 }
 
-/// The ends of all vessels.
 fn ends(tree: &VesselTree, camera: &Camera, settings: &Settings) -> Vec<End> {
     let wall = if settings.lumen_first { settings.lumen_margin } else { 0.0 };
     let end = |vessel: usize, i: usize| {
@@ -35,7 +33,7 @@ fn ends(tree: &VesselTree, camera: &Camera, settings: &Settings) -> Vec<End> {
     vessels.flat_map(|(id, vessel)| [0, vessel.points().len() - 1].map(|i| end(id, i))).collect()
 }
 
-/// Whether two vessels end in one point around which both have lumen or wall at a place.
+/// Whether two vessels end in one point around which both have lumen or wall at a position.
 fn is_tied(ends: &[End], place: DVec2, vessels: [i32; 2]) -> bool {
     let [a, b] = vessels.map(|vessel| {
         ends.iter().filter(move |end| end.vessel == vessel && end.place.distance(place) < end.reach)
@@ -43,14 +41,14 @@ fn is_tied(ends: &[End], place: DVec2, vessels: [i32; 2]) -> bool {
     b.clone().any(|b| a.clone().any(|a| a.point == b.point))
 }
 
-/// The pixels at most [`REACH`] columns and rows from one.
 fn around(p: usize, [width, height]: [usize; 2]) -> impl Iterator<Item = usize> {
-    let near = |at: usize, end: usize| at.saturating_sub(REACH)..(at + REACH + 1).min(end);
+    let near =
+        |at: usize, end: usize| at.saturating_sub(FILTER_HALF_WIDTH)..(at + FILTER_HALF_WIDTH + 1).min(end);
     near(p / width, height).flat_map(move |y| near(p % width, width).map(move |x| y * width + x))
 }
 
-/// Takes vessels that tie from the CPU, and around them depths that the filter within zones has made of other neighbours,
-/// where they differ by less than a leap.
+/// Takes vessels that tie from the CPU, and around them depths that the filter within zones made from other
+/// neighbours, if they differ by less than a leap.
 ///
 /// # Panics
 /// For more pixels than [`TIED`] allows.
@@ -88,8 +86,8 @@ mod tests {
 
     use super::*;
 
-    /// Whether a frame is still refused once its ties are excused, after a change to a frame of three vessels that end in
-    /// the middle of the view.
+    /// Whether a frame is still rejected after its ties are excused, given a change to a frame of three
+    /// vessels that end in the middle of the view.
     fn is_refused(settings: &Settings, change: impl Fn(&mut Frame)) -> bool {
         let (tree, camera) = (y_junction().unwrap().tree, front([96, 80], 0.8));
         let scene = Scene::default().with_tree(tree.clone());
@@ -103,13 +101,11 @@ mod tests {
         std::panic::catch_unwind(std::panic::AssertUnwindSafe(judge)).is_err()
     }
 
-    /// The pixels of `count` columns and rows around a place (mm).
     fn square(frame: &Frame, x: f64, y: f64, count: usize) -> Vec<usize> {
         let corner = pixel(frame, x, y);
         (0..count * count).map(|n| corner + n / count * frame.size()[0] + n % count).collect()
     }
 
-    /// Gives pixels to another vessel and moves their depth (mm).
     fn turn(frame: &mut Frame, pixels: &[usize], deeper: f32) {
         for p in pixels {
             frame.vessel[*p] = (frame.vessel[*p] + 1) % 3;

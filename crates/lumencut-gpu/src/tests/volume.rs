@@ -1,4 +1,4 @@
-//! Volumes that do not fit, and those that are not wanted any more.
+//! Volumes that do not fit, and those that are no longer wanted.
 #![allow(clippy::unwrap_used)]
 
 use glam::DAffine3;

@@ -6,7 +6,6 @@ use crate::vessel_tree::Vessel;
 const RADIUS: f64 = 20.0;
 const PITCH: f64 = 5.0;
 
-/// The helix (R cos a, R sin a, P a) and its Frenet frame.
 fn helix(a: f64) -> (DVec3, DVec3, DVec3) {
     let (sine, cosine) = a.sin_cos();
     let point = DVec3::new(RADIUS * cosine, RADIUS * sine, PITCH * a);
@@ -14,13 +13,12 @@ fn helix(a: f64) -> (DVec3, DVec3, DVec3) {
     (point, tangent, DVec3::new(-cosine, -sine, 0.0))
 }
 
-/// The angle of a frame about its tangent, from the principal normal of the helix.
 fn from_normal(frame: &MovingFrame, a: f64) -> f64 {
     let (_, tangent, normal) = helix(a);
     frame.ahead.dot(tangent.cross(normal)).atan2(frame.ahead.dot(normal))
 }
 
-/// What the analytic rotation-minimising frame has turned by against the Frenet frame: −∫τ ds.
+/// Rotation of the analytic rotation-minimising frame relative to the Frenet frame: −∫τ ds.
 fn analytic(a: f64) -> f64 {
     let speed = RADIUS.hypot(PITCH);
     -PITCH / speed.powi(2) * (a * speed)
@@ -71,7 +69,7 @@ fn a_finely_sampled_helix_has_the_analytic_frame() {
 
 #[test]
 fn frames_are_orthonormal_and_continuous_everywhere() {
-    // A right angle, a point of inflection, a straight run, and a way straight back.
+    // A right angle, a point of inflection, a straight run, and a reversal.
     let points =
         [[0, 0, 0], [20, 0, 0], [20, 30, 0], [22, 35, 0], [20, 40, 0], [20, 60, 0], [20, 50, 0], [20, 40, 9]];
     let points = points.map(|p| DVec3::from_array(p.map(f64::from))).to_vec();
@@ -85,17 +83,15 @@ fn frames_are_orthonormal_and_continuous_everywhere() {
         last = MovingFrame { tangent, across, ahead };
     }
     assert!(path.length() < 130.0);
-    // Straight runs are crossed at right angles.
     for (t, along) in [(10.0, DVec3::X), (30.0, DVec3::Y), (45.0, DVec3::Y)] {
         assert!(frames.at(t).tangent.distance(along) < 1e-12);
     }
-    // In a plane the direction of view stays.
     assert!(frames.at(70.0).ahead.distance(DVec3::Z) < 1e-12);
 }
 
 #[test]
 fn the_viewer_of_a_turned_frame_moves_to_the_right() {
-    // Downwards along the body, seen from the front: left of the patient on the right.
+    // Downwards along the body, seen from the front: the patient's left is on the right.
     let front = MovingFrame::looking(DVec3::NEG_Z, DVec3::Y);
     assert_eq!(front.across, DVec3::X);
     let turned = front.turned(std::f64::consts::FRAC_PI_2.sin_cos().into());

@@ -1,5 +1,4 @@
-//! Projected CPR: the vessel as it is seen. Row and column of a pixel are its height and its place across the view; its
-//! depth is that of the vessel's point in the same row that is nearest along the row.
+//! Projected CPR: the vessel as seen. A pixel has the depth of the vessel's point nearest along its row.
 
 use std::sync::Arc;
 
@@ -12,23 +11,18 @@ use crate::error::Result;
 use crate::math::centerline_path::CenterlinePath;
 use crate::math::same_place::ON_PICTURE;
 
-/// The surface of the mode.
 pub(super) struct Projected {
     path: Arc<CenterlinePath>,
     axes: Axes,
-    /// The height of each point along up (mm).
     heights: Vec<f64>,
-    /// The lowest and the highest of them.
     ends: [f64; 2],
-    /// Half of the way across the view that the vessel takes, and its middle (mm).
+    /// Half of the vessel's extent across the view, and its middle (mm).
     reach: f64,
     middle: f64,
 }
 
 impl Projected {
-    /// # Errors
-    /// [`crate::error::ErrorKind::Camera`] for a vessel less than a row high.
-    pub fn new(path: Arc<CenterlinePath>, axes: Axes, row: f64) -> Result<Self> {
+    pub(super) fn new(path: Arc<CenterlinePath>, axes: Axes, row: f64) -> Result<Self> {
         let heights: Vec<_> = path.points().iter().map(|point| point.dot(axes.up)).collect();
         let [low, high] = range(heights.iter().copied());
         if high - low < row {
@@ -50,7 +44,6 @@ impl Projected {
         }
     }
 
-    /// Where the vessel lies at a height.
     fn runs(&self, height: f64) -> Vec<Run> {
         let mut runs: Vec<Run> = Vec::new();
         for (segment, ends) in self.heights.windows(2).enumerate() {
@@ -111,7 +104,6 @@ impl Surface for Projected {
     }
 }
 
-/// The smallest and the largest of some numbers.
 fn range(numbers: impl Iterator<Item = f64>) -> [f64; 2] {
     numbers.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], n| [low.min(n), high.max(n)])
 }

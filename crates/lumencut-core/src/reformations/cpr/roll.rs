@@ -1,5 +1,5 @@
-//! The angle about a vessel from which each of its sections is seen: the same everywhere, or one that follows the narrow or the wide
-//! side of the lumen, so that no eccentric stenosis hides in the wrong angle (ours).
+//! The angle from which each section of a vessel is seen: constant, or following the narrow or wide side of
+//! the lumen, so that an eccentric stenosis shows (our method).
 
 use std::f64::consts::PI;
 
@@ -8,17 +8,17 @@ use crate::math::arc_length::LinePlace;
 use crate::named::Named;
 use crate::reformations::Wall;
 
-/// How many directions of a diameter are compared, over half of a turn.
+/// Number of diameter directions compared, over half a turn.
 const DIRECTIONS: usize = 48;
 
-/// The distance of the places at which they are (mm); from one to the next the angle changes by one direction at most.
-const STEP: f64 = 0.5;
+/// Distance of the angles along the vessel (mm); neighbours differ by one direction at most.
+const STEP_MM: f64 = 0.5;
 
-/// What a change by one direction costs (mm of diameter): enough to keep the picture calm where all directions are alike.
-const CHANGE: f64 = 0.15;
+/// Cost of a change by one direction (mm of diameter): keeps the picture steady if all are alike.
+const CHANGE_COST_MM: f64 = 0.15;
 
-/// By which Gaussians diameters and the angle are smoothed along the vessel: standard deviations (mm).
-const SMOOTHING: [f64; 2] = [1.5, 2.0];
+/// Standard deviations (mm) of the Gaussians that smooth the diameters and the angle along the vessel.
+const SMOOTHING_MM: [f64; 2] = [1.5, 2.0];
 
 /// Which side of the lumen a picture follows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -34,7 +34,7 @@ impl Named for Side {
         &[("narrowest", Self::Narrowest), ("widest", Self::Widest)];
 }
 
-/// An angle about the vessel (radians) by arc length (mm); between places it changes evenly.
+/// An angle about the vessel (radians) by arc length (mm), interpolated linearly.
 #[derive(Clone, Debug)]
 pub struct Roll {
     at: Vec<f64>,
@@ -42,24 +42,22 @@ pub struct Roll {
 }
 
 impl Roll {
-    /// The roll that has these angles (radians) at arc lengths that rise (mm).
-    ///
-    /// # Errors
-    /// [`ErrorKind::Camera`] for angles that are none, or not one for each place.
+    /// The roll with these angles (radians) at rising arc lengths (mm). Fails with [`ErrorKind::Camera`] for
+    /// angles that are not finite, or not one for each arc length.
     pub fn new(at: Vec<f64>, angle: Vec<f64>) -> Result<Self> {
         let rises = at.windows(2).all(|ends| ends[1] > ends[0]);
         if at.is_empty() || at.len() != angle.len() || !rises || !angle.iter().all(|a| a.is_finite()) {
-            let found = format!("{} angles at {} places", angle.len(), at.len());
-            let expected = "a finite angle for each of the places, which rise";
+            let found = format!("{} angles for {} arc lengths", angle.len(), at.len());
+            let expected = "one finite angle for each arc length, in rising order";
             return Err(Error::new(ErrorKind::Camera, "roll of the CPR", found, expected));
         }
         Ok(Self { at, angle })
     }
 
-    /// The roll along which the diameters of a wall through the middle of the vessel are least, or largest, in sum, by dynamic
-    /// programming. The vessel is `length` mm long.
+    /// The roll that minimises or maximises the sum of the wall's diameters along a vessel of `length` mm, by
+    /// dynamic programming.
     pub fn following(wall: &Wall, length: f64, side: Side) -> Self {
-        let count = (length / STEP).ceil().max(1.0) as usize;
+        let count = (length / STEP_MM).ceil().max(1.0) as usize;
         let at: Vec<f64> = (0..=count).map(|n| length * n as f64 / count as f64).collect();
         let sign = if side == Side::Narrowest { 1.0 } else { -1.0 };
         let diameter = |n: usize, k: usize| {
@@ -67,31 +65,32 @@ impl Roll {
             sign * (wall.radius(at[n], around) + wall.radius(at[n], around + PI))
         };
         let columns: Vec<Vec<f64>> = (0..DIRECTIONS)
-            .map(|k| smoothed(&(0..=count).map(|n| diameter(n, k)).collect::<Vec<_>>(), length, SMOOTHING[0]))
+            .map(|k| {
+                smoothed(&(0..=count).map(|n| diameter(n, k)).collect::<Vec<_>>(), length, SMOOTHING_MM[0])
+            })
             .collect();
         let steps = cheapest(&columns);
         let angle: Vec<f64> = steps.iter().map(|step| PI * f64::from(*step) / DIRECTIONS as f64).collect();
-        Self { angle: smoothed(&angle, length, SMOOTHING[1]), at }
+        Self { angle: smoothed(&angle, length, SMOOTHING_MM[1]), at }
     }
 
-    /// The arc lengths (mm) at which angles are known.
+    /// The arc lengths (mm) of the angles.
     pub fn places(&self) -> &[f64] {
         &self.at
     }
 
-    /// The angles there (radians).
+    /// The angles (radians).
     pub fn angles(&self) -> &[f64] {
         &self.angle
     }
 
-    /// The angle at an arc length (mm), that of the nearest end beyond both.
+    /// The angle at an arc length (mm), clamped to the ends.
     pub fn angle(&self, at: f64) -> f64 {
         LinePlace::at(&self.at, at.clamp(self.at[0], self.at[self.at.len() - 1])).value(&self.angle)
     }
 }
 
-/// For each place the direction of the cheapest way through all places, counted on through whole turns. Of equally cheap ways the one
-/// that stays is taken, then the one that comes from the smaller direction.
+/// The cheapest path of directions, unwrapped. Ties go to the one that stays, then to the smaller direction.
 fn cheapest(cost: &[Vec<f64>]) -> Vec<i32> {
     let places = cost[0].len();
     let mut best: Vec<f64> = cost.iter().map(|column| column[0]).collect();
@@ -100,7 +99,7 @@ fn cheapest(cost: &[Vec<f64>]) -> Vec<i32> {
         let before = best.clone();
         for k in 0..DIRECTIONS {
             let from = |step: i8| (k + DIRECTIONS).wrapping_add_signed(-isize::from(step)) % DIRECTIONS;
-            let whole = |step: i8| before[from(step)] + CHANGE * f64::from(step.abs());
+            let whole = |step: i8| before[from(step)] + CHANGE_COST_MM * f64::from(step.abs());
             let step = [0i8, 1, -1]
                 .into_iter()
                 .fold(0i8, |best, step| if whole(step) < whole(best) { step } else { best });
@@ -115,12 +114,12 @@ fn cheapest(cost: &[Vec<f64>]) -> Vec<i32> {
         let here: i32 = way[place];
         way[place - 1] = here - i32::from(came[place][here.rem_euclid(DIRECTIONS as i32) as usize]);
     }
-    // The whole turns of the first place are its own: the picture begins as near to angle 0 as it can.
+    // The picture begins as near to angle 0 as it can.
     let turns = (f64::from(way[0]) / DIRECTIONS as f64).round() as i32 * DIRECTIONS as i32;
     way.iter().map(|step| step - turns).collect()
 }
 
-/// Values at even places along a length (mm), smoothed by a Gaussian; beyond the ends they go on as at them.
+/// Values at even distances along a length (mm), smoothed by a Gaussian, constant beyond the ends.
 fn smoothed(values: &[f64], length: f64, deviation: f64) -> Vec<f64> {
     let step = length / (values.len() - 1) as f64;
     let reach = (3.0 * deviation / step).ceil() as isize;

@@ -1,19 +1,16 @@
-//! What one row of a CPR shows: a line across the vessel, or several where the row meets it several times.
+//! One row of a CPR: a line across the vessel, or several if the row meets it several times.
 
 use glam::DVec3;
 
-/// A point of the vessel.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Anchor {
-    /// The point (mm, LPS).
     pub point: DVec3,
-    /// Its place in the image, to the right of the middle (mm).
+    /// Its position in the image, to the right of the middle (mm).
     pub x: f64,
-    /// Arc length (mm).
     pub arc_length: f64,
 }
 
-/// A straight part of the vessel that lies in the row, mostly one point.
+/// A straight part of the vessel that lies in the row, usually one point.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Run {
     pub from: Anchor,
@@ -21,11 +18,10 @@ pub(super) struct Run {
 }
 
 impl Run {
-    pub fn at(anchor: Anchor) -> Self {
+    pub(super) fn at(anchor: Anchor) -> Self {
         Self { from: anchor, to: anchor }
     }
 
-    /// The point of the run that lies nearest to `x`.
     fn nearest_anchor(&self, x: f64) -> Anchor {
         let along = self.to.x - self.from.x;
         let share = if along == 0.0 { 0.0 } else { ((x - self.from.x) / along).clamp(0.0, 1.0) };
@@ -37,7 +33,6 @@ impl Run {
     }
 }
 
-/// A row.
 #[derive(Clone, Debug)]
 pub(super) struct Row {
     /// Unit vector to the right.
@@ -49,9 +44,9 @@ pub(super) struct Row {
 }
 
 impl Row {
-    /// The world point at `x`: on the line through the vessel's point that is nearest along the row, of several the one
-    /// nearest to the viewer.
-    pub fn place(&self, x: f64) -> DVec3 {
+    /// The world point at `x` on the line through the nearest vessel point along the row, of several the
+    /// front one.
+    pub(super) fn place(&self, x: f64) -> DVec3 {
         let mut best = self.runs[0].nearest_anchor(x);
         for run in &self.runs[1..] {
             let other = run.nearest_anchor(x);
@@ -64,8 +59,7 @@ impl Row {
         best.point + self.across * (x - best.x)
     }
 
-    /// The world points at all of `x`.
-    pub fn place_all(&self, x: &[f64], places: &mut [DVec3]) {
+    pub(super) fn place_all(&self, x: &[f64], places: &mut [DVec3]) {
         if let [Run { from, to }] = self.runs[..]
             && from.x == to.x
         {
@@ -80,13 +74,11 @@ impl Row {
         }
     }
 
-    /// The arc length of the first point (mm).
-    pub fn arc_length(&self) -> f64 {
+    pub(super) fn arc_length(&self) -> f64 {
         self.runs[0].from.arc_length
     }
 
-    /// Whether several points of the vessel share the row.
-    pub fn is_shared(&self) -> bool {
+    pub(super) fn is_shared(&self) -> bool {
         self.runs.len() > 1 || self.runs[0].from.arc_length < self.runs[0].to.arc_length
     }
 }

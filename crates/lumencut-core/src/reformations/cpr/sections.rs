@@ -1,4 +1,4 @@
-//! The sections across a straightened vessel, and those that a world point lies in.
+//! The sections across a straightened vessel, and those that hold a world point.
 
 use std::sync::Arc;
 
@@ -8,21 +8,19 @@ use crate::math::centerline_path::CenterlinePath;
 use crate::math::frames::{Frames, MovingFrame, Station};
 use crate::math::same_place::ON_PICTURE;
 
-/// How often an interval is halved at most to find a section: below what a number can tell.
-const HALVINGS: usize = 60;
+/// The most bisections in the search for a section, to below the resolution of a number.
+const BISECTIONS: usize = 60;
 
-/// How far the sections of an interval turn at most (radians).
-const LARGEST_TURN: f64 = 0.1;
+const MAX_TURN_RADIANS: f64 = 0.1;
 
-/// The sections of a vessel, whatever the angle from which it is seen.
+/// The sections of a vessel, independent of the angle from which it is seen.
 pub(super) struct Sections {
     pub path: Arc<CenterlinePath>,
     pub frames: Frames,
-    /// Places between which path and frame are smooth, by rising arc length.
+    /// Arc lengths between which path and frame are smooth, rising.
     marks: Vec<Mark>,
 }
 
-/// A place along the vessel.
 #[derive(Clone, Copy)]
 struct Mark {
     at: f64,
@@ -30,7 +28,7 @@ struct Mark {
     frame: MovingFrame,
 }
 
-/// A section through a point: where along the vessel it is, and what the point is off its centre.
+/// A section through a point, and the offset of the point from its centre.
 #[derive(Clone, Copy)]
 pub(super) struct Section {
     pub at: f64,
@@ -39,19 +37,18 @@ pub(super) struct Section {
 }
 
 impl Section {
-    /// How far the point lies beyond the section, along the vessel (mm).
     fn ahead(&self) -> f64 {
         self.offset.dot(self.frame.tangent)
     }
 }
 
 impl Sections {
-    pub fn new(path: Arc<CenterlinePath>, frames: Frames) -> Self {
+    pub(super) fn new(path: Arc<CenterlinePath>, frames: Frames) -> Self {
         let mut at = path.arc_length().to_vec();
         for ends in frames.stations().windows(2) {
             let [from, to] = [ends[0].at, ends[1].at];
-            let parts = (ends[0].turn.length() * (to - from) / LARGEST_TURN).ceil().max(1.0);
-            // At most 32: no turn is larger than half of a circle.
+            let parts = (ends[0].turn.length() * (to - from) / MAX_TURN_RADIANS).ceil().max(1.0);
+            // At most 32: no turn is larger than half a circle.
             at.extend((0..parts as usize).map(|part| from + (to - from) * (part as f64 / parts)));
         }
         at.extend(frames.stations().last().map(|station| station.at));
@@ -61,13 +58,12 @@ impl Sections {
         Self { marks: at.into_iter().map(mark).collect(), path, frames }
     }
 
-    /// How many intervals there are between marks.
-    pub fn intervals(&self) -> usize {
+    pub(super) fn intervals(&self) -> usize {
         self.marks.len() - 1
     }
 
-    /// The sections that a point lies in, at least one: before and after the vessel the sections go on straight.
-    pub fn through(&self, point: DVec3) -> Vec<Section> {
+    /// The sections that hold a point, at least one: they continue straight beyond the vessel.
+    pub(super) fn through(&self, point: DVec3) -> Vec<Section> {
         let mut found = Vec::new();
         let [first, last] = [self.marks[0], self.marks[self.intervals()]];
         if first.section(point).ahead() < 0.0 {
@@ -82,8 +78,7 @@ impl Sections {
         found
     }
 
-    /// Adds the sections of one interval that a point lies in.
-    pub fn within(&self, n: usize, point: DVec3, found: &mut Vec<Section>) {
+    pub(super) fn within(&self, n: usize, point: DVec3, found: &mut Vec<Section>) {
         let ends = [self.marks[n], self.marks[n + 1]];
         let [low, high] = ends.map(|mark| mark.section(point).ahead());
         let [from, to] = ends.map(|mark| mark.at);
@@ -95,7 +90,7 @@ impl Sections {
         if station.turn == DVec3::ZERO {
             return;
         }
-        // The sections turn: the point may come nearer to them than at both ends, and pass through two of them.
+        // The sections turn: the point may be nearer to them than at both ends, and lie in two of them.
         let direction = self.path.direction()[self.path.segment(from)];
         let [start, end] = ends.map(|mark| mark.section(point).change(station, direction));
         let approaches = if low >= 0.0 { start < 0.0 && end > 0.0 } else { start > 0.0 && end < 0.0 };
@@ -124,9 +119,9 @@ impl Sections {
         self.section(station, at, point)
     }
 
-    /// Whether a line surely meets no section of an interval where the picture from an angle, if there is one for all, is: as far as the interval turns,
-    /// its sections lie beyond those at its ends by no more than the margin.
-    pub fn is_apart(&self, n: usize, line: [DVec3; 2], angle: Option<[f64; 2]>) -> bool {
+    /// Whether a line surely meets no section of an interval in the picture from `angle`, or from any.
+    /// Sections exceed those at the ends of an interval by at most the margin.
+    pub(super) fn is_apart(&self, n: usize, line: [DVec3; 2], angle: Option<[f64; 2]>) -> bool {
         let ends = [self.marks[n], self.marks[n + 1]];
         let length = ends[1].at - ends[0].at;
         let turn = self.frames.station(ends[0].at).turn.length() * length;
@@ -140,9 +135,9 @@ impl Sections {
         same(ends.map(|mark| mark.frame.tangent)) || angle.is_some_and(|angle| same(ahead(angle)))
     }
 
-    /// Whether an interval holds the section at `at`, and surely no other one through a point that lies in it `aside` mm from
-    /// its centre: where the image moves so far for each mm of the vessel that it turns back nowhere in the interval.
-    pub fn holds_no_other(&self, n: usize, at: f64, aside: f64, moves: f64) -> bool {
+    /// Whether an interval holds the section at `at` and surely no other one through a point `aside` mm off:
+    /// the image, which moves by `moves` per mm, never reverses there.
+    pub(super) fn holds_no_other(&self, n: usize, at: f64, aside: f64, moves: f64) -> bool {
         let [from, to] = [self.marks[n].at, self.marks[n + 1].at];
         let rate = self.frames.station(from).turn.length();
         from <= at && at <= to && moves > rate * (to - from) * (aside.abs() * rate + 2.0)
@@ -150,15 +145,15 @@ impl Sections {
 }
 
 impl Section {
-    /// How much farther the point lies beyond the section for each mm that the section moves along the vessel.
+    /// Change of the point's distance beyond the section per mm along the vessel.
     fn change(&self, station: &Station, direction: DVec3) -> f64 {
         self.offset.dot(station.turn.cross(self.frame.tangent)) - direction.dot(self.frame.tangent)
     }
 }
 
-/// Where something that holds at `from` and not at `to` ends to hold.
+/// Bisects for the position where a condition that holds at `from` and not at `to` changes.
 fn halved(mut from: f64, mut to: f64, holds: impl Fn(f64) -> bool) -> f64 {
-    for _ in 0..HALVINGS {
+    for _ in 0..BISECTIONS {
         let middle = from + (to - from) / 2.0;
         if holds(middle) {
             from = middle;
@@ -170,19 +165,17 @@ fn halved(mut from: f64, mut to: f64, holds: impl Fn(f64) -> bool) -> f64 {
 }
 
 impl Mark {
-    /// The section here, with what a point is off its centre, whether it lies in it or not.
     fn section(&self, point: DVec3) -> Section {
         Section { at: self.at, frame: self.frame, offset: point - self.point }
     }
 
-    /// The section through a point where the vessel goes on straight from here.
     fn beyond(&self, point: DVec3) -> Section {
         let here = self.section(point);
         let along = here.ahead();
         Section { at: self.at + along, offset: here.offset - self.frame.tangent * along, ..here }
     }
 
-    /// On which side of a plane through the centre here a line lies with a margin: 1 or -1, or else 0.
+    /// Side of a plane through the centre on which a line lies with a margin: 1, -1, or 0 for neither.
     fn side(&self, line: [DVec3; 2], normal: DVec3, margin: f64) -> i8 {
         let [one, other] = line.map(|end| (end - self.point).dot(normal));
         if one.min(other) > margin { 1 } else { -i8::from(one.max(other) < -margin) }

@@ -1,5 +1,4 @@
-//! Straightened CPR: rows by arc length, the vessel straight in the middle, lines across it in the rotation-minimising
-//! frame.
+//! Straightened CPR: rows by arc length, lines across in the rotation-minimising frame.
 
 use std::sync::Arc;
 
@@ -15,20 +14,17 @@ use crate::math::centerline_path::CenterlinePath;
 use crate::math::frames::{Frames, MovingFrame};
 use crate::math::same_place::ON_PICTURE;
 
-/// The space around a straightened vessel: x across the picture to the right, y into it, z along the vessel, all in mm.
-/// Before and after the vessel it goes on straight.
+/// Space around a straightened vessel, extended straight: x to the right, y into the picture, z along (mm).
 #[derive(Clone)]
 pub struct Straightened {
     sections: Arc<Sections>,
     angle: Angle,
 }
 
-/// The angle about the vessel from which its sections are seen.
 #[derive(Clone)]
 enum Angle {
-    /// The same everywhere: its sine and cosine.
+    /// Constant: its sine and cosine.
     Even([f64; 2]),
-    /// One for each section.
     Rolled(Arc<Roll>),
 }
 
@@ -40,7 +36,6 @@ impl Angle {
         }
     }
 
-    /// The angle where it is the same everywhere.
     fn even(&self) -> Option<[f64; 2]> {
         match self {
             Self::Even(angle) => Some(*angle),
@@ -50,8 +45,7 @@ impl Angle {
 }
 
 impl Straightened {
-    /// # Errors
-    /// [`crate::error::ErrorKind::Camera`] for vectors that are none.
+    /// Fails with [`crate::error::ErrorKind::Camera`] for zero or non-finite vectors.
     pub fn new(path: Arc<CenterlinePath>, view: &View) -> Result<Self> {
         let axes = view.unturned()?;
         let tangent = path.direction()[0];
@@ -64,7 +58,7 @@ impl Straightened {
         };
         if is_along(ahead) {
             let found = format!("{}, along the vessel's first segment {tangent}", -ahead);
-            let expected = "a normal across the vessel at its first point";
+            let expected = "a normal that is not parallel to the vessel at its first point";
             return Err(Error::new(ErrorKind::Camera, "normal of the CPR", found, expected));
         }
         let frames = Frames::new(&path, MovingFrame::looking(tangent, ahead));
@@ -78,7 +72,7 @@ impl Straightened {
         Self { sections: Arc::clone(&self.sections), angle: Angle::Even(angle.sin_cos().into()) }
     }
 
-    /// The same vessel, each section seen from an angle of its own.
+    /// The same vessel with one angle per section.
     #[must_use]
     pub fn rolled(&self, roll: Roll) -> Self {
         Self { sections: Arc::clone(&self.sections), angle: Angle::Rolled(Arc::new(roll)) }
@@ -89,13 +83,13 @@ impl Straightened {
         self.sections.path.length()
     }
 
-    /// The world point (mm, LPS) at a place in the straightened space.
+    /// The world point (mm, LPS) at a position in the straightened space.
     pub fn world_from_straightened(&self, place: DVec3) -> DVec3 {
         let frame = self.frame(place.z);
         self.sections.path.at(place.z) + frame.across * place.x + frame.ahead * place.y
     }
 
-    /// Where a world point lies in the straightened space: in the section through it whose centre is nearest.
+    /// The straightened position of a world point: in the section through it whose centre is nearest.
     pub fn straightened_from_world(&self, point: DVec3) -> DVec3 {
         let sections = self.sections.through(point);
         let nearest = sections.iter().min_by(|a, b| a.offset.length().total_cmp(&b.offset.length()));
@@ -107,8 +101,8 @@ impl Straightened {
         self.sections.frames.at(at).turned(self.angle.at(at))
     }
 
-    /// How far a point beside the vessel, across and ahead (mm), moves along the vessel for each mm of it: 1 on a straight run,
-    /// 0 where neighbouring sections meet.
+    /// How far a point at an offset (mm) moves per mm of the vessel: 1 on a straight run, 0 where sections
+    /// meet.
     pub fn advance(&self, at: f64, offset: DVec2) -> f64 {
         let Sections { path, frames, .. } = &*self.sections;
         let station = frames.station(at);
@@ -153,7 +147,7 @@ impl Surface for Straightened {
     }
 
     fn folded(&self, y: f64, x: &[f64]) -> Vec<bool> {
-        // How the image moves along the vessel's tangent from row to row.
+        // Movement of the image along the vessel's tangent from row to row.
         let moves: Vec<_> = x.iter().map(|x| self.advance(y, DVec2::new(*x, 0.0))).collect();
         let mut folded: Vec<_> = moves.iter().map(|moves| *moves <= 0.0).collect();
         self.mark_shown_elsewhere(y, x, &moves, &mut folded);
@@ -162,7 +156,7 @@ impl Surface for Straightened {
 }
 
 impl Straightened {
-    /// Marks the pixels of a row whose points the picture shows in another row, where they belong rather.
+    /// Marks the pixels of a row whose points belong to another row that shows them too.
     fn mark_shown_elsewhere(&self, y: f64, x: &[f64], moves: &[f64], folded: &mut [bool]) {
         let row = self.row(y);
         let line = [x[0], x[x.len() - 1]].map(|x| row.place(x));

@@ -1,6 +1,6 @@
-//! Stretched CPR: the surface of lines through the vessel that are parallel to one direction, unrolled. Seen along these
-//! lines the surface is a curve, the vessel's projection; a row's place is the length of that curve, and lengths on the
-//! surface are true in the image. A step ds of the vessel is √(ds² − (ds·l)²) high and ds·l wide.
+//! Stretched CPR: the surface of parallel lines through the vessel, unrolled. Along these lines the surface
+//! is a curve, the vessel's projection. A row's position is the length of that curve, so lengths on the
+//! surface are true. A step ds of the vessel is √(ds² − (ds·l)²) high and ds·l wide.
 
 use std::sync::Arc;
 
@@ -16,16 +16,14 @@ use crate::math::same_place::ON_PICTURE;
 /// A segment that is not parallel to the lines.
 #[derive(Clone, Copy, Debug)]
 struct Strip {
-    /// The segment of the path.
     segment: usize,
-    /// Where it begins in the image, downwards (mm), and its height.
+    /// Top edge in the image, downwards (mm), and height.
     y: f64,
     height: f64,
     /// Its unit vector in the plane across the lines.
     down: DVec3,
 }
 
-/// The surface of the mode.
 pub(super) struct Stretched {
     path: Arc<CenterlinePath>,
     across: DVec3,
@@ -35,11 +33,9 @@ pub(super) struct Stretched {
 }
 
 impl Stretched {
-    /// # Errors
-    /// [`crate::error::ErrorKind::Camera`] for a vessel that is parallel to the lines.
-    pub fn new(path: Arc<CenterlinePath>, axes: Axes) -> Result<Self> {
+    pub(super) fn new(path: Arc<CenterlinePath>, axes: Axes) -> Result<Self> {
         let points = path.points();
-        // The vessel runs downwards in the image. One that rises in space is seen from the same side, upside down.
+        // The vessel runs downwards in the image; one that rises in space is shown upside down.
         let rises = (points[points.len() - 1] - points[0]).dot(axes.up) > 0.0;
         let across = if rises { -axes.across } else { axes.across };
         let (mut strips, mut y) = (Vec::new(), 0.0);
@@ -64,7 +60,6 @@ impl Stretched {
         &self.strips[self.strips.partition_point(|strip| strip.y <= y).max(1) - 1]
     }
 
-    /// The point of the vessel at `share` of a strip, which may lie beyond its ends.
     fn anchor(&self, strip: &Strip, share: f64) -> Anchor {
         let [from, to] = [strip.segment, strip.segment + 1];
         let point = self.path.points()[from] + (self.path.points()[to] - self.path.points()[from]) * share;
@@ -73,7 +68,7 @@ impl Stretched {
         Anchor { point, x: point.dot(self.across) - self.middle, arc_length }
     }
 
-    /// The point of a strip nearest to a point across the lines. The strip may go on beyond its ends.
+    /// The point of a strip, optionally extended beyond its ends, nearest to a point across the lines.
     fn nearest_candidate(&self, strip: &Strip, point: DVec3, goes_on: bool) -> Candidate {
         let share = (point - self.path.points()[strip.segment]).dot(strip.down) / strip.height;
         let share = if goes_on { share } else { share.clamp(0.0, 1.0) };
@@ -87,19 +82,17 @@ impl Stretched {
     }
 }
 
-/// A place in the image where a point may lie.
 #[derive(Clone, Copy, Debug)]
 struct Candidate {
     /// From the point to the surface there (mm).
     distance: f64,
-    /// How far the point is beside the vessel (mm).
+    /// Distance of the point from the vessel (mm).
     aside: f64,
     /// Downwards in the image (mm).
     y: f64,
 }
 
 impl Candidate {
-    /// Whether a point belongs here and not there.
     fn is_better(&self, other: &Self) -> bool {
         if (self.distance - other.distance).abs() > ON_PICTURE {
             return self.distance < other.distance;

@@ -6,28 +6,21 @@ use glam::{DVec2, DVec3};
 use super::row::Row;
 use crate::error::{Error, ErrorKind};
 
-/// The surface of a mode, as an image without pixels.
 pub(super) trait Surface: Send + Sync {
-    /// The height of the image (mm).
     fn height(&self) -> f64;
-    /// How far the vessel reaches to each side of the middle (mm).
+    /// Extent of the vessel to each side of the middle (mm).
     fn reach(&self) -> f64;
-    /// What lies at `y`, also above and below the image.
     fn row(&self, y: f64) -> Row;
-    /// Where a world point lies in the image.
     fn image_from_world(&self, point: DVec3) -> DVec2;
-    /// Whether each of the pixels at `y` and at these places is folded.
     fn folded(&self, y: f64, x: &[f64]) -> Vec<bool>;
 }
 
-/// Whether a point belongs to the first of two places that show it, each so far beside the vessel and so far down (mm): to the
-/// one nearer to the vessel, and of equally near ones to the upper one.
+/// Whether a point belongs to the first of two positions (mm aside, mm down): the nearer, then the upper one.
 pub(super) fn comes_first([aside, y]: [f64; 2], [other_aside, other_y]: [f64; 2]) -> bool {
     let nearer = other_aside - aside;
     if nearer.abs() > ON_PICTURE { nearer > 0.0 } else { y + ON_PICTURE < other_y }
 }
 
-/// The error for a vessel that is no more than one row high.
 pub(super) fn one_row(mode: &str, mend: &str) -> Error {
     let found = format!("a vessel that lies in one row of the {mode} CPR");
     Error::new(ErrorKind::Camera, "up of the CPR", found, "a vessel of several rows").mend(mend)

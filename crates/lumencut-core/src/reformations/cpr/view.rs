@@ -1,37 +1,34 @@
-//! From where a vessel is looked at.
+//! The direction from which a vessel is seen.
 
 use glam::DVec3;
 
 use crate::error::{Error, ErrorKind, Result};
 
-/// From where a vessel is looked at.
+/// The direction from which a vessel is seen.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct View {
     /// Upwards in space; any length.
     pub up: DVec3,
-    /// By how much the viewer moves to the right (radians): around `up`, or around the vessel where it is straightened.
+    /// Rotation of the viewer to the right (radians): around `up`, or around a straightened vessel.
     pub angle: f64,
-    /// Towards the viewer at the vessel's first point where it is straightened; any length. `None` is the front.
+    /// Towards the viewer at the first point of a straightened vessel; any length. `None` is the front.
     pub normal: Option<DVec3>,
 }
 
-/// Unit vectors of a view, perpendicular to each other.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Axes {
     /// To the right in the image.
     pub across: DVec3,
-    /// Upwards.
     pub up: DVec3,
     /// From the viewer into the scene.
     pub ahead: DVec3,
 }
 
-/// The tangent of the smallest angle between two vectors that are not taken to be parallel.
+/// Vectors at an angle with a smaller tangent count as parallel.
 pub(super) const PARALLEL: f64 = 0.05;
 
 impl View {
-    /// The view at angle 0: along the patient's +y axis, from the front, as far as that is perpendicular to up; from below
-    /// where up runs along that axis, as axial slices are shown.
+    /// The view at angle 0: along +y, perpendicular to up; from below if up runs along y, as axial slices.
     pub(super) fn unturned(&self) -> Result<Axes> {
         let up = unit("up of the CPR", self.up)?;
         let along = up.y.abs() * PARALLEL > up.x.hypot(up.z);
@@ -39,7 +36,6 @@ impl View {
         Ok(Axes { across: ahead.cross(up), up, ahead })
     }
 
-    /// The view turned by its angle around up.
     pub(super) fn turned(&self) -> Result<Axes> {
         let Axes { across, up, ahead } = self.unturned()?;
         let (sine, cosine) = self.checked_angle()?.sin_cos();
@@ -54,11 +50,10 @@ impl View {
     }
 }
 
-/// A vector as one of length 1.
 pub(super) fn unit(subject: &str, vector: DVec3) -> Result<DVec3> {
     let largest = vector.abs().max_element();
     let unit = if largest.is_finite() && largest > 0.0 { (vector / largest).try_normalize() } else { None };
     unit.ok_or_else(|| {
-        Error::new(ErrorKind::Camera, subject, format!("{vector}"), "a finite vector that is not zero")
+        Error::new(ErrorKind::Camera, subject, format!("{vector}"), "a finite vector other than zero")
     })
 }

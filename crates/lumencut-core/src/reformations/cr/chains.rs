@@ -1,4 +1,4 @@
-//! The segments of a view in the order of their vessels: sixteen that follow one another are a chain.
+//! The segments of a view in the order of their vessels: sixteen consecutive ones are a chain.
 
 use crate::math::hierarchy::NO_SLOT;
 use crate::math::lanes::{FAN, gap};
@@ -6,18 +6,15 @@ use crate::math::pieces::Bundle;
 use crate::math::projection::{Level, ProjectedLevel};
 use crate::math::tile::Area;
 
-/// The chains of all vessels.
 pub(super) struct Chains {
-    /// The slots of each chain.
     pub bundles: Vec<Bundle>,
     /// The box around each chain in the image: from and to view x, from and to view y (mm).
     boxes: [Vec<f32>; 4],
-    /// The first chain of each vessel, and the number of chains at the end.
     first_of_vessel: Vec<u32>,
 }
 
 impl Chains {
-    pub fn new(level: &Level, view: &ProjectedLevel) -> Self {
+    pub(super) fn new(level: &Level, view: &ProjectedLevel) -> Self {
         let mut places = vec![0; level.points.len()];
         for (place, slot) in level.order.iter().enumerate().filter(|(_, slot)| **slot != NO_SLOT) {
             places[*slot as usize] = place;
@@ -35,7 +32,6 @@ impl Chains {
         chains
     }
 
-    /// Adds a chain of slots, each of which lies somewhere in a bundle.
     fn push<'a>(&mut self, slots: impl Iterator<Item = (&'a Bundle, usize)>) {
         let mut chain = Bundle::EMPTY;
         let [mut low_x, mut high_x, mut low_y, mut high_y] = [f32::MAX, f32::MIN, f32::MAX, f32::MIN];
@@ -55,21 +51,18 @@ impl Chains {
         }
     }
 
-    /// The chain that a slot of a vessel is in.
-    pub fn chain_of(&self, level: &Level, vessel: i32, slot: u32) -> u32 {
+    pub(super) fn chain_of(&self, level: &Level, vessel: i32, slot: u32) -> u32 {
         let vessel = vessel as usize;
         self.first_of_vessel[vessel] + (slot - level.first_slot[vessel]) / FAN as u32
     }
 
-    /// The arc lengths (mm) between which a chain lies.
-    pub fn span(&self, level: &Level, vessel: i32, chain: u32) -> [f64; 2] {
+    pub(super) fn span(&self, level: &Level, vessel: i32, chain: u32) -> [f64; 2] {
         let [first, end] = [vessel, vessel + 1].map(|id| level.first_slot[id as usize]);
         let start = first + (chain - self.first_of_vessel[vessel as usize]) * FAN as u32;
         [start, (start + FAN as u32).min(end - 1)].map(|slot| f64::from(level.arc_length[slot as usize]))
     }
 
-    /// The chains of a vessel between two arc lengths (mm), and a little more.
-    pub fn between(&self, level: &Level, vessel: u32, [low, high]: [f64; 2]) -> [u32; 2] {
+    pub(super) fn between(&self, level: &Level, vessel: u32, [low, high]: [f64; 2]) -> [u32; 2] {
         let [first, end] = [vessel, vessel + 1].map(|id| level.first_slot[id as usize] as usize);
         let arc_length = &level.arc_length[first..end];
         let slack = 1e-5 * (1.0 + low.abs().max(high.abs()));
@@ -79,9 +72,8 @@ impl Chains {
         [before + (starts / FAN) as u32, before + ends.div_ceil(FAN) as u32]
     }
 
-    /// The squared distance (mm²) between an area and the box around a chain.
     #[inline(always)]
-    pub fn squared_distance(&self, chain: u32, area: &Area) -> f32 {
+    pub(super) fn squared_distance(&self, chain: u32, area: &Area) -> f32 {
         let [low_x, high_x, low_y, high_y] = self.boxes.each_ref().map(|bounds| bounds[chain as usize]);
         let gx = gap(low_x, high_x, area.center[0], area.half[0]);
         let gy = gap(low_y, high_y, area.center[1], area.half[1]);

@@ -1,4 +1,4 @@
-//! The piece of one vessel that is nearest to each pixel in the image, whatever its depth: CR of one vessel without a threshold.
+//! The piece of one vessel nearest to each pixel in the image: CR of one vessel without a threshold.
 
 use rayon::prelude::*;
 
@@ -14,10 +14,7 @@ use crate::math::walk::{Seeds, lowest_keys};
 use crate::settings::Settings;
 use crate::stop::{Stop, go_on};
 
-/// The slot at which the piece begins that is nearest to each pixel of a camera, row by row; of those equally near the first one.
-///
-/// # Errors
-/// [`crate::error::ErrorKind::Interrupted`] once the caller asks to stop.
+/// The slot whose piece is nearest to each pixel of a camera, row by row; the first of equally near ones.
 pub(in crate::reformations) fn nearest_slots(level: &Level, camera: &Camera, stop: Stop) -> Result<Vec<u32>> {
     let mut view = ProjectedLevel::new(level);
     view.project(level, camera, Radii { scale: 1.0, unknown: 0.0 });
@@ -35,7 +32,6 @@ pub(in crate::reformations) fn nearest_slots(level: &Level, camera: &Camera, sto
     Ok(slots)
 }
 
-/// One row of tiles.
 struct NearestRow<'a> {
     plane: &'a Hierarchy,
     rule: &'a Rule,

@@ -2,16 +2,14 @@
 
 use crate::error::{Error, ErrorKind, Result};
 
-/// The largest radius offset and arc-length threshold (pixels).
-const MOST_PIXELS: f64 = 1e6;
+const MAX_THRESHOLD_PIXELS: f64 = 1e6;
 
 /// The two thresholds of CR.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CrParameters {
-    /// How far beyond its radius a vessel keeps what lies behind it away (pixels).
+    /// Distance beyond its radius within which a vessel displaces what lies behind it (pixels).
     pub radius_offset: f64,
-    /// Up to how far apart along the tree two places belong to one stretch, within which the nearer one in the image is shown
-    /// (pixels).
+    /// Distance along the tree (pixels) within which points form a stretch that shows its nearest one.
     pub arc_threshold: f64,
 }
 
@@ -23,11 +21,10 @@ impl Default for CrParameters {
 }
 
 impl CrParameters {
-    /// # Errors
-    /// [`ErrorKind::Settings`] for a threshold that is negative, not finite or larger than a million pixels.
+    /// Fails with [`ErrorKind::Settings`] for a threshold that is not from 0 to a million pixels.
     pub fn check(&self) -> Result<()> {
         for (name, value) in [("radius_offset", self.radius_offset), ("arc_threshold", self.arc_threshold)] {
-            if !(0.0..=MOST_PIXELS).contains(&value) {
+            if !(0.0..=MAX_THRESHOLD_PIXELS).contains(&value) {
                 let expected = "a finite number of pixels between 0 and 1e6";
                 return Err(Error::new(ErrorKind::Settings, name, format!("{value}"), expected));
             }

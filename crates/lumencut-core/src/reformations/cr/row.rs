@@ -7,7 +7,6 @@ use crate::math::tile::{Tile, scatter};
 use crate::math::walk::Seeds;
 use crate::stages::depth::Sheet;
 
-/// One row of tiles.
 pub(super) struct CrRow<'a> {
     pub view: &'a CrView<'a>,
     pub row: usize,
@@ -40,7 +39,7 @@ impl Kernel for CrRow<'_> {
     }
 }
 
-/// What pixel `l` of a tile shows: what is nearest in the image, unless something of another stretch lies before it.
+/// The nearest piece in the image at pixel `l`, unless a piece of another stretch lies before it.
 #[inline(always)]
 fn shown(view: &CrView, search: &mut StretchSearch, tile: &Tile, pieces: [u32; 2], l: usize) -> Seen {
     let ([nearest, foremost], [x, y]) = (pieces, [tile.x[l], tile.y[l]]);

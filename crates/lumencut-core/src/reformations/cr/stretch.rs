@@ -8,33 +8,30 @@ use crate::math::lanes::FAN;
 use crate::math::nearest::squared_distances_to_segments;
 use crate::math::tile::{Area, Tile};
 
-/// For how many chains a search keeps what lies around them.
-const MOST_KEPT: usize = 256;
+const MAX_CACHED_CHAINS: usize = 256;
 
-/// The search for the piece nearest to a pixel in the image among those within the threshold of a place along the tree.
-/// Places on one chain have much the same pieces around them, and so do the pixels of a tile.
+/// Finds the piece nearest to a pixel within the threshold along the tree. Points on one chain have nearly
+/// the same pieces around them, and so do the pixels of a tile.
 pub(super) struct StretchSearch<'a> {
     view: &'a CrView<'a>,
-    /// For a chain, which chains may lie within the threshold of a place on it, from and to.
+    /// For a chain, the ranges of chains within the threshold of a point on it.
     around: HashMap<u32, Vec<[u32; 2]>>,
     /// For a chain, the chains around it as seen from this tile.
     in_tile: Vec<(u32, NearFirst)>,
 }
 
 impl<'a> StretchSearch<'a> {
-    pub fn new(view: &'a CrView<'a>) -> Self {
+    pub(super) fn new(view: &'a CrView<'a>) -> Self {
         Self { view, around: HashMap::new(), in_tile: Vec::new() }
     }
 
-    /// Goes on to another tile.
-    pub fn begin_tile(&mut self) {
+    pub(super) fn begin_tile(&mut self) {
         self.in_tile.clear();
     }
 
-    /// The piece nearest to the pixel at (x, y) among those of the stretch around `front`, which is one of them; of those
-    /// equally near the first one.
+    /// The piece nearest to (x, y) in the stretch around `front`; the first of equally near ones.
     #[inline(never)]
-    pub fn nearest_piece(&mut self, tile: &Tile, front: Seen, [x, y]: [f32; 2]) -> Seen {
+    pub(super) fn nearest_piece(&mut self, tile: &Tile, front: Seen, [x, y]: [f32; 2]) -> Seen {
         let view = self.view;
         let chain = view.chains.chain_of(view.level, front.vessel, front.piece / 2);
         let known = self.in_tile.iter().position(|(known, _)| *known == chain);
@@ -55,28 +52,27 @@ impl<'a> StretchSearch<'a> {
         best.seen
     }
 
-    /// The chains around a chain as seen from a tile.
     fn seen_from(&mut self, tile: &Tile, chain: u32) -> NearFirst {
         let view = self.view;
-        if self.around.len() > MOST_KEPT {
+        if self.around.len() > MAX_CACHED_CHAINS {
             self.around.clear();
         }
         let around = self.around.entry(chain).or_insert_with(|| view.around(chain));
-        // Squares are not negative, so their bits have their order.
+        // The bits of non-negative floats have their order.
         let entry = |chain| Reverse((view.chains.squared_distance(chain, &tile.area).to_bits(), chain));
         let rest: Vec<_> = around.iter().flat_map(|[from, to]| *from..*to).map(entry).collect();
         NearFirst { ordered: Vec::new(), rest: rest.into() }
     }
 }
 
-/// Chains in the order of their squared distance (mm²) from a tile, as far as anybody has asked for them.
+/// Chains by their squared distance (mm²) from a tile, sorted as far as needed.
 struct NearFirst {
     ordered: Vec<(f32, u32)>,
     rest: BinaryHeap<Reverse<(u32, u32)>>,
 }
 
 impl NearFirst {
-    /// The chain in a place of the order, unless it lies beyond `limit` (mm²); places are asked for one after the other.
+    /// The n-th chain by distance, unless it lies beyond `limit` (mm²); n rises by one from call to call.
     #[inline(always)]
     fn within(&mut self, place: usize, limit: f32) -> Option<u32> {
         if place == self.ordered.len() {
@@ -88,10 +84,9 @@ impl NearFirst {
     }
 }
 
-/// The best piece so far.
 struct Best<'a> {
     view: &'a CrView<'a>,
-    /// The place in the middle of the stretch: a vessel and an arc length (mm).
+    /// The middle of the stretch: a vessel and an arc length (mm).
     middle: (i32, f32),
     seen: Seen,
     /// The squared distance (mm²) beyond which nothing is nearer.
@@ -111,7 +106,6 @@ impl<'a> Best<'a> {
         (self.seen, self.limit) = (seen, reach * reach);
     }
 
-    /// Meets the pieces of a chain.
     #[inline(always)]
     fn meet(&mut self, chain: u32, [x, y]: [f32; 2]) {
         let chain = &self.view.chains.bundles[chain as usize];

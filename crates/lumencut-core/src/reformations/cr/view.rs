@@ -1,4 +1,4 @@
-//! The pieces of a tree in one view, as CR asks for them: the nearest in the image, and the foremost whose disc holds a pixel.
+//! The pieces of a tree in one view for CR: the nearest one, and the foremost whose disc holds a pixel.
 
 use super::chains::Chains;
 use super::parameters::CrParameters;
@@ -14,25 +14,22 @@ use crate::pipeline::Request;
 use crate::reformations::connections::Connections;
 use crate::stages::depth::Sheet;
 
-/// A tree in one view.
 pub(super) struct CrView<'a> {
     pub level: &'a Level,
     pub camera: &'a Camera,
-    /// The slots in their order.
     projected: Vec<Projected>,
     /// Their pieces without depth and radius: the smallest key is the smallest distance.
     plane: Hierarchy,
     pub plane_rule: Rule,
-    /// Their pieces with the radii of the discs: the smallest key is the foremost one whose disc holds the pixel.
+    /// Their pieces with disc radii: the smallest key is the foremost disc that holds the pixel.
     discs: Hierarchy,
     disc_rule: Rule,
-    /// Their segments in the order of their vessels.
     pub chains: Chains,
     pub connections: Connections,
 }
 
 impl<'a> CrView<'a> {
-    pub fn new(level: &'a Level, parameters: &CrParameters, request: &Request<'a>) -> Self {
+    pub(super) fn new(level: &'a Level, parameters: &CrParameters, request: &Request<'a>) -> Self {
         let &Request { camera, settings, .. } = request;
         let side = camera.pixel_spacing();
         let mut view = ProjectedLevel::new(level);
@@ -49,28 +46,27 @@ impl<'a> CrView<'a> {
         Self { level, camera, projected, plane, plane_rule, discs, disc_rule, chains, connections }
     }
 
-    /// The piece of each pixel that is nearest in the image; of those equally near the first one.
+    /// The piece of each pixel that is nearest in the image; the first of equally near ones.
     #[inline(always)]
-    pub fn nearest_pieces(&self, tile: &Tile, seeds: &mut Seeds) -> [u32; PIXELS] {
+    pub(super) fn nearest_pieces(&self, tile: &Tile, seeds: &mut Seeds) -> [u32; PIXELS] {
         let mut nearest = Envelope::new(&[1.0; PIXELS]);
         lowest_keys::<false>(&self.plane, tile, &self.plane_rule, seeds, &mut nearest);
         *seeds = Seeds::collect(&nearest, &self.level.bundle_of_slot);
         nearest.piece
     }
 
-    /// The foremost piece whose disc holds each pixel, [`NO_PIECE`] where none does.
+    /// The foremost piece whose disc holds each pixel, or [`NO_PIECE`].
     #[inline(always)]
-    pub fn foremost(&self, tile: &Tile, seeds: &mut Seeds) -> [u32; PIXELS] {
+    pub(super) fn foremost(&self, tile: &Tile, seeds: &mut Seeds) -> [u32; PIXELS] {
         let mut foremost = Envelope::new(&[1.0; PIXELS]);
-        // No piece counts whose disc does not hold the pixel: its key is above this.
+        // The key of a piece whose disc does not hold the pixel is above this.
         foremost.key = [-1.5 * self.disc_rule.lift; PIXELS];
         lowest_keys::<true>(&self.discs, tile, &self.disc_rule, seeds, &mut foremost);
         *seeds = Seeds::collect(&foremost, &self.level.bundle_of_slot);
         foremost.piece
     }
 
-    /// The chains that may lie within the threshold of a place on one of them, from and to.
-    pub fn around(&self, chain: u32) -> Vec<[u32; 2]> {
+    pub(super) fn around(&self, chain: u32) -> Vec<[u32; 2]> {
         let slot = self.chains.bundles[chain as usize].slot[0];
         let vessel = self.level.vessel_of_slot[slot as usize];
         let span = self.chains.span(self.level, vessel, chain);
@@ -87,9 +83,8 @@ impl<'a> CrView<'a> {
         chains
     }
 
-    /// How the pixel at (x, y) lies to a piece.
     #[inline(always)]
-    pub fn seen(&self, piece: u32, x: f32, y: f32) -> Seen {
+    pub(super) fn seen(&self, piece: u32, x: f32, y: f32) -> Seen {
         let here = &self.projected[(piece / 2) as usize];
         let [z, radius, arc_length] = [here.point[2], here.radius, here.arc_length];
         let at_start = Seen {
@@ -123,10 +118,8 @@ impl<'a> CrView<'a> {
     }
 }
 
-/// No piece: as an envelope has it before any piece was offered.
 pub(super) const NO_PIECE: u32 = u32::MAX;
 
-/// How a pixel lies to a piece.
 #[derive(Clone, Copy)]
 pub(super) struct Seen {
     /// Twice its slot, plus 1 for the stripe.
@@ -135,7 +128,6 @@ pub(super) struct Seen {
     pub is_covered: bool,
     /// In the image (mm).
     pub distance: f32,
-    /// Depth (mm).
     pub z: f32,
     radius: f32,
     arc_length: f32,
@@ -143,14 +135,13 @@ pub(super) struct Seen {
 }
 
 impl Seen {
-    /// Where on the tree it is.
     #[inline(always)]
-    pub fn place(&self) -> (i32, f32) {
+    pub(super) fn place(&self) -> (i32, f32) {
         (self.vessel, self.arc_length)
     }
 
     #[inline(always)]
-    pub fn sheet(&self) -> Sheet {
+    pub(super) fn sheet(&self) -> Sheet {
         let radius = if self.distance <= self.radius { self.radius } else { -self.radius };
         [self.slope[0], self.slope[1], radius, 0.0]
     }

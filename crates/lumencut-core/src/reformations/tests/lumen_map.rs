@@ -7,7 +7,6 @@ use crate::vessel_tree::Vessel;
 const FRONT: View = View { up: DVec3::Z, angle: 0.0, normal: None };
 const DIRECTIONS: usize = 360;
 
-/// A wall whose radius depends on the direction alone.
 fn wall(length: f64, radius: impl Fn(f64) -> f64) -> Arc<Wall> {
     let row: Vec<f64> = (0..DIRECTIONS).map(|n| radius(TAU * n as f64 / DIRECTIONS as f64)).collect();
     Arc::new(Wall::new(vec![0.0, length], row.repeat(2), vec![false; 2 * DIRECTIONS]).unwrap())
@@ -22,10 +21,8 @@ fn map(points: &[DVec3], radius: impl Fn(f64) -> f64, changes: LumenMapParameter
 const TUBE: LumenMapParameters =
     LumenMapParameters { pixel_spacing: 0.5, mean_radius: 4.0, angle: 0.0, overlap: 0.0, beyond: 0.0 };
 
-/// A vessel that runs to the patient's feet.
 const STRAIGHT: [DVec3; 2] = [DVec3::new(1.0, 2.0, 30.0), DVec3::new(1.0, 2.0, 0.0)];
 
-/// Half of a circle of a radius (mm) in the plane of x and z.
 fn half_circle(radius: f64) -> Vec<DVec3> {
     (0..=720).map(|n| PI * f64::from(n) / 720.0).map(|t| DVec3::new(t.cos(), 0.0, t.sin()) * radius).collect()
 }
@@ -37,7 +34,7 @@ fn a_tube_is_unrolled_by_direction() {
     let curved = map.curved(NEVER).unwrap();
     for (n, point) in curved.position().iter().enumerate() {
         let around = TAU * ((n % 50) as f64 + 0.5) / 50.0 - PI;
-        // A vessel that runs downwards has the patient's left on its right, and its back ahead.
+        // A vessel that runs downwards has the patient's left on its right, and the back ahead.
         let expected =
             DVec3::new(1.0 + 4.0 * around.cos(), 2.0 + 4.0 * around.sin(), 30.0 - 0.5 * (n / 50) as f64);
         assert!(point.distance(expected) < 1e-9, "{n}: {point} instead of {expected}");
@@ -56,7 +53,7 @@ fn an_ellipse_has_its_polar_radius() {
         let around = TAU * ((n % 50) as f64 + 0.5) / 50.0 - PI + 0.7;
         assert!((radius - polar(around)).abs() < 1e-3, "{n}: {radius}");
     }
-    // The wall is met at right angles at both axes alone.
+    // The wall is met at right angles only at both axes.
     let shades = map.shades(NEVER).unwrap();
     assert!(shades.iter().all(|shade| *shade <= 1.0) && shades.iter().any(|shade| *shade < 0.98));
 }
@@ -72,7 +69,7 @@ fn places_and_pixels_are_inverse() {
         let there = map.world_from_pixel(pixel);
         assert!(map.pixel_from_world(there).distance(pixel) < 1e-5, "{pixel} came back elsewhere");
     }
-    // What is repeated lies where the other side shows it.
+    // Repeated pixels lie where the other side shows them.
     assert!(
         (map.pixel_from_world(map.world_from_pixel(DVec2::new(0.0, 9.0))) - DVec2::new(50.0, 9.0)).length()
             < 1e-5

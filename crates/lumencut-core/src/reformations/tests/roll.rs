@@ -1,6 +1,6 @@
 use super::*;
 
-/// The wall of an ellipse of 6 × 3 mm (half axes) whose longer axis has turned by so much at an arc length.
+/// A wall of an ellipse with half axes of 6 and 3 mm; the longer axis turns along the vessel.
 fn ellipse(length: f64, turned: impl Fn(f64) -> f64) -> Wall {
     let at: Vec<f64> = (0..=(2.0 * length) as usize).map(|n| n as f64 / 2.0).collect();
     let polar = |t: f64| 18.0 / (9.0 * t.cos().powi(2) + 36.0 * t.sin().powi(2)).sqrt();
@@ -21,7 +21,6 @@ fn diameter(wall: &Wall, at: f64, around: f64) -> f64 {
 
 #[test]
 fn it_follows_an_ellipse_that_turns() {
-    // A quarter of a turn over 50 mm.
     let wall = ellipse(50.0, |at| 0.3 + at / 50.0 * PI / 2.0);
     let narrow = Roll::following(&wall, 50.0, Side::Narrowest);
     let wide = Roll::following(&wall, 50.0, Side::Widest);
@@ -29,7 +28,7 @@ fn it_follows_an_ellipse_that_turns() {
         let at = f64::from(n) / 10.0;
         let [least, most] = [&narrow, &wide].map(|roll| diameter(&wall, at, roll.angle(at)));
         assert!(least < 6.04, "{least} mm at {at} mm");
-        // The wide side is the sharper one: the same degrees are more mm there.
+        // The wide side is sharper: the same degrees are more mm there.
         assert!(most > 11.7, "{most} mm at {at} mm");
         assert!((narrow.angle(at) - narrow.angle((at - 0.5).max(0.0))).abs() <= PI / 48.0 + 1e-12);
     }
@@ -53,13 +52,13 @@ fn it_goes_on_through_whole_turns() {
 
 #[test]
 fn the_cheapest_way_is_that_of_all_ways() {
-    // Brute force over all ways of five places, with few directions that differ.
+    // Brute force over all paths of five positions, with few directions that differ.
     let random = |n: usize| ((n as f64 * 12.9898).sin() * 43758.5453).fract().abs();
     let cost: Vec<Vec<f64>> = (0..DIRECTIONS).map(|k| (0..5).map(|n| random(k * 5 + n)).collect()).collect();
     let total = |way: &[i32]| -> f64 {
         let own = |(n, k): (usize, &i32)| cost[k.rem_euclid(DIRECTIONS as i32) as usize][n];
         let changes: i32 = way.windows(2).map(|ends| (ends[1] - ends[0]).abs()).sum();
-        way.iter().enumerate().map(own).sum::<f64>() + CHANGE * f64::from(changes)
+        way.iter().enumerate().map(own).sum::<f64>() + CHANGE_COST_MM * f64::from(changes)
     };
     let mut least = f64::INFINITY;
     for start in 0..DIRECTIONS as i32 {

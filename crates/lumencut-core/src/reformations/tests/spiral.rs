@@ -23,7 +23,6 @@ fn helix() -> Arc<CenterlinePath> {
     )
 }
 
-/// The width of a row within a region (mm).
 fn width(spiral: &Spiral, is_inside: impl Fn(DVec2) -> bool) -> f64 {
     let inside = spiral.columns.iter().filter(|[place, _]| is_inside(*place)).count();
     inside as f64 * spiral.parameters.pixel_spacing
@@ -31,14 +30,13 @@ fn width(spiral: &Spiral, is_inside: impl Fn(DVec2) -> bool) -> f64 {
 
 #[test]
 fn the_width_of_a_region_is_its_area_by_the_pitch() {
-    /// Whether a place of a section is inside.
     type Region = fn(DVec2) -> bool;
     let regions: [(Region, f64); 3] = [
         (|q| q.length() < 10.0, 100.0),
         (|q| (q / DVec2::new(12.0, 5.0)).length() < 1.0, 60.0),
         (|q| (q - DVec2::new(4.0, 3.0)).length() < 7.0, 49.0),
     ];
-    // Discs in the middle are exact; the ends of an ellipse fall between windings, more or less by how it is turned.
+    // Discs in the middle are exact; the ends of an ellipse fall between windings, depending on its rotation.
     for (pitch, pixel_spacing, most) in [(1.0, 0.03, [5e-3, 2e-2, 2e-2]), (0.25, 0.12, [2e-3, 5e-3, 5e-3])] {
         for (n, (is_inside, area)) in regions.iter().enumerate() {
             for turn in 0..8 {
@@ -58,7 +56,7 @@ fn neighbours_are_a_pixel_apart() {
         let steps: Vec<f64> = spiral.columns.windows(2).map(|two| two[0][0].distance(two[1][0])).collect();
         match sampling {
             Sampling::Arc => assert!(steps.iter().all(|step| (0.0495..=0.05001).contains(step))),
-            // Even angles are closer together towards the middle.
+            // Equal angles are closer together towards the middle.
             Sampling::Angle => {
                 assert!((steps[0] - 0.05).abs() < 0.001 && steps[steps.len() / 2] < 0.002);
             }
@@ -69,7 +67,7 @@ fn neighbours_are_a_pixel_apart() {
 #[test]
 fn windings_are_a_pitch_apart() {
     let spiral = straight(SpiralParameters { pixel_spacing: 0.05, ..FINE });
-    // Along any ray both spirals together pass once for each pitch.
+    // Along any ray both spirals together pass once per pitch.
     let mut passes: Vec<f64> = spiral
         .columns
         .windows(2)
@@ -94,7 +92,7 @@ fn places_and_pixels_are_inverse() {
         for (i, j) in (0..width).step_by(7).zip((3..height - 3).step_by(5).cycle()) {
             let pixel = DVec2::new(i as f64 + 0.2, j as f64 - 0.3);
             let back = spiral.pixel_from_world(spiral.world_from_pixel(pixel));
-            // All of a section's middle is one place.
+            // The middle of a section is one position.
             if (pixel.x - spiral.middle()).abs() > 1.0 {
                 assert!(back.distance(pixel) < 1e-5, "{pixel} came back as {back}");
             }

@@ -10,7 +10,6 @@ fn camera(direction: DVec3) -> Camera {
     Camera::new(DVec3::ZERO, direction, DVec3::Z, [97, 131], 0.7).unwrap()
 }
 
-/// A vessel that winds in all directions.
 fn winding() -> Vessel {
     let point = |t: f64| DVec3::new(15.0 * (2.0 * t).sin(), 10.0 * (3.0 * t).cos(), 25.0 * t.cos());
     Vessel::new((0..=200).map(|n| point(f64::from(n) / 70.0)).collect(), None).unwrap()
@@ -32,14 +31,14 @@ fn it_is_cr_of_one_vessel_without_a_threshold() {
             (camera.view_from_world(*point).z - f64::from(*depth)).abs() < 1e-3
         };
         let equal = curved.position().iter().zip(frame.depth()).filter(|both| same(*both)).count();
-        // Of places that are equally near but for rounding each may be shown.
+        // Of positions that are equally near but for rounding either may be shown.
         assert!(equal + 2 >= 97 * 131, "{equal} pixels");
     }
 }
 
 #[test]
 fn a_straight_tube_is_as_wide_as_it_is_from_every_side() {
-    // The chord of a tube across its projection is its diameter: points at the wall are its radius from the axis.
+    // The chord of a tube across its projection is its diameter.
     let axis = DVec3::new(0.3, 0.5, -0.8).normalize();
     let vessel = Vessel::new(vec![axis * -60.0, axis * 60.0], None).unwrap();
     for direction in [DVec3::Y, DVec3::X, DVec3::new(0.6, -0.3, 0.2)] {

@@ -9,7 +9,6 @@ fn path(points: Vec<DVec3>) -> Arc<CenterlinePath> {
     Arc::new(CenterlinePath::new(&Vessel::new(points, None).unwrap(), 0.0).unwrap())
 }
 
-/// Two and a half turns of a helix of this radius and pitch (mm) that runs downwards.
 fn helix(radius: f64, pitch: f64) -> Vec<DVec3> {
     let point = |t: f64| DVec3::new(radius * t.cos(), radius * t.sin(), 20.0 - pitch * t / TAU);
     (0..=600).map(|n| point(2.5 * TAU * f64::from(n) / 600.0)).collect()
@@ -44,7 +43,7 @@ fn at_0_every_pixel_lies_on_its_ray_at_the_depth_of_the_nearest_place() {
         });
         let all: Vec<_> = on.collect();
         let least = all.iter().map(|(distance, _)| *distance).fold(f64::INFINITY, f64::min);
-        // Places equally near may each be shown.
+        // Of equally near positions any may be shown.
         all.into_iter().filter(|(distance, _)| distance - least < 1e-4).map(|(_, z)| z).collect::<Vec<_>>()
     };
     for (n, point) in curved.position().iter().enumerate().step_by(7) {
@@ -101,7 +100,7 @@ fn lengths_stay_true_and_the_middle_of_the_chord_moves_evenly() {
 
 #[test]
 fn a_helix_stays_a_helix_of_the_same_torsion() {
-    // With curvature κ and torsion τ, radius = κ / (κ² + τ²) and a whole turn takes 2π / √(κ² + τ²) of its length.
+    // With curvature κ and torsion τ: radius = κ / (κ² + τ²), and a turn is 2π / √(κ² + τ²) long.
     let (radius, pitch) = (12.0, 60.0);
     let rise = pitch / TAU;
     let square = radius * radius + rise * rise;
@@ -111,12 +110,12 @@ fn a_helix_stays_a_helix_of_the_same_torsion() {
         let bent = curvature * (1.0 - amount);
         let rate = (bent * bent + torsion * torsion).sqrt();
         let along = uncurl.path.length() / 600.0;
-        // Two points apart by whole turns differ along the axis alone: by torsion / rate of their length.
+        // Points apart by whole turns differ along the axis only: by torsion / rate of their length.
         let step = (TAU / rate / along).round() as usize;
         let chord = uncurl.points()[step + 20].distance(uncurl.points()[20]);
         let expected = torsion / rate * step as f64 * along;
         assert!((chord / expected - 1.0).abs() < 2e-3, "{amount}: {chord} instead of {expected}");
-        // Half of a turn apart, they differ by the diameter too.
+        // Points half a turn apart also differ by the diameter.
         let half = step / 2;
         let across = uncurl.points()[half + 20].distance(uncurl.points()[20]);
         let expected = (2.0 * bent / rate / rate).hypot(torsion / rate * half as f64 * along);
@@ -199,7 +198,7 @@ fn what_cannot_be_uncurled_is_refused() {
 
 #[test]
 fn a_vessel_turns_little_from_one_picture_to_the_next() {
-    // An arch that rises, like the aorta, and leaves its plane: its first segment runs against the straight vessel.
+    // An arch like the aorta that leaves its plane; its first segment opposes the straight vessel.
     let point =
         |t: f64| DVec3::new(8.0 * t.sin() * t, 30.0 * t.cos(), 20.0 * t.sin() - 25.0 * (t / PI).powi(2));
     let arch: Vec<_> = (0..=200).map(|n| point(1.2 * PI * f64::from(n) / 200.0)).collect();

@@ -8,7 +8,6 @@ fn go() -> bool {
     false
 }
 
-/// From the front: x to the left of the patient is to the right, z upwards.
 fn front() -> Camera {
     Camera::new(DVec3::ZERO, DVec3::Y, DVec3::Z, [64, 64], 1.0).unwrap()
 }
@@ -32,7 +31,7 @@ fn length(part: &LaidOut, spacing: f64) -> f64 {
 
 const PIXEL: f64 = 0.5;
 
-/// A small generator of numbers from 0 to 1 (splitmix64).
+/// splitmix64, numbers from 0 to 1.
 struct Random(u64);
 
 impl Random {
@@ -54,7 +53,6 @@ impl Random {
     }
 }
 
-/// A tree whose vessels branch in two until there are `count`, each bent at random.
 fn random_tree(random: &mut Random, count: usize) -> VesselTree {
     let mut vessels = Vec::new();
     let mut waiting = std::collections::VecDeque::from([(DVec3::ZERO, DVec3::NEG_Z, 4.0)]);
@@ -79,7 +77,6 @@ fn random_tree(random: &mut Random, count: usize) -> VesselTree {
     VesselTree::new(vessels).unwrap()
 }
 
-/// A fork in the plane across the view: down, then to both sides.
 fn planar_fork() -> VesselTree {
     tree(&[
         (&[[0.0, 5.0, 40.0], [0.0, 5.0, 0.0]], 3.0),
@@ -125,7 +122,6 @@ fn lengths_are_true_whatever_the_smoothing() {
 
 #[test]
 fn two_vessels_one_before_the_other_turn_apart_by_the_same_angle() {
-    // Seen from the front both branches run straight on downwards.
     let twins = tree(&[
         (&[[0.0, 0.0, 30.0], [0.0, 0.0, 0.0]], 3.0),
         (&[[0.0, 0.0, 0.0], [0.0, 20.0, -40.0]], 3.0),
@@ -133,7 +129,7 @@ fn two_vessels_one_before_the_other_turn_apart_by_the_same_angle() {
     ]);
     let made = untangled(&twins, UntangledParameters::new(PIXEL));
     let [none, first, second] = made.rotations().try_into().unwrap();
-    // Sectors that turn by all of it lie apart; of the hulls no more is needed than that discs at the nearest place touch.
+    // Sectors that turn by all of it lie apart; the hulls only need discs that touch at the nearest point.
     let most = (5.0f64 / (1.5 * 5.0 + 2.0)).asin();
     assert_eq!(none, 0.0);
     assert!(made.overlaps().is_empty());
@@ -158,7 +154,7 @@ fn sectors_move_by_the_least_sum_of_squares() {
     assert!((narrow[0] - 0.3).abs() < 1e-12 && (narrow[1] + 0.2).abs() < 1e-12);
 }
 
-/// The vessel at whose end the ways to two vessels of a random tree part: those after vessel n are 2n + 1 and 2n + 2.
+/// The last vessel common to the paths to two vessels; vessel n has the children 2n + 1 and 2n + 2.
 fn common([mut first, mut second]: [usize; 2]) -> usize {
     while first != second {
         let later = if first > second { &mut first } else { &mut second };
@@ -167,7 +163,7 @@ fn common([mut first, mut second]: [usize; 2]) -> usize {
     first
 }
 
-/// Asserts that the hulls of two vessels of a random tree overlap nowhere but near the place where the ways to them part.
+/// Asserts that hulls of two vessels overlap only near the point where the paths to them part.
 fn assert_apart(made: &Untangled, tree: &VesselTree, pair: [usize; 2]) {
     let radius = |vessel: usize| tree.vessels()[vessel].radius_or_zero(0) + 2.0;
     let parting = common(pair);
@@ -272,7 +268,6 @@ fn parts_lie_beside_each_other_from_left_to_right() {
     let x = |n: usize| made.laid_out()[n].pixels[0].x * PIXEL;
     assert!((x(0) - x(1) - 18.0).abs() < 1e-9, "two hulls of 4 mm and 10 mm between them");
     assert!((x(2) - x(1) - 201.0).abs() < 1e-9, "as seen");
-    // In pixels, upwards is to smaller rows.
     assert!((made.laid_out()[0].pixels[0].y - made.laid_out()[1].pixels[0].y - 40.0).abs() < 1e-9);
 }
 

@@ -1,4 +1,4 @@
-//! A vessel that is bent straight by degrees: its points, and the way from its surroundings to those of the true vessel.
+//! A partly straightened vessel: its points, and the map from its surroundings to the true ones.
 
 use glam::{DQuat, DVec3};
 
@@ -6,42 +6,38 @@ use crate::camera::Camera;
 use crate::math::centerline_path::CenterlinePath;
 use crate::math::frames::{Frames, MovingFrame};
 
-/// The tangent of the smallest angle at which a vessel does not begin along the view.
+/// A vessel begins along the view if the angle between them has a smaller tangent.
 const ALONG_VIEW: f64 = 0.05;
 
-/// Two directions whose cross product is shorter are parallel.
 const PARALLEL: f64 = 1e-12;
 
-/// A place from which on the true vessel turns at an even rate.
 #[derive(Clone, Copy, Debug)]
 struct Turning {
-    /// Arc length (mm).
     at: f64,
-    /// The axis about which the true frame turns beyond what is left of its turn in the bent vessel, as long as it turns radians
-    /// per mm.
+    /// Rotation vector per mm (radians per mm) of the true frame relative to the bent one.
     undone: DVec3,
-    /// From the surroundings of the bent vessel to those of the true one.
     from_bent: DQuat,
 }
 
 /// A bent vessel.
 ///
-/// In its rotation-minimising frame the true vessel turns at a rate that is its curvature; the bent vessel turns at that rate times
-/// 1 − `amount`. So the rotation from the bent frame to the true one has made `amount` of each true turn.
+/// In its rotation-minimising frame the true vessel turns at a rate equal to its curvature; the bent vessel
+/// turns at that rate times 1 − `amount`. So the rotation from the bent frame to the true one contains
+/// `amount` of each true turn.
 #[derive(Clone, Debug)]
 pub(super) struct Bent {
     turnings: Vec<Turning>,
-    /// The points as they lie before the camera (mm, LPS).
+    /// The points before the camera (mm, LPS).
     pub points: Vec<DVec3>,
 }
 
 impl Bent {
-    /// The vessel bent by `amount`, from 0, as it is, to 1, straight.
+    /// The vessel bent by `amount`, from 0 (as it is) to 1 (straight).
     ///
-    /// It bends about its middle. The line from its first point to its last turns from its own direction to downwards in the image,
-    /// and the middle of that line moves from its own place to that of the image. At 1 the vessel is seen as the straightened CPR
-    /// whose viewer stands at its first point as far as possible where the camera does.
-    pub fn new(path: &CenterlinePath, camera: &Camera, amount: f64) -> Self {
+    /// It bends about its middle. The line from its first to its last point turns to downwards in the image,
+    /// and its middle moves to that of the image. At 1 the vessel is seen as the straightened CPR whose
+    /// viewer at the first point is as near as possible to the camera.
+    pub(super) fn new(path: &CenterlinePath, camera: &Camera, amount: f64) -> Self {
         let first = path.direction()[0];
         let frames = Frames::new(path, MovingFrame::looking(first, ahead_at(first, camera)));
         let middle = path.length() / 2.0;
@@ -56,7 +52,7 @@ impl Bent {
 
     /// The rotation from the surroundings of the bent vessel to those of the true one at an arc length (mm).
     #[inline]
-    pub fn true_from_bent(&self, at: f64) -> DQuat {
+    pub(super) fn true_from_bent(&self, at: f64) -> DQuat {
         let turning = &self.turnings[self.turnings.partition_point(|turning| turning.at <= at).max(1) - 1];
         if turning.undone == DVec3::ZERO {
             return turning.from_bent;
@@ -64,12 +60,10 @@ impl Bent {
         DQuat::from_scaled_axis(turning.undone * (at - turning.at)) * turning.from_bent
     }
 
-    /// The arc lengths between which the vessel turns at an even rate (mm).
-    pub fn stations(&self) -> impl Iterator<Item = f64> {
+    pub(super) fn stations(&self) -> impl Iterator<Item = f64> {
         self.turnings.iter().map(|turning| turning.at)
     }
 
-    /// Lays segment after segment, each as long as it truly is.
     fn lay(&mut self, path: &CenterlinePath) {
         let mut point = path.points()[0];
         self.points = vec![point];
@@ -81,14 +75,12 @@ impl Bent {
         }
     }
 
-    /// Turns the bent vessel as a whole.
     fn turn(&mut self, by: DQuat) {
         for turning in &mut self.turnings {
             turning.from_bent *= by.inverse();
         }
     }
 
-    /// Moves the middle between both ends to its place in the image.
     fn shift(&mut self, path: &CenterlinePath, camera: &Camera, amount: f64) {
         let [here, own] =
             [&self.points[..], path.points()].map(|points| (points[0] + points[points.len() - 1]) / 2.0);
@@ -103,7 +95,6 @@ fn ahead_at(first: DVec3, camera: &Camera) -> DVec3 {
     if aside > ALONG_VIEW * first.dot(camera.direction()).abs() { camera.direction() } else { camera.up() }
 }
 
-/// The turns that are undone by `amount`, from the first frame on.
 fn turnings(frames: &Frames, amount: f64) -> Vec<Turning> {
     let stations = frames.stations();
     let mut from_bent = DQuat::IDENTITY;
@@ -113,7 +104,7 @@ fn turnings(frames: &Frames, amount: f64) -> Vec<Turning> {
             let before = &stations[n - 1];
             let end = before.frame_at(station.at);
             from_bent = DQuat::from_scaled_axis(before.turn * amount * (station.at - before.at)) * from_bent;
-            // The frame's own way from one station to the next is rounded to the third order of the turn.
+            // The frame's own rotation between stations is rounded to the third order of the turn.
             let rest = rotation(&station.frame) * rotation(&end).inverse();
             from_bent = DQuat::from_scaled_axis(shorter(rest).to_scaled_axis() * amount) * from_bent;
         }
@@ -126,13 +117,12 @@ fn rotation(frame: &MovingFrame) -> DQuat {
     DQuat::from_mat3(&glam::DMat3::from_cols(frame.across, frame.tangent, frame.ahead))
 }
 
-/// The same rotation the shorter way round.
 fn shorter(rotation: DQuat) -> DQuat {
     if rotation.w < 0.0 { -rotation } else { rotation }
 }
 
-/// How a bent vessel turns as a whole: its chord to where it lies after `amount` of the way downwards, and about the chord so that
-/// the straight vessel, along whose middle `frame` moves, is seen from where the camera looks.
+/// The chord of a bent vessel turns downwards by `amount`; the vessel turns about it so that the straight
+/// vessel, along whose middle `frame` moves, faces the camera.
 fn placed([own, bent]: [&[DVec3]; 2], frame: &MovingFrame, camera: &Camera, amount: f64) -> DQuat {
     let chord =
         |points: &[DVec3]| (points[points.len() - 1] - points[0]).try_normalize().unwrap_or(frame.tangent);
@@ -145,7 +135,7 @@ fn placed([own, bent]: [&[DVec3]; 2], frame: &MovingFrame, camera: &Camera, amou
     DQuat::from_axis_angle(target, about * amount) * to_target
 }
 
-/// The smallest turn from one direction to another: its axis, as long as its angle (radians). Opposite directions turn in the image.
+/// The smallest rotation vector (radians) between two directions; opposite ones turn in the image.
 fn turn(from: DVec3, to: DVec3, camera: &Camera) -> DVec3 {
     let axis = from.cross(to);
     let angle = axis.length().atan2(from.dot(to));

@@ -1,4 +1,4 @@
-//! The foot of each pixel: the place of a vessel that is nearest to it in the image, whatever its depth.
+//! The foot of each pixel: the point of a vessel nearest to it in the image, at any depth.
 
 use std::sync::Arc;
 
@@ -12,51 +12,41 @@ use crate::scene::LeveledTree;
 use crate::stop::Stop;
 use crate::vessel_tree::{Vessel, VesselTree};
 
-/// A place along a vessel.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Foot {
     /// Arc length (mm).
     pub at: f64,
-    /// The segment that it lies on.
     pub segment: usize,
-    /// Where it is in the image (mm, to the right and upwards).
+    /// Position in the image (mm, to the right and upwards).
     pub place: DVec2,
     /// From there to the pixel (mm).
     pub aside: DVec2,
 }
 
-/// A vessel as it lies in the image of a camera.
 #[derive(Clone, Debug)]
 pub(super) struct Feet {
     camera: Camera,
     points: Vec<DVec3>,
-    /// The points in the image (mm).
     places: Vec<DVec2>,
     arc_length: Arc<[f64]>,
 }
 
 impl Feet {
-    /// A vessel by its points (mm, LPS) and their arc lengths (mm).
-    pub fn new(camera: &Camera, points: Vec<DVec3>, arc_length: &[f64]) -> Self {
+    pub(super) fn new(camera: &Camera, points: Vec<DVec3>, arc_length: &[f64]) -> Self {
         let places = points.iter().map(|point| camera.view_from_world(*point).truncate()).collect();
         Self { camera: *camera, points, places, arc_length: arc_length.into() }
     }
 
-    /// The points in the image (mm).
-    pub fn places(&self) -> &[DVec2] {
+    pub(super) fn places(&self) -> &[DVec2] {
         &self.places
     }
 
-    /// The foot of a place in the image (mm).
-    pub fn of(&self, place: DVec2) -> Foot {
+    pub(super) fn of(&self, place: DVec2) -> Foot {
         self.among(place, 0, self.places.len() - 1)
     }
 
-    /// The foot of each pixel, row by row, by a function that is given the pixel's number and the foot.
-    ///
-    /// # Errors
-    /// Those of a vessel tree that cannot be made of the points, and [`crate::error::ErrorKind::Interrupted`].
-    pub fn of_pixels(&self, stop: Stop) -> Result<impl Fn(usize) -> Foot + Sync + '_> {
+    /// A function that returns the foot of each pixel, by its number row by row.
+    pub(super) fn of_pixels(&self, stop: Stop) -> Result<impl Fn(usize) -> Foot + Sync + '_> {
         let vessel = Vessel::new(self.points.clone(), None)?;
         let levels = LeveledTree::new(VesselTree::new(vec![vessel])?).levels(0, 0.0);
         let slots = nearest_slots(&levels[0], &self.camera, stop)?;
@@ -70,7 +60,7 @@ impl Feet {
         })
     }
 
-    /// The nearest place on the segments from one point to another; of those equally near the first one.
+    /// The nearest point on the segments from one point to another; the first of equally near ones.
     fn among(&self, place: DVec2, first: usize, last: usize) -> Foot {
         let mut best = self.on_segment(place, first);
         for segment in first + 1..last {
@@ -96,7 +86,7 @@ impl Feet {
         }
     }
 
-    /// The point that each slot was made of: a level leaves out points that lie as good as at the one before.
+    /// The point behind each slot: a level leaves out points that practically repeat the previous one.
     fn points_of_slots(&self, level: &Level) -> Vec<usize> {
         let mut numbered = self.points.iter().enumerate();
         let own = |slot: &DVec3| numbered.by_ref().find(|(_, point)| *point == slot).map(|(n, _)| n);

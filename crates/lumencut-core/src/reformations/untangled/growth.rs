@@ -1,4 +1,4 @@
-//! How pieces of vessels grow from a root: which piece follows which, which close a cycle, and which parts hang together.
+//! How pieces of vessels grow from a root: their order, the cycles they close, and connected parts.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -8,16 +8,13 @@ use glam::DVec3;
 use super::pieces::Piece;
 use crate::error::{Error, ErrorKind, Result};
 
-/// Over which length the radius of a free end is averaged (mm).
-const MEAN_OVER: f64 = 10.0;
+const RADIUS_MEAN_LENGTH_MM: f64 = 10.0;
 
-/// Radii that differ by less are the same (mm).
-const SAME_RADIUS: f64 = 1e-6;
+const SAME_RADIUS_MM: f64 = 1e-6;
 
-/// Pieces that hang together.
 #[derive(Clone, Debug)]
 pub(super) struct Part {
-    /// Where it grows from (mm, LPS).
+    /// The point it grows from (mm, LPS).
     pub root: DVec3,
     /// Its pieces, each after the one that it follows.
     pub order: Vec<usize>,
@@ -25,26 +22,22 @@ pub(super) struct Part {
     pub first: Vec<usize>,
 }
 
-/// What follows which, for every piece.
 #[derive(Clone, Debug)]
 pub(super) struct Growth {
     /// The parts, in the order of their smallest piece.
     pub parts: Vec<Part>,
     /// Whether each piece grows from its last station to its first.
     pub is_reversed: Vec<bool>,
-    /// The pieces that follow each piece.
     pub children: Vec<Vec<usize>>,
-    /// The pieces that close a cycle, and for each the piece and the end of it (0 or 1) at which the cycle closes.
+    /// The pieces that close a cycle, each with the piece and its end (0 or 1) where the cycle closes.
     pub closures: Vec<(usize, usize, usize)>,
 }
 
 impl Growth {
-    /// Grows from the end of a vessel that is nearest to `root`; parts without it, and all where there is none, from the free
-    /// end of the largest mean radius.
-    ///
-    /// # Errors
-    /// [`ErrorKind::VesselTree`] for a part without a free end, where `root` does not name one.
-    pub fn new(pieces: &[Piece], nodes: usize, root: Option<DVec3>) -> Result<Self> {
+    /// Grows from the vessel end nearest to `root`; parts without it grow from the free end of the largest
+    /// mean radius. Fails with [`ErrorKind::VesselTree`] for a part without a free end, unless `root` names
+    /// an end.
+    pub(super) fn new(pieces: &[Piece], nodes: usize, root: Option<DVec3>) -> Result<Self> {
         let graph = Graph::new(pieces, nodes);
         let mut growth = Self {
             parts: Vec::new(),
@@ -70,17 +63,16 @@ impl Growth {
         Ok(growth)
     }
 
-    /// Adds the part that grows from an end of a piece, along shortest ways.
     fn grow(&mut self, graph: &Graph, (piece, end): (usize, usize)) {
         let pieces = graph.pieces;
         let root = pieces[piece].nodes[end];
         let point = if end == 0 { pieces[piece].points[0] } else { *last_of(&pieces[piece].points) };
         let mut part = Part { root: point, order: Vec::new(), first: Vec::new() };
-        // Which piece led to each junction; the root is its own beginning.
+        // The piece that led to each junction; none for the root.
         let mut led: Vec<Option<Option<usize>>> = vec![None; graph.ends.len()];
         let mut is_used = vec![false; pieces.len()];
         let mut late = Vec::new();
-        // Lengths are not negative, so their bits have their order.
+        // The bits of non-negative floats have their order.
         let mut waiting = BinaryHeap::from([Reverse((0.0f64.to_bits(), None, root))]);
         while let Some(Reverse((bits, by, node))) = waiting.pop() {
             if led[node].is_some() {
@@ -94,7 +86,7 @@ impl Growth {
             for &(piece, end) in &graph.ends[node] {
                 let other = pieces[piece].nodes[1 - end];
                 if led[other].is_none() {
-                    // A piece waits once at most: from its other end it leads back. One that loses is set anew below.
+                    // A piece waits at most once: its other end leads back. A loser is corrected below.
                     let length = f64::from_bits(bits) + pieces[piece].length();
                     self.is_reversed[piece] = end == 1;
                     waiting.push(Reverse((length.to_bits(), Some(piece), other)));
@@ -116,7 +108,6 @@ impl Growth {
         usize::from(self.is_reversed[piece])
     }
 
-    /// Lets a piece follow another one, or the root.
     fn attach(&mut self, part: &mut Part, piece: usize, after: Option<usize>) {
         part.order.push(piece);
         match after {
@@ -125,8 +116,7 @@ impl Growth {
         }
     }
 
-    /// Adds a piece whose both ends are reached without it: it begins at its end `near`, which was reached first, and ends free
-    /// beside its other junction.
+    /// Adds a piece whose two ends are reached: it begins at end `near`, reached first, and ends free.
     fn close(
         &mut self,
         part: &mut Part,
@@ -138,7 +128,7 @@ impl Growth {
         self.is_reversed[piece] = near == 1;
         self.attach(part, piece, led[pieces[piece].nodes[near]].flatten());
         let far = pieces[piece].nodes[1 - near];
-        // The other place is the end of the piece that led there, or the beginning of one at the root.
+        // The other position is the end of the piece that led there, or the beginning of one at the root.
         let there = match led[far].flatten() {
             Some(by) => (by, 1 - self.start(by)),
             None => (part.first[0], self.start(part.first[0])),
@@ -147,7 +137,6 @@ impl Growth {
     }
 }
 
-/// Pieces as edges between junctions.
 struct Graph<'a> {
     pieces: &'a [Piece],
     /// The pieces that end at each junction, and by which end (0 or 1).
@@ -163,7 +152,6 @@ impl<'a> Graph<'a> {
         Self { pieces, ends }
     }
 
-    /// All pieces that hang together with one, in their order.
     fn reached_from(&self, piece: usize) -> Vec<usize> {
         let mut is_found = vec![false; self.pieces.len()];
         let (mut found, mut waiting) = (Vec::new(), vec![piece]);
@@ -178,7 +166,6 @@ impl<'a> Graph<'a> {
         found
     }
 
-    /// The end of a piece that is nearest to a point, the first one of several.
     fn nearest_end(&self, point: DVec3) -> (usize, usize) {
         let ends = self.pieces.iter().enumerate().flat_map(|(n, piece)| {
             [((n, 0), piece.points[0]), ((n, 1), *last_of(&piece.points))]
@@ -187,24 +174,23 @@ impl<'a> Graph<'a> {
         ends.fold(((0, 0), f64::INFINITY), |best, end| if end.1 < best.1 { end } else { best }).0
     }
 
-    /// The free end of the largest mean radius, the first one of several.
     fn widest_free_end(&self, members: &[usize]) -> Result<(usize, usize)> {
         let mut widest: Option<((usize, usize), f64)> = None;
         for &piece in members {
             for end in 0..2 {
                 let is_free = self.ends[self.pieces[piece].nodes[end]].len() == 1;
-                let radius = self.pieces[piece].mean_radius(end, MEAN_OVER);
-                if is_free && widest.is_none_or(|(_, most)| radius > most + SAME_RADIUS) {
+                let radius = self.pieces[piece].mean_radius(end, RADIUS_MEAN_LENGTH_MM);
+                if is_free && widest.is_none_or(|(_, most)| radius > most + SAME_RADIUS_MM) {
                     widest = Some(((piece, end), radius));
                 }
             }
         }
         widest.map(|(end, _)| end).ok_or_else(|| {
             let vessel = self.pieces[members[0]].vessel;
-            let found = "a loop without a free end to begin at";
-            let expected = "a free end in every part that hangs together";
+            let found = "a loop without a free end to start at";
+            let expected = "a free end in every connected part";
             Error::new(ErrorKind::VesselTree, format!("vessel {vessel} of the tree"), found, expected)
-                .mend("name a point to begin at as the root, or leave this vessel out")
+                .mend("give a point to start at as the root, or leave out this vessel")
         })
     }
 }

@@ -1,33 +1,29 @@
-//! The hulls of vessels in the image: discs as wide as the lumen and a margin, and whether those of two vessels overlap.
+//! The hulls of vessels in the image: discs as wide as the lumen and a margin, and tests for overlap.
 
 use glam::DVec2;
 
 use super::pieces::Piece;
 
-/// How many discs that follow one another share a circle around them, and how many of these circles another one.
-const RUN: usize = 16;
+/// Number of consecutive discs within one circle, and of these circles within another one.
+const DISCS_PER_CIRCLE: usize = 16;
 
-/// Discs may touch (mm).
-const TOUCHING: f64 = 1e-9;
+const TOUCH_TOLERANCE_MM: f64 = 1e-9;
 
-/// A disc around a place of a piece.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Disc {
     pub center: DVec2,
     pub radius: f64,
-    /// The piece.
     pub piece: usize,
-    /// Where along the vessel it is (mm).
+    /// Arc length along the vessel (mm).
     pub at: f64,
 }
 
 impl Disc {
     fn overlaps(&self, other: &Self) -> bool {
-        let reach = self.radius + other.radius - TOUCHING;
+        let reach = self.radius + other.radius - TOUCH_TOLERANCE_MM;
         reach > 0.0 && self.center.distance_squared(other.center) < reach * reach
     }
 
-    /// The disc on the way to the next one of its piece.
     fn towards(&self, next: &Self, share: f64) -> Self {
         let between = |from: f64, to: f64| from + (to - from) * share;
         Self {
@@ -39,7 +35,6 @@ impl Disc {
     }
 }
 
-/// The discs at the stations of a piece.
 pub(super) fn discs(number: usize, piece: &Piece, places: &[DVec2], margin: f64) -> Vec<Disc> {
     let stations = places.iter().zip(&piece.radius).zip(&piece.at);
     stations
@@ -52,7 +47,7 @@ pub(super) fn discs(number: usize, piece: &Piece, places: &[DVec2], margin: f64)
         .collect()
 }
 
-/// The discs whose centres lie at least `distance` from the origin; where a piece crosses that distance it has one more there.
+/// The discs at least `distance` from the origin, and one more where a piece crosses that distance.
 pub(super) fn beyond(discs: &[Disc], distance: f64) -> Vec<Disc> {
     let is_beyond = |disc: &Disc| disc.center.length() >= distance;
     let mut kept = Vec::new();
@@ -70,7 +65,7 @@ pub(super) fn beyond(discs: &[Disc], distance: f64) -> Vec<Disc> {
     kept
 }
 
-/// The share of the way between two places at which a distance from the origin is crossed.
+/// The share between two positions at which a distance from the origin is crossed.
 fn crossing(from: DVec2, to: DVec2, distance: f64) -> f64 {
     let step = to - from;
     let [a, b, c] = [step.length_squared(), from.dot(step), from.length_squared() - distance * distance];
@@ -80,10 +75,8 @@ fn crossing(from: DVec2, to: DVec2, distance: f64) -> f64 {
     share.clamp(0.0, 1.0)
 }
 
-/// A circle around others.
 type Circle = (DVec2, f64);
 
-/// Discs that move as one.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Hull {
     discs: Vec<Disc>,
@@ -93,45 +86,42 @@ pub(super) struct Hull {
 }
 
 impl Hull {
-    pub fn new(discs: Vec<Disc>) -> Self {
+    pub(super) fn new(discs: Vec<Disc>) -> Self {
         let circles: Vec<Circle> = discs.iter().map(|disc| (disc.center, disc.radius.max(0.0))).collect();
-        let around = |circles: &[Circle]| circles.chunks(RUN).map(circle_around).collect::<Vec<_>>();
+        let around =
+            |circles: &[Circle]| circles.chunks(DISCS_PER_CIRCLE).map(circle_around).collect::<Vec<_>>();
         let runs = around(&circles);
         Self { groups: around(&runs), runs, discs }
     }
 
-    pub fn discs(&self) -> &[Disc] {
+    pub(super) fn discs(&self) -> &[Disc] {
         &self.discs
     }
 
-    /// The discs turned about the origin (radians).
-    pub fn turned(&self, angle: f64) -> Vec<Disc> {
+    pub(super) fn turned(&self, angle: f64) -> Vec<Disc> {
         let turn = DVec2::from_angle(angle);
         self.discs.iter().map(|disc| Disc { center: turn.rotate(disc.center), ..*disc }).collect()
     }
 
-    /// Whether a disc of this hull overlaps one of another that is turned about the origin (radians).
-    pub fn overlaps(&self, other: &Self, angle: f64) -> bool {
+    pub(super) fn overlaps(&self, other: &Self, angle: f64) -> bool {
         self.pairs(other, angle, &mut |_, _| true)
     }
 
-    /// Adds all pieces of two hulls, the other one turned, whose discs overlap.
-    pub fn add_overlapping(&self, other: &Self, angle: f64, pieces: &mut Vec<usize>) {
+    pub(super) fn add_overlapping(&self, other: &Self, angle: f64, pieces: &mut Vec<usize>) {
         self.pairs(other, angle, &mut |disc, other| {
             pieces.extend([disc.piece, other.piece]);
             false
         });
     }
 
-    /// Whether discs of this hull, one piece, overlap each other farther apart along it than twice the sum of their radii.
-    pub fn overlaps_itself(&self) -> bool {
+    /// Whether discs of one piece overlap farther apart along it than twice the sum of their radii.
+    pub(super) fn overlaps_itself(&self) -> bool {
         let is_far =
             |disc: &Disc, other: &Disc| (disc.at - other.at).abs() > 2.0 * (disc.radius + other.radius);
         self.pairs(self, 0.0, &mut |disc, other| is_far(disc, other))
     }
 
-    /// Meets pairs of discs that overlap, those of the other hull turned, until one of them is the last that counts; tells whether
-    /// there was one.
+    /// Visits overlapping discs, the other hull turned, until `is_last` holds; returns whether it did.
     fn pairs(&self, other: &Self, angle: f64, is_last: &mut impl FnMut(&Disc, &Disc) -> bool) -> bool {
         let turn = DVec2::from_angle(angle);
         for (m, group) in other.groups.iter().enumerate() {
@@ -151,7 +141,6 @@ impl Hull {
         false
     }
 
-    /// The same of one run of each.
     fn pairs_of_runs(
         &self,
         n: usize,
@@ -172,19 +161,17 @@ impl Hull {
     }
 }
 
-/// A circle around circles.
 fn circle_around(circles: &[Circle]) -> Circle {
     let center = circles.iter().map(|(center, _)| center).sum::<DVec2>() / circles.len() as f64;
     let reach = |(other, radius): &Circle| other.distance(center) + radius;
     (center, circles.iter().map(reach).fold(0.0, f64::max))
 }
 
-/// The numbers of what a circle is around, of `count` in all.
+/// The indices within circle `n`, of `count` in all.
 fn members(n: usize, count: usize) -> std::ops::Range<usize> {
-    n * RUN..count.min((n + 1) * RUN)
+    n * DISCS_PER_CIRCLE..count.min((n + 1) * DISCS_PER_CIRCLE)
 }
 
-/// Whether discs in two circles may overlap.
 fn meet(circle: &Circle, other: &Circle) -> bool {
     let reach = circle.1 + other.1;
     circle.0.distance_squared(other.0) <= reach * reach

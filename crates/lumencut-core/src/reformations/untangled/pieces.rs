@@ -1,4 +1,4 @@
-//! Vessels cut where they meet, each piece with stations close enough to each other for an image.
+//! Vessels cut where they meet, each piece with stations dense enough for an image.
 
 use glam::DVec3;
 
@@ -8,38 +8,34 @@ use crate::math::same_place::VESSEL_END;
 use crate::reformations::connections::Ends;
 use crate::vessel_tree::{Vessel, VesselTree};
 
-/// How far stations lie apart at most (mm).
-const STEP: f64 = 0.5;
+const MAX_STATION_DISTANCE_MM: f64 = 0.5;
 
-/// Into how many parts a short piece is cut at least.
-const FEWEST: f64 = 4.0;
+const MIN_STEPS: f64 = 4.0;
 
 /// A point of the vessel nearer to the last station than this share of a step is no station.
-const TOO_NEAR: f64 = 0.1;
+const MIN_STEP_SHARE: f64 = 0.1;
 
-/// A part of a vessel between two places where vessels meet or end. Stations follow the vessel's own order.
+/// A part of a vessel between two points where vessels meet or end. Stations follow the vessel's own order.
 #[derive(Clone, Debug)]
 pub(super) struct Piece {
-    /// The id of the vessel.
     pub vessel: usize,
     /// The junctions at the first and the last station.
     pub nodes: [usize; 2],
     /// The stations (mm, LPS).
     pub points: Vec<DVec3>,
-    /// Where along the vessel each station is (mm).
+    /// Arc length of each station (mm).
     pub at: Vec<f64>,
-    /// The radius at each station (mm).
+    /// Radius at each station (mm).
     pub radius: Vec<f64>,
 }
 
 impl Piece {
-    /// The length along the vessel (mm).
-    pub fn length(&self) -> f64 {
+    pub(super) fn length(&self) -> f64 {
         self.at[self.at.len() - 1] - self.at[0]
     }
 
     /// The mean radius over the first `reach` mm from one of its ends (0 or 1).
-    pub fn mean_radius(&self, end: usize, reach: f64) -> f64 {
+    pub(super) fn mean_radius(&self, end: usize, reach: f64) -> f64 {
         let reach = reach.min(self.length());
         let (mut sum, mut walked) = (0.0, 0.0);
         for n in 0..self.at.len() - 1 {
@@ -55,11 +51,7 @@ impl Piece {
     }
 }
 
-/// The pieces of all vessels, in the order of vessels and along them, and how many junctions they have. A radius that is not
-/// known is `unknown_radius`.
-///
-/// # Errors
-/// [`ErrorKind::VesselTree`] for a vessel without length.
+/// The pieces in the order of vessels and along them, and the number of junctions.
 pub(super) fn pieces_of(tree: &VesselTree, unknown_radius: f64) -> Result<(Vec<Piece>, usize)> {
     let first_and_last = |vessel: &Vessel| [vessel.points()[0], vessel.points()[vessel.points().len() - 1]];
     let ends = Ends::of(tree.vessels().iter().flat_map(first_and_last));
@@ -80,14 +72,14 @@ pub(super) fn pieces_of(tree: &VesselTree, unknown_radius: f64) -> Result<(Vec<P
     Ok((pieces, ends.count as usize))
 }
 
-/// The points of a vessel at which it is cut, its ends among them, and the junction at each; between two of them it has a length.
+/// The points where a vessel is cut, ends included, and their junctions; lengths between are positive.
 fn cuts(vessel: &Vessel, ends: &Ends) -> Vec<(usize, usize)> {
     let (points, at) = (vessel.points(), vessel.arc_length());
     let last = points.len() - 1;
     let mut cuts: Vec<(usize, usize)> = Vec::new();
     for (i, point) in points.iter().enumerate() {
         let Some(node) = ends.at(*point) else { continue };
-        // Points within the same junction make one cut; at its end the vessel is cut at its last point.
+        // Points within the same junction make one cut; the last cut is the vessel's last point.
         let is_same = |&(n, _): &(usize, usize)| at[i] - at[n] <= 2.0 * VESSEL_END;
         match cuts.last() {
             Some(cut) if is_same(cut) && i == last && cuts.len() > 1 => {
@@ -101,21 +93,19 @@ fn cuts(vessel: &Vessel, ends: &Ends) -> Vec<(usize, usize)> {
     cuts
 }
 
-/// Makes the stations of a vessel.
 struct Stations<'a> {
     vessel: &'a Vessel,
     unknown_radius: f64,
 }
 
 impl Stations<'_> {
-    /// The piece between two points of the vessel.
     fn piece(&self, id: usize, nodes: [usize; 2], first: usize, last: usize) -> Piece {
         let along = self.vessel.arc_length();
-        let step = STEP.min((along[last] - along[first]) / FEWEST);
+        let step = MAX_STATION_DISTANCE_MM.min((along[last] - along[first]) / MIN_STEPS);
         let mut at = vec![along[first]];
         let mut previous = along[first];
         for (i, place) in along.iter().enumerate().take(last + 1).skip(first + 1) {
-            let is_apart = |other: f64| (place - other).abs() >= TOO_NEAR * step;
+            let is_apart = |other: f64| (place - other).abs() >= MIN_STEP_SHARE * step;
             if i == last || (is_apart(previous) && is_apart(along[last])) {
                 let parts = ((place - previous) / step).ceil().max(1.0);
                 let between = (1..parts as usize).map(|n| previous + (place - previous) * (n as f64 / parts));
@@ -140,7 +130,6 @@ impl Stations<'_> {
     }
 }
 
-/// The vessels of pieces, each once.
 pub(super) fn vessels_of(pieces: &[Piece], numbers: &[usize]) -> Vec<usize> {
     let mut vessels: Vec<usize> = numbers.iter().map(|n| pieces[*n].vessel).collect();
     vessels.sort_unstable();

@@ -1,4 +1,4 @@
-//! Where the parts of an untangled tree lie in the image, and how much room all of it takes.
+//! The position of the parts of an untangled tree in the image, and the size of the image.
 
 use glam::DVec2;
 
@@ -8,12 +8,11 @@ use crate::camera::Camera;
 use crate::error::Result;
 use crate::reformations::layout::checked_size;
 
-/// How far the hulls of parts that do not hang together are set apart (mm), where the image is wide enough.
-const BETWEEN_PARTS: f64 = 10.0;
+/// Distance between the hulls of parts that are not connected (mm), if the image is wide enough.
+const PART_GAP_MM: f64 = 10.0;
 
-/// Where the roots of parts lie in the image (mm): as they are seen, but from left to right none nearer to the one before it
-/// than to be clear of its hull.
-pub fn roots(parts: &[Part], hulls: &[Vec<Disc>], camera: &Camera, width: f64) -> Vec<DVec2> {
+/// Roots in the image (mm): as seen, but moved right until clear of the hull to the left.
+pub(super) fn roots(parts: &[Part], hulls: &[Vec<Disc>], camera: &Camera, width: f64) -> Vec<DVec2> {
     let mut roots: Vec<DVec2> =
         parts.iter().map(|part| camera.view_from_world(part.root).truncate()).collect();
     let mut order: Vec<usize> = (0..parts.len()).collect();
@@ -24,13 +23,13 @@ pub fn roots(parts: &[Part], hulls: &[Vec<Disc>], camera: &Camera, width: f64) -
             [low.min(disc.center.x - disc.radius), high.max(disc.center.x + disc.radius)]
         });
         roots[n].x = roots[n].x.max(right - low);
-        right = roots[n].x + high + BETWEEN_PARTS.min(width);
+        right = roots[n].x + high + PART_GAP_MM.min(width);
     }
     roots
 }
 
-/// The centre of the first pixel (mm), and how wide and high all vessels are with what lies beside them (mm).
-pub fn extent(places: &[Vec<DVec2>], width: f64) -> (DVec2, DVec2) {
+/// The centre of the first pixel (mm), and width and height of all vessels with their surroundings (mm).
+pub(super) fn extent(places: &[Vec<DVec2>], width: f64) -> (DVec2, DVec2) {
     let all = places.iter().flatten();
     let (low, high) = all.fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(low, high), place| {
         (low.min(*place), high.max(*place))
@@ -38,8 +37,7 @@ pub fn extent(places: &[Vec<DVec2>], width: f64) -> (DVec2, DVec2) {
     (DVec2::new(low.x - width, high.y + width), high - low + 2.0 * width)
 }
 
-/// The size in pixels that holds an extent (mm).
-pub fn size_of(extent: DVec2, pixel_spacing: f64) -> Result<[usize; 2]> {
+pub(super) fn size_of(extent: DVec2, pixel_spacing: f64) -> Result<[usize; 2]> {
     let pixels = extent / pixel_spacing;
     checked_size("size of the untangled CPR", pixels.to_array().map(|length| length.ceil() + 1.0))
 }

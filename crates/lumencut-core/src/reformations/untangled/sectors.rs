@@ -1,4 +1,4 @@
-//! How branches turn at the place where they meet, by as little as sets them apart.
+//! How branches turn at their common point: by the smallest angles that set them apart.
 
 use std::f64::consts::{PI, TAU};
 
@@ -6,10 +6,10 @@ use glam::DVec2;
 
 use super::hull::Disc;
 
-/// Room that is missing by less than this (radians) is not missing.
+/// Tolerance for missing room (radians).
 const ROUNDING: f64 = 1e-9;
 
-/// The angles at which a branch lies, as seen from where it begins (radians, counter-clockwise from the forward direction).
+/// The angles of a branch, seen from where it begins (radians, counter-clockwise from the forward direction).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Sector {
     pub low: f64,
@@ -17,8 +17,7 @@ pub(super) struct Sector {
 }
 
 impl Sector {
-    /// The sector of discs about the origin; `None` where there are none.
-    pub fn of(discs: &[Disc], forward: DVec2) -> Option<Self> {
+    pub(super) fn of(discs: &[Disc], forward: DVec2) -> Option<Self> {
         let middle: DVec2 = discs.iter().map(|disc| disc.center.normalize_or_zero()).sum();
         let middle = wrapped(middle.try_normalize()?.to_angle() - forward.to_angle());
         let sector = Self { low: f64::INFINITY, high: f64::NEG_INFINITY };
@@ -31,18 +30,18 @@ impl Sector {
         Some(grown)
     }
 
-    pub fn width(&self) -> f64 {
+    pub(super) fn width(&self) -> f64 {
         self.high - self.low
     }
 }
 
-/// An angle between −π and π.
 fn wrapped(angle: f64) -> f64 {
     (angle + PI).rem_euclid(TAU) - PI
 }
 
-/// The turns (radians) of least sum of squares that make sectors lie beside each other within a room, in the order of their
-/// middles; of several with one middle the first one lies lowest. Where the room is too small they share what it lacks.
+/// The turns (radians) of least sum of squares that set sectors apart within a room, in the order of their
+/// middles; of several with one middle the first one lies lowest. If the room is too small, they share what
+/// it lacks.
 pub(super) fn turns(sectors: &[Sector], room: Sector) -> Vec<f64> {
     let mut order: Vec<usize> = (0..sectors.len()).collect();
     let middle = |n: &usize| sectors[*n].low + sectors[*n].high;
@@ -65,7 +64,7 @@ pub(super) fn turns(sectors: &[Sector], room: Sector) -> Vec<f64> {
     turns
 }
 
-/// The numbers that never fall and are nearest to given ones by the sum of squares: pool adjacent violators.
+/// The non-decreasing numbers nearest to given ones by the sum of squares: pool adjacent violators.
 fn rising(wanted: &[f64]) -> Vec<f64> {
     let mut pools: Vec<(f64, usize)> = Vec::with_capacity(wanted.len());
     for value in wanted {

@@ -1,4 +1,4 @@
-//! The strips of all pieces where they lie in the image, and the way between a place there and the world.
+//! The strips of all pieces in the image, and the maps between image positions and the world.
 
 use glam::{DVec2, DVec3};
 
@@ -6,58 +6,50 @@ use super::growth::Growth;
 use super::pieces::Piece;
 use super::strip::{Strip, normals};
 use crate::math::same_place::ON_PICTURE;
-use crate::reformations::cut_locus::NEARER;
+use crate::reformations::cut_locus::MIN_DISTANCE_EXCESS;
 use crate::reformations::segments::Segments;
 
-/// How often an interval is halved at most to find a section: below what a number can tell.
-const HALVINGS: usize = 60;
+/// The most bisections in the search for a section, to below the resolution of a number.
+const BISECTIONS: usize = 60;
 
-/// How often a place is handed on to the next segment of its piece at most.
-const STEPS: usize = 4;
+const MAX_MOVES: usize = 4;
 
-/// A station of a strip in the image and in the world.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Station {
-    /// Its place in the image (mm).
+    /// Position in the image (mm).
     pub place: DVec2,
     /// To the right in the image.
     pub normal: DVec2,
-    /// Its place in the world (mm, LPS), and what lies to the right there.
+    /// Position in the world (mm, LPS), and the direction to the right there.
     pub point: DVec3,
     pub across: DVec3,
-    /// Where along the vessel it is (mm).
+    /// Arc length along the vessel (mm).
     pub at: f64,
 }
 
-/// A place on a sheet: a segment, the share of it that lies before the place, and how far to its right the place is (mm). At free
-/// ends the share goes on beyond 0 and 1.
+/// A position on a sheet: segment, share of it (outside 0 to 1 beyond free ends), offset to the right (mm).
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Place {
+pub(super) struct SheetPosition {
     pub segment: usize,
     pub share: f64,
     pub aside: f64,
 }
 
-/// All strips side by side.
 #[derive(Clone, Debug)]
 pub(super) struct Sheet {
     /// The stations, piece by piece, in the order of vessels and along them.
     stations: Vec<Station>,
-    /// The first station of each segment.
     start: Vec<usize>,
-    /// The piece of each segment.
     piece: Vec<usize>,
-    /// The segments in the image and in the world.
     seen: Segments,
     world: Segments,
-    /// How far from the vessels the sheet reaches (mm), and how far places of it lie from vessels in the world.
+    /// Width of the sheet on each side (mm), and largest distance of its points from vessels.
     width: f64,
     reach: f64,
 }
 
 impl Sheet {
-    /// The sheet of strips whose stations have these places in the image.
-    pub fn new(pieces: &[Piece], strips: &[Strip], places: &[Vec<DVec2>], width: f64) -> Self {
+    pub(super) fn new(pieces: &[Piece], strips: &[Strip], places: &[Vec<DVec2>], width: f64) -> Self {
         let (mut stations, mut start, mut piece_of) = (Vec::new(), Vec::new(), Vec::new());
         for (n, piece) in pieces.iter().enumerate() {
             let first = stations.len();
@@ -82,37 +74,35 @@ impl Sheet {
         Self { seen, world, reach, stations, start, piece: piece_of, width }
     }
 
-    pub fn stations_of(&self, piece: usize) -> &[Station] {
+    pub(super) fn stations_of(&self, piece: usize) -> &[Station] {
         let [first, end] = [piece, piece + 1].map(|n| self.piece.partition_point(|of| *of < n));
         &self.stations[self.start[first]..self.start[end - 1] + 2]
     }
 
-    /// The piece that a place belongs to.
-    pub fn piece(&self, place: &Place) -> usize {
+    pub(super) fn piece(&self, place: &SheetPosition) -> usize {
         self.piece[place.segment]
     }
 
-    /// The segments that may be nearest to some place no farther than `radius` (mm) from a point of the image.
-    pub fn near(&self, middle: DVec2, radius: f64) -> Vec<usize> {
+    /// The segments that may be nearest to some position within `radius` (mm) of a point of the image.
+    pub(super) fn near(&self, middle: DVec2, radius: f64) -> Vec<usize> {
         let middle = middle.extend(0.0);
         let Some((_, squared)) = self.seen.nearest(middle, self.width + radius) else { return Vec::new() };
-        // A little more, for rounding.
+        // With a margin for rounding.
         self.seen.within(middle, (squared.sqrt() + 2.0 * radius) * (1.0 + 1e-9) + ON_PICTURE)
     }
 
-    /// What a point of the image (mm) shows: the nearest segment, the first one of several.
-    pub fn place(&self, seen: DVec2) -> Option<Place> {
+    /// The position on the nearest segment to a point of the image (mm), the first one of several.
+    pub(super) fn place(&self, seen: DVec2) -> Option<SheetPosition> {
         self.place_within(seen, self.width)
     }
 
-    /// The same, no farther than `limit` (mm) from a vessel.
-    fn place_within(&self, seen: DVec2, limit: f64) -> Option<Place> {
+    fn place_within(&self, seen: DVec2, limit: f64) -> Option<SheetPosition> {
         let (segment, _) = self.seen.nearest(seen.extend(0.0), limit)?;
         Some(self.on_segment(segment, seen))
     }
 
-    /// The nearest segment, the first one of several, where it is known to be one of those named, which are in their order.
-    pub fn nearest_among(&self, segments: &[usize], seen: DVec2) -> Option<usize> {
+    /// The nearest segment, the first one of several, if it is one of `segments`, which are in their order.
+    pub(super) fn nearest_among(&self, segments: &[usize], seen: DVec2) -> Option<usize> {
         let mut best = (None, self.width * self.width);
         for segment in segments {
             let squared = self.seen.squared_distance(*segment, seen.extend(0.0));
@@ -123,10 +113,10 @@ impl Sheet {
         best.0
     }
 
-    /// The place at a point of the image to which a segment is nearest; at corners it may belong to the next segment.
-    pub fn on_segment(&self, mut segment: usize, seen: DVec2) -> Place {
+    /// The sheet position nearest to an image point on a segment, or at corners on the next one.
+    pub(super) fn on_segment(&self, mut segment: usize, seen: DVec2) -> SheetPosition {
         let mut place = self.across_segment(segment, seen);
-        for _ in 0..STEPS {
+        for _ in 0..MAX_MOVES {
             let next = if place.share > 1.0 { segment + 1 } else { segment.wrapping_sub(1) };
             let is_inside = (0.0..=1.0).contains(&place.share);
             if is_inside || self.piece.get(next) != self.piece.get(segment) {
@@ -143,16 +133,15 @@ impl Sheet {
         self.ended(place)
     }
 
-    /// The place with a share within its segment, unless the piece ends there.
-    fn ended(&self, place: Place) -> Place {
+    fn ended(&self, place: SheetPosition) -> SheetPosition {
         let is_same = |other: usize| self.piece.get(other) == self.piece.get(place.segment);
         let low = if is_same(place.segment.wrapping_sub(1)) { 0.0 } else { f64::NEG_INFINITY };
         let high = if is_same(place.segment + 1) { 1.0 } else { f64::INFINITY };
-        Place { share: place.share.clamp(low, high), ..place }
+        SheetPosition { share: place.share.clamp(low, high), ..place }
     }
 
-    /// Where a segment has a point of the image: the line across it that runs through the point.
-    fn across_segment(&self, segment: usize, seen: DVec2) -> Place {
+    /// The position of an image point on a segment: on the line across it that runs through the point.
+    fn across_segment(&self, segment: usize, seen: DVec2) -> SheetPosition {
         let [a, b] = self.ends(segment);
         let step = b.place - a.place;
         let length = step.length();
@@ -165,12 +154,12 @@ impl Sheet {
         let end = length + aside * b.normal.dot(along);
         let share = if end > start { (from.dot(along) - start) / (end - start) } else { 0.5 };
         if share > 1.0 {
-            return Place { segment, share: 1.0 + (from.dot(along) - end) / length, aside };
+            return SheetPosition { segment, share: 1.0 + (from.dot(along) - end) / length, aside };
         }
         if share < 0.0 {
-            return Place { segment, share: (from.dot(along) - start) / length, aside };
+            return SheetPosition { segment, share: (from.dot(along) - start) / length, aside };
         }
-        Place { segment, share, aside }
+        SheetPosition { segment, share, aside }
     }
 
     fn ends(&self, segment: usize) -> [Station; 2] {
@@ -178,40 +167,37 @@ impl Sheet {
         [self.stations[start], self.stations[start + 1]]
     }
 
-    /// The world point of a place (mm, LPS).
-    pub fn point(&self, place: &Place) -> DVec3 {
+    pub(super) fn point(&self, place: &SheetPosition) -> DVec3 {
         let [a, b] = self.ends(place.segment);
         self.center(place) + a.across.lerp(b.across, place.share.clamp(0.0, 1.0)) * place.aside
     }
 
-    /// The point of the vessel beside a place; at ends straight on.
-    fn center(&self, place: &Place) -> DVec3 {
+    /// The point of the vessel at a position, extrapolated straight at ends.
+    fn center(&self, place: &SheetPosition) -> DVec3 {
         let [a, b] = self.ends(place.segment);
         a.point.lerp(b.point, place.share)
     }
 
-    /// Across the sheet at a place, into the scene where the vessel is seen from its side.
-    pub fn slab_direction(&self, place: &Place) -> DVec3 {
+    /// Across the sheet, into the scene where the vessel is seen from its side.
+    pub(super) fn slab_direction(&self, place: &SheetPosition) -> DVec3 {
         let [a, b] = self.ends(place.segment);
         let across = a.across.lerp(b.across, place.share.clamp(0.0, 1.0));
         (b.point - a.point).cross(across).normalize_or_zero()
     }
 
-    /// The arc length of a place (mm); that of the end beyond it.
-    pub fn arc_length(&self, place: &Place) -> f64 {
+    pub(super) fn arc_length(&self, place: &SheetPosition) -> f64 {
         let [a, b] = self.ends(place.segment);
         a.at + (b.at - a.at) * place.share.clamp(0.0, 1.0)
     }
 
-    /// Where the image has a place (mm).
-    pub fn seen(&self, place: &Place) -> DVec2 {
+    pub(super) fn seen(&self, place: &SheetPosition) -> DVec2 {
         let [a, b] = self.ends(place.segment);
         let share = place.share.clamp(0.0, 1.0);
         a.place.lerp(b.place, place.share) + a.normal.lerp(b.normal, share) * place.aside
     }
 
-    /// Whether the sheet runs backwards at a place, or another part of the tree is nearer to what it shows.
-    pub fn is_folded(&self, place: &Place) -> bool {
+    /// Whether the sheet runs backwards, or another part of the tree is nearer to what it shows.
+    pub(super) fn is_folded(&self, place: &SheetPosition) -> bool {
         let [a, b] = self.ends(place.segment);
         let along = b.point - a.point;
         let is_beyond = !(0.0..=1.0).contains(&place.share);
@@ -220,14 +206,13 @@ impl Sheet {
             return true;
         }
         let excess = (place.share - place.share.clamp(0.0, 1.0)) * along.length();
-        let nearer = place.aside.hypot(excess) * (1.0 - NEARER) - ON_PICTURE;
+        let nearer = place.aside.hypot(excess) * (1.0 - MIN_DISTANCE_EXCESS) - ON_PICTURE;
         nearer > 0.0 && self.world.any_within(self.point(place), nearer)
     }
 
-    /// Where the image shows a world point: of the places that are shown those on the sheet first, then the one nearest to its
-    /// vessel, then the first one.
-    pub fn place_of(&self, point: DVec3) -> Option<Place> {
-        let mut best: Option<(Place, [f64; 2])> = None;
+    /// Of the shown positions of a world point: the nearest to the sheet, then to its vessel, then the first.
+    pub(super) fn place_of(&self, point: DVec3) -> Option<SheetPosition> {
+        let mut best: Option<(SheetPosition, [f64; 2])> = None;
         for segment in self.world.within(point, self.reach) {
             for place in self.sections(segment, point) {
                 let off = self.point(&place).distance(point);
@@ -242,20 +227,19 @@ impl Sheet {
         best.map(|(place, _)| place)
     }
 
-    /// Whether the image shows a place where it would lie.
-    fn is_shown(&self, place: &Place) -> bool {
-        // At its very edge rounding does not take a place away.
+    fn is_shown(&self, place: &SheetPosition) -> bool {
+        // Tolerates rounding at the very edge.
         let there = self.place_within(self.seen(place), self.width + ON_PICTURE);
         let Some(there) = there else { return false };
         self.piece(&there) == self.piece(place)
             && (self.arc_length(&there) - self.arc_length(place)).abs() < ON_PICTURE.sqrt()
     }
 
-    /// The places of a segment in whose sections a world point lies; where the piece ends, beyond it too.
-    fn sections(&self, segment: usize, point: DVec3) -> Vec<Place> {
+    /// The positions of a segment whose sections hold a world point, also beyond it where the piece ends.
+    fn sections(&self, segment: usize, point: DVec3) -> Vec<SheetPosition> {
         let [a, b] = self.ends(segment);
         let along = b.point - a.point;
-        // How far the point lies beyond the section at a share of the segment, and to the right there.
+        // Distance of the point beyond the section at a share of the segment, and to the right there.
         let ahead = |share: f64| {
             let across = a.across.lerp(b.across, share);
             let normal = along * across.length_squared() - across * along.dot(across);
@@ -265,19 +249,19 @@ impl Sheet {
             let across = a.across.lerp(b.across, inner);
             (point - a.point.lerp(b.point, share)).dot(across) / across.length_squared()
         };
-        let place = |share: f64| Place { segment, share, aside: aside(share, share.clamp(0.0, 1.0)) };
+        let place = |share: f64| SheetPosition { segment, share, aside: aside(share, share.clamp(0.0, 1.0)) };
         let (first, last) = (ahead(0.0), ahead(1.0));
         let mut found = Vec::new();
         if (first >= 0.0) != (last >= 0.0) {
             let (mut low, mut high) = (0.0, 1.0);
-            for _ in 0..HALVINGS {
+            for _ in 0..BISECTIONS {
                 let middle = f64::midpoint(low, high);
                 let half = if (ahead(middle) >= 0.0) == (first >= 0.0) { &mut low } else { &mut high };
                 *half = middle;
             }
             found.push(place(f64::midpoint(low, high)));
         }
-        // Sections beside each other may leave a gap for points off the sheet, and rounding one for those on it.
+        // Adjacent sections may leave a gap for points off the sheet, and rounding one for those on it.
         let beyond = |share: f64, towards: DVec3| {
             share + (point - a.point.lerp(b.point, share)).dot(towards) / along.length_squared()
         };
@@ -293,12 +277,11 @@ impl Sheet {
     }
 }
 
-/// The part of a segment that is perpendicular to the line across its end.
 fn perpendicular(along: DVec3, across: DVec3) -> DVec3 {
     along - across * (along.dot(across) / across.length_squared())
 }
 
-/// Where the stations of all pieces lie in the image (mm): each piece begins where that before it ends, turned with it.
+/// The stations in the image (mm): each piece begins where its predecessor ends, turned with it.
 pub(super) fn placed(
     pieces: &[Piece],
     growth: &Growth,

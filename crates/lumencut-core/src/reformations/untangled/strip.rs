@@ -1,4 +1,4 @@
-//! One piece of a vessel as a strip of the image: in which direction it runs there, and which line of the world lies across it.
+//! One piece of a vessel as a strip of the image: its direction there, and the world line across it.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -7,33 +7,29 @@ use glam::{DVec2, DVec3};
 use super::pieces::Piece;
 use crate::camera::Camera;
 
-/// Below this sine of the angle between a vessel and the view its own direction does not tell what lies across it.
-const END_ON: f64 = 0.1;
+/// Below this sine of the angle to the view, a vessel's direction does not define the line across it.
+const MIN_VIEW_SINE: f64 = 0.1;
 
-/// How far lines across a vessel are smoothed along it (mm).
-const SMOOTHING_ACROSS: f64 = 2.0;
+const SMOOTHING_ACROSS_MM: f64 = 2.0;
 
-/// Where a Gaussian is cut off (σ).
-const CUT_OFF: f64 = 4.0;
+const CUT_OFF_SIGMAS: f64 = 4.0;
 
-/// How much longer a line across a sharp corner is at most, so that it ends where those beside it end.
+/// Longest extension of a line across a sharp corner, so that it ends where its neighbours end.
 pub(super) const LONGEST_MITRE: f64 = 3.0;
 
-/// A direction shorter than this is none.
-const NO_DIRECTION: f64 = 1e-9;
+/// A shorter vector has no direction.
+const MIN_DIRECTION_LENGTH: f64 = 1e-9;
 
-/// A piece as a strip, before it is bent or turned.
 #[derive(Clone, Debug)]
 pub(super) struct Strip {
     /// The direction of each segment in the image (radians, unwrapped).
     theta: Vec<f64>,
-    /// Of each station, what lies 1 mm to the right of it as one travels along the vessel; longer at corners.
+    /// For each station, the vector 1 mm to the right along the vessel; longer at corners.
     pub across: Vec<DVec3>,
 }
 
 impl Strip {
-    /// The strip of a piece as a camera sees it, its directions smoothed by `smoothing` mm.
-    pub fn new(piece: &Piece, camera: &Camera, smoothing: f64) -> Self {
+    pub(super) fn new(piece: &Piece, camera: &Camera, smoothing: f64) -> Self {
         let directions: Vec<DVec3> =
             piece.points.windows(2).map(|ends| (ends[1] - ends[0]).normalize_or_zero()).collect();
         let seen: Vec<DVec3> =
@@ -46,17 +42,17 @@ impl Strip {
             .map(|(tangent, theta)| {
                 let own = camera.direction().cross(*tangent);
                 let (sine, cosine) = theta.sin_cos();
-                let is_end_on = own.length() < END_ON;
+                let is_end_on = own.length() < MIN_VIEW_SINE;
                 if is_end_on { camera.right() * sine - camera.up() * cosine } else { own.normalize() }
             })
             .collect();
-        let lines = smooth(&piece.at, &lines, SMOOTHING_ACROSS);
+        let lines = smooth(&piece.at, &lines, SMOOTHING_ACROSS_MM);
         let across = (0..piece.at.len()).map(|n| across(&directions, &lines, n)).collect();
         Self { theta, across }
     }
 
-    /// The places of the stations in the image (mm) from where the piece begins to grow, with `stiffness` of its bends left.
-    pub fn bent(&self, piece: &Piece, is_reversed: bool, stiffness: f64) -> Vec<DVec2> {
+    /// The stations (mm) from where the piece begins to grow, with a share `stiffness` of its bends.
+    pub(super) fn bent(&self, piece: &Piece, is_reversed: bool, stiffness: f64) -> Vec<DVec2> {
         let last = self.theta.len() - 1;
         let first = if is_reversed { self.theta[last] } else { self.theta[0] };
         let mut place = DVec2::ZERO;
@@ -73,7 +69,7 @@ impl Strip {
     }
 }
 
-/// What lies 1 mm to the right of each station in the image; longer at corners.
+/// The vector 1 mm to the right of each station in the image; longer at corners.
 pub(super) fn normals(places: &[DVec2]) -> Vec<DVec2> {
     let along: Vec<DVec2> = places.windows(2).map(|ends| (ends[1] - ends[0]).normalize_or_zero()).collect();
     let normal = |n: usize| {
@@ -90,15 +86,19 @@ fn across(directions: &[DVec3], lines: &[DVec3], n: usize) -> DVec3 {
     let (before, after) = (directions[first], directions[second]);
     let tangent = (before + after).try_normalize().unwrap_or(after);
     let line = (lines[first] + lines[second]).reject_from_normalized(tangent);
-    let line = if line.length() < NO_DIRECTION { tangent.any_orthonormal_vector() } else { line.normalize() };
+    let line = if line.length() < MIN_DIRECTION_LENGTH {
+        tangent.any_orthonormal_vector()
+    } else {
+        line.normalize()
+    };
     let slope = line.dot(after);
     line / (1.0 - slope * slope).max(0.0).sqrt().max(1.0 / LONGEST_MITRE)
 }
 
-/// The angles of directions, each within half a turn of the one before. Where a vessel runs along the view that of its
-/// neighbour counts; one that is never seen from the side runs downwards.
+/// The angles of directions, each within half a turn of the previous one. A segment along the view takes the
+/// angle of its neighbour; a vessel never seen from the side runs downwards.
 fn unwrapped(directions: &[DVec2]) -> Vec<f64> {
-    let known = |d: &DVec2| d.length() > NO_DIRECTION;
+    let known = |d: &DVec2| d.length() > MIN_DIRECTION_LENGTH;
     let mut last = directions.iter().find(|d| known(d)).map_or(-FRAC_PI_2, |d| d.to_angle());
     let mut angles = Vec::with_capacity(directions.len());
     for direction in directions {
@@ -111,13 +111,13 @@ fn unwrapped(directions: &[DVec2]) -> Vec<f64> {
     angles
 }
 
-/// Values of the segments between stations, smoothed along the vessel by a Gaussian of `sigma` mm; each counts by its length.
+/// Values of segments, weighted by length and smoothed along the vessel by a Gaussian of `sigma` mm.
 fn smooth(at: &[f64], values: &[DVec3], sigma: f64) -> Vec<DVec3> {
     if sigma <= 0.0 {
         return values.to_vec();
     }
     let middles: Vec<f64> = at.windows(2).map(|ends| f64::midpoint(ends[0], ends[1])).collect();
-    let reach = CUT_OFF * sigma;
+    let reach = CUT_OFF_SIGMAS * sigma;
     let mut first = 0;
     let mean = |middle: &f64| {
         while middles[first] < middle - reach {

@@ -13,18 +13,18 @@ use super::strip::Strip;
 use crate::error::{Error, Result};
 use crate::stop::{Stop, go_on};
 
-/// How far around a branching point branches may overlap, in radii of their hulls there, from the least on; beyond it by a little.
-const NEAR: [f64; 5] = [1.5, 2.5, 4.0, 7.0, 12.0];
-pub(super) const BEYOND_NEAR: f64 = 2.0;
+/// Hull radii around a branching point, plus `OVERLAP_EXTRA_MM` mm, within which branches may overlap, in the
+/// order tried.
+const OVERLAP_RADII: [f64; 5] = [1.5, 2.5, 4.0, 7.0, 12.0];
+pub(super) const OVERLAP_EXTRA_MM: f64 = 2.0;
 
-/// How much of the bends of vessels is left, from the most on.
+/// The share of the bends of vessels that is kept, tried in this order.
 const STIFFNESS: [f64; 4] = [1.0, 0.6, 0.3, 0.0];
 
-/// Into how many steps turns are cut, from the least on, and how often the first one that suffices is halved.
-const STEPS: usize = 16;
-const HALVINGS: usize = 16;
+/// Number of steps of a turn, and bisections of the first one that suffices.
+const TURN_STEPS: usize = 16;
+const BISECTIONS: usize = 16;
 
-/// What is laid out.
 #[derive(Clone, Copy)]
 pub(super) struct Tree<'a> {
     pub pieces: &'a [Piece],
@@ -34,39 +34,36 @@ pub(super) struct Tree<'a> {
     pub hull_margin: f64,
 }
 
-/// A way to lay out all pieces.
 #[derive(Clone, Debug)]
 pub(super) struct Turning {
-    /// The places of the stations of each piece, from where it begins to grow, not turned (mm).
+    /// The stations of each piece, from where it begins to grow, not turned (mm).
     pub places: Vec<Vec<DVec2>>,
-    /// By how much each piece turns where it begins, with all that follows it (radians, counter-clockwise).
+    /// The turn of each piece and all that follows it (radians, counter-clockwise).
     pub turns: Vec<f64>,
     /// The hull of each part, from its root, not moved.
     pub hulls: Vec<Vec<Disc>>,
-    /// How far around a branching point branches may overlap, in radii of their hulls there, beside [`BEYOND_NEAR`].
+    /// Within this many hull radii of a branching point, plus [`OVERLAP_EXTRA_MM`], branches may overlap.
     pub near: f64,
-    /// At how many branching points sectors did not fit beside each other, so that branches turned by too much or too little.
+    /// Number of branching points where sectors did not fit, so that branches turned too much or too little.
     pub without_room: usize,
-    /// The pieces that overlap others, or themselves, nevertheless.
+    /// The pieces that still overlap others, or themselves.
     pub overlaps: Vec<usize>,
 }
 
 impl Turning {
-    /// What is wrong with it, the worst first.
+    /// Compared in this order.
     fn faults(&self) -> (usize, usize) {
         (self.overlaps.len(), self.without_room)
     }
 }
 
-/// The first way by which no vessels overlap and all branches have room; else, of those tried, the first one with the fewest pieces
-/// that overlap, and of these with the fewest branching points without room.
-///
-/// # Errors
-/// [`crate::error::ErrorKind::Interrupted`] once `stop` says so.
+/// The first layout without overlaps in which all branches have room. If there is none, the tried layout with
+/// the fewest overlapping pieces, then with the fewest branching points without room.
 pub(super) fn untangle(tree: Tree, stop: Stop) -> Result<Turning> {
     let mut best: Option<Turning> = None;
-    let ways: Vec<_> = NEAR.iter().flat_map(|near| STIFFNESS.map(|stiffness| (*near, stiffness))).collect();
-    // The first way suffices for most trees; the others are tried a few at a time, side by side.
+    let ways: Vec<_> =
+        OVERLAP_RADII.iter().flat_map(|near| STIFFNESS.map(|stiffness| (*near, stiffness))).collect();
+    // The first layout suffices for most trees; the others are tried in parallel, a few at a time.
     let (first, others) = ways.split_at(1);
     for ways in [first].into_iter().chain(others.chunks(STIFFNESS.len())) {
         let attempts = ways.par_iter().map(|(near, stiffness)| attempt(tree, *near, *stiffness, stop));
@@ -93,7 +90,7 @@ fn attempt(tree: Tree, near: f64, stiffness: f64, stop: Stop) -> Result<Turning>
         without_room: 0,
         overlaps: Vec::new(),
     };
-    // All that follows each piece, and it itself, from where it begins, turned already beyond that place.
+    // Each piece with all that follows it, from where it begins, already turned beyond that point.
     let mut units: Vec<Vec<Disc>> = vec![Vec::new(); pieces.len()];
     for part in &growth.parts {
         for &piece in part.order.iter().rev() {
@@ -123,14 +120,13 @@ fn attempt(tree: Tree, near: f64, stiffness: f64, stop: Stop) -> Result<Turning>
     Ok(turning)
 }
 
-/// The direction in which a piece ends that begins to grow at its first, or its last, station.
 fn forward_of(places: &[DVec2], is_reversed: bool) -> DVec2 {
     let last = places.len() - 1;
     let step = if is_reversed { places[0] - places[1] } else { places[last] - places[last - 1] };
     step.normalize_or(DVec2::NEG_Y)
 }
 
-/// Turns the units of pieces that begin at one place, after a piece that ends there in a direction, and returns them.
+/// Turns apart the units that begin at one point, after a piece ending there, and returns them.
 fn turn_apart(
     turning: &mut Turning,
     units: &mut [Vec<Disc>],
@@ -153,11 +149,10 @@ fn turn_apart(
         .collect()
 }
 
-/// A place where branches begin, as seen from there.
 struct Node {
-    /// The hulls beyond the place in which all may overlap: those of the branches.
+    /// The hulls of the branches beyond the radius within which all may overlap.
     branches: Vec<Hull>,
-    /// That of the piece which ends there; empty where there is none.
+    /// The hull of the piece that ends there; empty if there is none.
     parent: Hull,
     forward: DVec2,
 }
@@ -166,12 +161,12 @@ impl Node {
     fn new(branches: &[Hull], parent: Option<(Vec<Disc>, DVec2)>, near: f64) -> Self {
         let (parent, forward) = parent.map_or((Vec::new(), None), |(discs, forward)| (discs, Some(forward)));
         let all = branches.iter().map(Hull::discs).chain([parent.as_slice()]);
-        // The disc at the place itself is the first or the last one of each piece that meets it.
+        // The disc at the point itself is the first or the last one of each piece that meets it.
         let at_node = |discs: &[Disc]| {
             let here = discs.iter().filter(|disc| disc.center == DVec2::ZERO).map(|disc| disc.radius);
             here.fold(0.0, f64::max)
         };
-        let distance = near * all.map(at_node).fold(0.0, f64::max) + BEYOND_NEAR;
+        let distance = near * all.map(at_node).fold(0.0, f64::max) + OVERLAP_EXTRA_MM;
         let outer = |discs: &[Disc]| Hull::new(beyond(discs, distance));
         let branches: Vec<Hull> = branches.iter().map(|branch| outer(branch.discs())).collect();
         let middle = || {
@@ -182,7 +177,6 @@ impl Node {
         Self { branches, parent: outer(&parent), forward }
     }
 
-    /// The turns that set all sectors apart, and whether they have room beside each other.
     fn wanted_turns(&self) -> (Vec<f64>, bool) {
         let behind = Sector::of(self.parent.discs(), -self.forward).unwrap_or(Sector { low: 0.0, high: 0.0 });
         let room = Sector { low: behind.high - PI, high: PI + behind.low };
@@ -191,20 +185,20 @@ impl Node {
         let known: Vec<Sector> = sectors.iter().flatten().copied().collect();
         let has_room = known.iter().map(Sector::width).sum::<f64>() <= room.width();
         let mut found = turns(&known, room).into_iter();
-        // A branch that ends near the place has no sector, and stays.
+        // A branch that ends near the point has no sector, and stays.
         let wanted = sectors.iter().map(|sector| sector.and_then(|_| found.next()).unwrap_or(0.0));
         (wanted.collect(), has_room)
     }
 
-    /// The smallest share of turns by which nothing overlaps; all of them where nothing helps.
+    /// The smallest share of the turns without overlap; 1 if there is none.
     fn smallest_share(&self, wanted: &[f64]) -> f64 {
-        let mut shares = (0..=STEPS).map(|step| step as f64 / STEPS as f64);
+        let mut shares = (0..=TURN_STEPS).map(|step| step as f64 / TURN_STEPS as f64);
         let Some(mut enough) = shares.find(|share| self.is_apart(wanted, *share)) else { return 1.0 };
         if enough == 0.0 {
             return 0.0;
         }
-        let mut too_small = enough - 1.0 / STEPS as f64;
-        for _ in 0..HALVINGS {
+        let mut too_small = enough - 1.0 / TURN_STEPS as f64;
+        for _ in 0..BISECTIONS {
             let middle = f64::midpoint(too_small, enough);
             let half = if self.is_apart(wanted, middle) { &mut enough } else { &mut too_small };
             *half = middle;
@@ -221,7 +215,6 @@ impl Node {
         pairs.for_each(|(hull, other, angle)| hull.add_overlapping(other, angle, pieces));
     }
 
-    /// All pairs of hulls, each with the angle by which the second one is turned as seen from the first one.
     fn pairs<'a>(&'a self, wanted: &'a [f64], share: f64) -> impl Iterator<Item = (&'a Hull, &'a Hull, f64)> {
         let angles = wanted.iter().map(move |wanted| share * wanted);
         let all: Vec<(&Hull, f64)> = self.branches.iter().zip(angles).chain([(&self.parent, 0.0)]).collect();

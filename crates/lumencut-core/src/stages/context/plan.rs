@@ -4,51 +4,45 @@ use crate::camera::Camera;
 use crate::error::{Error, ErrorKind, Result};
 use crate::math::accumulate::Palette;
 use crate::math::blocks::Blocks;
-use crate::math::context_parameters::{BlockPlaces, ContextParameters};
+use crate::math::context_parameters::{BlockLayout, ContextParameters};
 use crate::math::light::Shading;
-use crate::math::ray::{MOST_SAMPLES, Rays};
+use crate::math::ray::{MAX_SAMPLES, Rays};
 use crate::math::transfer::Colors;
 use crate::settings::{Context, Settings};
 use crate::volume::Volume;
 
-/// What rays run through.
+/// The volume around the cut surface, in a view.
 #[derive(Clone, Copy)]
 pub struct Surroundings<'a> {
-    /// The view.
     pub camera: &'a Camera,
-    /// The volume.
     pub volume: &'a Volume<'a>,
-    /// What can be skipped; `None` samples everything, with the same result.
+    /// Blocks to skip; `None` samples everything, with the same result.
     pub blocks: Option<&'a Blocks>,
 }
 
-/// A number of four digits that is no smaller.
+/// Rounds up to four digits.
 fn rounded_up(number: f64) -> f64 {
     let scale = 10f64.powf(3.0 - number.log10().floor());
     (number * scale).ceil() / scale
 }
 
-/// The step where the settings name none: half a voxel's side, because colours and opacities rise within a voxel.
+/// The default step: half a voxel's side, because colours and opacities rise within a voxel.
 fn default_step(volume: &Volume, settings: &Context) -> f64 {
     volume.smallest_side() * if settings.preview { 1.0 } else { 0.5 }
 }
 
-/// The longest distance between samples (mm).
-///
-/// # Errors
-/// [`ErrorKind::Settings`] for one so small that rays would have more than 65,536 samples.
+/// The longest distance between samples (mm). Fails with `Settings` for rays of more than 65,536 samples.
 pub fn step(volume: &Volume, settings: &Context) -> Result<f64> {
     let longest = volume.longest_way();
-    let step = settings.step.unwrap_or_else(|| default_step(volume, settings).max(longest / MOST_SAMPLES));
-    if longest > MOST_SAMPLES * step {
+    let step = settings.step.unwrap_or_else(|| default_step(volume, settings).max(longest / MAX_SAMPLES));
+    if longest > MAX_SAMPLES * step {
         let found = format!("{step} mm for a volume {longest:.4} mm across");
-        let expected = format!("at least {} mm", rounded_up(longest / MOST_SAMPLES));
+        let expected = format!("at least {} mm", rounded_up(longest / MAX_SAMPLES));
         return Err(Error::new(ErrorKind::Settings, "context_step", found, expected));
     }
     Ok(step)
 }
 
-/// All that rays need whose samples are blended, prepared once.
 pub(super) struct Plan<'a> {
     pub volume: &'a Volume<'a>,
     pub blocks: Option<&'a Blocks>,
@@ -58,15 +52,14 @@ pub(super) struct Plan<'a> {
 }
 
 impl<'a> Plan<'a> {
-    /// Prepares the rays of `context`, which is that of `settings`.
-    pub fn new(
+    pub(super) fn new(
         &Surroundings { camera, volume, blocks }: &Surroundings<'a>,
         settings: &Settings,
         context: &Context,
     ) -> Result<Self> {
         let (step, colors) = (step(volume, context)?, Colors::new(&context.transfer));
-        // The CPU asks the blocks themselves where they lie.
-        let parameters = ContextParameters::new(settings, context, &colors, step, &BlockPlaces::default());
+        // The CPU finds blocks through `Blocks`.
+        let parameters = ContextParameters::new(settings, context, &colors, step, &BlockLayout::default());
         Ok(Self {
             volume,
             blocks,

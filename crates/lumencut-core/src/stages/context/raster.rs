@@ -2,12 +2,11 @@
 
 use crate::math::ray::{NONE, WHOLE};
 
-/// What a start in front of the volume counts as while the four of a square are compared: later than behind every cut
-/// surface, sooner than nowhere.
+/// A start in front of the volume in comparisons: after all cut surfaces, before nowhere.
 pub const IN_FRONT: f32 = NONE / 2.0;
 
-/// The start of each square of four pixels: the nearest behind a cut surface, so that none of them shows what lies before
-/// its own; else in front of the volume, where one of them starts there.
+/// The start of each square of four pixels: the nearest behind a cut surface, so that no pixel shows what
+/// lies before its own; else in front of the volume, if any.
 pub(super) fn coarse_starts(start: &[f32], [width, height]: [usize; 2]) -> Vec<f32> {
     let (columns, rows) = (width.div_ceil(2), height.div_ceil(2));
     let mut coarse = vec![NONE; columns * rows];
@@ -20,7 +19,6 @@ pub(super) fn coarse_starts(start: &[f32], [width, height]: [usize; 2]) -> Vec<f
     coarse.into_iter().map(|start| if (IN_FRONT..NONE).contains(&start) { WHOLE } else { start }).collect()
 }
 
-/// Gives each pixel that needs a ray what its square's ray found.
 pub(super) fn spread(coarse: &[[f32; 4]], start: &[f32], [width, _]: [usize; 2], pixels: &mut [[f32; 4]]) {
     let columns = width.div_ceil(2);
     let rows = pixels.chunks_mut(width).zip(start.chunks(width));

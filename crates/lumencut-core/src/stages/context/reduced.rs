@@ -15,7 +15,6 @@ use crate::settings::Context;
 use crate::stages::Work;
 use crate::stages::along_rays::{AlongRays, ViewRays, along_rays};
 
-/// Writes the colour of the largest, or the grey of the smallest or the mean value along the rays of a raster.
 pub(super) fn reduce_raster(
     work: &Work,
     &Surroundings { camera, volume, blocks }: &Surroundings,
@@ -25,7 +24,7 @@ pub(super) fn reduce_raster(
     pixels: &mut [[f32; 4]],
 ) -> Result<()> {
     let (colors, window) = (Colors::new(&context.transfer), Ramp::grey(context.window));
-    // Beyond the last control point the colour stays the same; below the black end of the window everything is black.
+    // The colour is constant beyond the last control point, and black below the black end of the window.
     let limit = match reduction {
         Reduction::Largest => colors.last(),
         Reduction::Smallest => window.zero(),

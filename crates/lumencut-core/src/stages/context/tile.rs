@@ -1,4 +1,4 @@
-//! Tiles of rays: the sixteen packets that are traced abreast.
+//! Tiles of rays: sixteen packets traced together.
 
 use rayon::prelude::*;
 
@@ -15,10 +15,8 @@ use crate::with_voxels;
 
 /// The size of a tile of rays (pixels).
 const TILE: [usize; 2] = [32, ROWS];
-/// The packets side by side in a tile.
 const ACROSS: usize = TILE[0] / PACKET[0];
 
-/// Traces the rays of a raster.
 pub(super) fn trace_raster(
     work: &Work,
     plan: &Plan,
@@ -32,7 +30,6 @@ pub(super) fn trace_raster(
     })
 }
 
-/// Traces the rays of a raster, tile by tile.
 fn trace_tiles(
     work: &Work,
     plan: &Plan,
@@ -54,12 +51,10 @@ fn trace_tiles(
     })
 }
 
-/// A tile of rays in the rows that it lies in.
 struct Tile<'a> {
     plan: &'a Plan<'a>,
     sampler: &'a dyn Sampler,
     raster: &'a RayGrid,
-    /// The column and the row of its first ray.
     place: [usize; 2],
     start: &'a [f32],
     pixels: &'a mut [[f32; 4]],
@@ -98,14 +93,12 @@ impl Tile<'_> {
         [column, packet / ACROSS * PACKET[1] + lane / PACKET[0]]
     }
 
-    /// Where a ray's pixel is in these rows; `None` beyond the image.
     #[inline(always)]
     fn pixel(&self, packet: usize, lane: usize) -> Option<usize> {
         let ([i, j], width) = (self.ray(packet, lane), self.raster.size[0]);
         (i < width && j * width < self.pixels.len()).then_some(j * width + i)
     }
 
-    /// The rays of one packet; those beyond the image see nothing.
     #[inline(always)]
     fn packet(&self, n: usize) -> Packet {
         let Rays { grid, index_from_view, step } = &self.plan.rays;

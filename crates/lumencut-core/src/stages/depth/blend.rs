@@ -2,9 +2,8 @@
 
 use crate::math::lanes::{PIXELS, smaller};
 
-/// The two levels that each pixel of a tile blends, and the weights of their depths.
 pub(super) struct LevelBlend {
-    /// k0, as a number that compares exactly.
+    /// k0, as a float that compares exactly.
     fine: [f32; PIXELS],
     fine_weight: [f32; PIXELS],
     /// The weight of k0 + 1; 0 where k0 = N.
@@ -28,7 +27,7 @@ impl LevelBlend {
         blend
     }
 
-    /// Bit k tells whether some pixel needs level k.
+    /// Bit k is set if a pixel needs level k.
     #[inline(always)]
     pub(super) fn needed(&self) -> u32 {
         let (mut bits, mut all) = ([0u32; PIXELS], 0);
@@ -42,7 +41,6 @@ impl LevelBlend {
         all
     }
 
-    /// The weight of level `k` at pixel `l`; 0 where it is not needed.
     #[inline(always)]
     pub(super) fn weight(&self, k: f32, l: usize) -> f32 {
         let coarse = if self.fine[l] + 1.0 == k { self.coarse_weight[l] } else { 0.0 };

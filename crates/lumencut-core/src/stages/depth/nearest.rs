@@ -1,14 +1,13 @@
-//! The paper's way: at each level the piece with the smallest key, whichever vessel it belongs to.
+//! The paper's way: at each level the piece with the smallest key, of any vessel.
 
 use super::blend::LevelBlend;
-use super::{CutSurface, FIRST, Search, Sheet, TileSurface};
+use super::{CHOSEN_GAP, CutSurface, Search, Sheet, TileSurface};
 use crate::math::decision::Decision;
 use crate::math::lanes::{FAR, PIXELS, places};
 use crate::math::pieces::Envelope;
 use crate::math::tile::Tile;
 
 impl CutSurface<'_> {
-    /// The surface over one tile, given the distances to the nearest vessel.
     #[inline(always)]
     pub(super) fn nearest_surface<const LUMEN_FIRST: bool>(
         &self,
@@ -19,7 +18,7 @@ impl CutSurface<'_> {
     ) -> TileSurface {
         let blend = LevelBlend::select(self.selection, self.projected.len() - 1, distance);
         let (mut depth, mut vessel) = ([0.0; PIXELS], [0; PIXELS]);
-        // The slot that rules each pixel, in the level it belongs to: the one with the larger weight.
+        // For each pixel the slot with the larger weight, and its level.
         let (mut slot, mut ruling_level, mut ruling_weight) = ([0; PIXELS], [0; PIXELS], [0.0; PIXELS]);
         let mut sheets = BlendedSheets::new();
         // Finest first: the coarse term is added to the fine one, and a tie stays with the finer level.
@@ -52,7 +51,6 @@ impl CutSurface<'_> {
     }
 }
 
-/// The sheets of a tile, from the winners of each level.
 struct BlendedSheets {
     sheet: [Sheet; PIXELS],
     /// Vessel and arc length (mm) of the finer of two levels; vessel −1 before it is known.
@@ -65,7 +63,6 @@ impl BlendedSheets {
         Self { sheet: [[0.0; 4]; PIXELS], finer: [(-1, 0.0); PIXELS] }
     }
 
-    /// Adds what was found at a level, finest first.
     #[inline(always)]
     fn add(&mut self, weight: &[f32; PIXELS], found: &Decision) {
         for l in 0..PIXELS {
@@ -73,13 +70,13 @@ impl BlendedSheets {
                 let [x, y, radius, gap] = &mut self.sheet[l];
                 *x += weight[l] * found.slope[0][l];
                 *y += weight[l] * found.slope[1][l];
-                // Lumen is what every level that is blended shows as lumen.
+                // Lumen is what every blended level shows as lumen.
                 let (is_beside, part) = ((*radius < 0.0) | !found.is_lumen[l], weight[l] * found.radius[l]);
                 *radius = if is_beside { -(radius.abs() + part) } else { *radius + part };
                 let (vessel, s) = self.finer[l];
                 let is_first = found.is_first[l] & ((vessel < 0) | (*gap < 0.0));
                 if is_first {
-                    *gap = FIRST;
+                    *gap = CHOSEN_GAP;
                 } else if vessel >= 0 {
                     let same = vessel == found.vessel[l];
                     *gap = if same { (found.arc_length[l] - s).abs() } else { FAR };

@@ -1,7 +1,7 @@
-//! One decision: the winner on the finest level decides the vessel; the levels are those of that vessel alone.
+//! One decision: the winner on the finest level decides the vessel; only its levels are blended.
 
 use super::blend::LevelBlend;
-use super::{CutSurface, FIRST, Search, TileSurface};
+use super::{CHOSEN_GAP, CutSurface, Search, TileSurface};
 use crate::math::decision::Decision;
 use crate::math::lanes::{PART_PIXELS, PIXELS, places};
 use crate::math::own_pieces::NearestPieces;
@@ -9,7 +9,6 @@ use crate::math::pieces::Envelope;
 use crate::math::tile::Tile;
 
 impl CutSurface<'_> {
-    /// The surface over one tile.
     #[inline(always)]
     pub(super) fn own<const LUMEN_FIRST: bool, const SHEET: bool>(
         &self,
@@ -39,7 +38,7 @@ impl CutSurface<'_> {
         let mut sheet = [[0.0; 4]; PIXELS];
         if SHEET {
             for l in 0..PIXELS {
-                let gap = if decision.is_first[l] { FIRST } else { sum.gap(l) };
+                let gap = if decision.is_first[l] { CHOSEN_GAP } else { sum.gap(l) };
                 sheet[l] = [sum.slope[0][l], sum.slope[1][l], decision.sheet_radius(l), gap];
             }
         }
@@ -47,18 +46,16 @@ impl CutSurface<'_> {
     }
 }
 
-/// The blend of two levels so far.
 struct Sum {
     depth: [f32; PIXELS],
     slope: [[f32; PIXELS]; 2],
-    /// Where along the vessel the finer and the coarser level lie, from the winner on (mm).
+    /// Arc length of the finer and the coarser level relative to the winner (mm).
     finer: [f32; PIXELS],
     coarser: [f32; PIXELS],
     has_any: [bool; PIXELS],
 }
 
 impl Sum {
-    /// The finest level by its weights, which is that of the winners themselves.
     #[inline(always)]
     fn of_winners(blend: &LevelBlend, winners: &Envelope, decision: &Decision) -> Self {
         let zero = [0.0; PIXELS];
@@ -74,7 +71,6 @@ impl Sum {
         sum
     }
 
-    /// Adds a coarser level by its weights in part `p`.
     #[inline(always)]
     fn add<const SHEET: bool>(&mut self, p: usize, weight: &[f32; PART_PIXELS], nearest: &NearestPieces) {
         let depth = &mut self.depth.as_chunks_mut::<PART_PIXELS>().0[p];
@@ -95,7 +91,6 @@ impl Sum {
         }
     }
 
-    /// The gap along the vessel between the two levels in a pixel (mm).
     #[inline(always)]
     fn gap(&self, l: usize) -> f32 {
         (self.coarser[l] - self.finer[l]).abs()

@@ -1,46 +1,41 @@
-//! The lines of leaps: each lies on one side of its leap, and never in a lumen that goes on.
+//! The lines of leaps: each lies on one side of its leap, and never in a lumen that continues.
 
 use crate::math::lanes::FAN;
 use crate::math::leaps::{DOWNWARDS, LEAPS, LINE_DOWNWARDS, LINE_TO_THE_RIGHT, LUMEN, TO_THE_RIGHT};
 
 /// A pixel, or a step from one to another: to the right, downwards.
-type Place = [isize; 2];
+type PixelStep = [isize; 2];
 
-/// The steps to the four neighbours.
-const STEPS: [Place; 4] = [[1, 0], [-1, 0], [0, 1], [0, -1]];
+const STEPS: [PixelStep; 4] = [[1, 0], [-1, 0], [0, 1], [0, -1]];
 
-/// The leaps of a view and how wide their lines are.
 pub(super) struct LeapLines<'a> {
     leap: &'a [u32],
-    /// The values on the surface, NaN where it shows nothing; none where all of it counts as shown.
+    /// The values on the surface, NaN where it shows nothing; empty if all of it counts as shown.
     value: &'a [f32],
-    size: Place,
-    /// How wide a line is (pixels), at least one.
+    size: PixelStep,
+    /// Width of a line (pixels), at least 1.
     line_width: f32,
     /// The most of a pixel that a line covers.
     most: f32,
-    /// How far from a pixel the leaps lie whose lines can cover it (pixels).
+    /// The largest distance between a pixel and the leaps whose lines can cover it (pixels).
     reach: isize,
 }
 
-/// The border between a pixel and a neighbour.
 struct Border {
     is_leap: bool,
-    /// Whether the line of the leap lies in the pixel.
     has_line: bool,
 }
 
 impl<'a> LeapLines<'a> {
-    pub fn new(leap: &'a [u32], value: &'a [f32], width: usize, line_width: f32) -> Self {
+    pub(super) fn new(leap: &'a [u32], value: &'a [f32], width: usize, line_width: f32) -> Self {
         let size = [width as isize, (leap.len() / width) as isize];
         let most = line_width.min(1.0);
-        // A line narrower than a pixel is one of a pixel, only fainter.
+        // A line narrower than a pixel is drawn one pixel wide, only fainter.
         let line_width = line_width.max(1.0);
         Self { leap, value, size, line_width, most, reach: line_width.ceil() as isize }
     }
 
-    /// Writes how much of each pixel of a row the lines cover.
-    pub fn fill_row(&self, row: usize, strength: &mut [f32]) {
+    pub(super) fn fill_row(&self, row: usize, strength: &mut [f32]) {
         for (n, strength) in strength.chunks_mut(FAN).enumerate() {
             let [i, j] = [(n * FAN) as isize, row as isize];
             if !self.has_leaps_near(i, j) {
@@ -69,10 +64,9 @@ impl<'a> LeapLines<'a> {
         })
     }
 
-    /// How much of a pixel of a lumen the lines cover: only straight across from a leap to another lumen, at which the
-    /// pixel's own lumen ends.
-    fn cover_of_lumen(&self, here: Place) -> f32 {
-        let ends = |at: Place, step| {
+    /// Lines cover a lumen only straight across from a leap to another lumen, where it ends.
+    fn cover_of_lumen(&self, here: PixelStep) -> f32 {
+        let ends = |at: PixelStep, step| {
             let beyond = ahead(at, step);
             self.border(at, step).has_line && self.is_lumen(at) && self.is_lumen(beyond)
         };
@@ -87,9 +81,9 @@ impl<'a> LeapLines<'a> {
         cover
     }
 
-    /// How much of a pixel beside all lumens the lines cover: by its distance to the nearest leap on whose line's side it
-    /// lies; nothing where the pixel itself is the other side of a leap.
-    fn cover_beside_lumen(&self, here: Place) -> f32 {
+    /// Lines cover the outside by the distance to the nearest leap on their side, unless the pixel is the
+    /// other side of a leap.
+    fn cover_beside_lumen(&self, here: PixelStep) -> f32 {
         let mut leaps = STEPS.into_iter().filter(|step| self.border(here, *step).is_leap).peekable();
         if leaps.peek().is_some() && !leaps.any(|step| self.shows_line(here, step)) {
             return 0.0;
@@ -111,8 +105,8 @@ impl<'a> LeapLines<'a> {
         cover
     }
 
-    /// Whether the line of the leap from a pixel to the neighbour a step away is shown on one side of it, beyond it or not.
-    fn shows_line_of(&self, owner: Place, step: Place, beyond: bool) -> bool {
+    /// Whether the line of the leap from a pixel to a neighbour is shown on one side of it, beyond it or not.
+    fn shows_line_of(&self, owner: PixelStep, step: PixelStep, beyond: bool) -> bool {
         if beyond {
             self.shows_line(ahead(owner, step), [-step[0], -step[1]])
         } else {
@@ -120,20 +114,19 @@ impl<'a> LeapLines<'a> {
         }
     }
 
-    /// Whether the line of the leap to a neighbour is shown in a pixel: it lies there, or it would lie where nothing is shown
-    /// and there is no lumen here.
-    fn shows_line(&self, here: Place, step: Place) -> bool {
+    /// A pixel shows a leap's line that lies in it, or whose own pixel shows nothing while this one is no
+    /// lumen.
+    fn shows_line(&self, here: PixelStep, step: PixelStep) -> bool {
         let may_lie_here = !(self.is_lumen(here) || self.is_shown(ahead(here, step)));
         self.is_shown(here) && (self.border(here, step).has_line || may_lie_here)
     }
 
-    /// How much of a pixel a line covers whose leap has its middle this far from that of the pixel (pixels).
+    /// How much of a pixel a line covers, by the offset between its leap and the pixel (pixels).
     fn cover_at(&self, x: f32, y: f32) -> f32 {
         self.most * (self.line_width + 0.5 - (x * x + y * y).sqrt()).clamp(0.0, 1.0)
     }
 
-    /// The border between a pixel and the neighbour one of the [`STEPS`] away.
-    fn border(&self, here: Place, step: Place) -> Border {
+    fn border(&self, here: PixelStep, step: PixelStep) -> Border {
         let (bit, line) =
             if step[1] == 0 { (TO_THE_RIGHT, LINE_TO_THE_RIGHT) } else { (DOWNWARDS, LINE_DOWNWARDS) };
         let is_owner = step[0] + step[1] > 0;
@@ -142,23 +135,20 @@ impl<'a> LeapLines<'a> {
         Border { is_leap, has_line: is_leap && (bits & line == 0) == is_owner }
     }
 
-    fn is_lumen(&self, here: Place) -> bool {
+    fn is_lumen(&self, here: PixelStep) -> bool {
         self.bits(here) & LUMEN != 0
     }
 
-    /// Whether a pixel of the image shows anything.
-    fn is_shown(&self, [i, j]: Place) -> bool {
+    fn is_shown(&self, [i, j]: PixelStep) -> bool {
         self.value.is_empty() || !self.value[(j * self.size[0] + i) as usize].is_nan()
     }
 
-    /// The bits of a pixel; none beyond the image.
-    fn bits(&self, [i, j]: Place) -> u32 {
+    fn bits(&self, [i, j]: PixelStep) -> u32 {
         let is_inside = (0..self.size[0]).contains(&i) && (0..self.size[1]).contains(&j);
         if is_inside { self.leap[(j * self.size[0] + i) as usize] } else { 0 }
     }
 }
 
-/// One step on.
-fn ahead([i, j]: Place, [right, down]: Place) -> Place {
+fn ahead([i, j]: PixelStep, [right, down]: PixelStep) -> PixelStep {
     [i + right, j + down]
 }

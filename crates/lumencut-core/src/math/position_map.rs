@@ -1,30 +1,27 @@
-//! Values at places, found again by a place near them: such as the ends of vessels.
+//! A map whose values are found from any position near the stored one, such as vessel ends.
 
 use std::collections::HashMap;
 
 use glam::DVec3;
 
-/// Values at places.
 #[derive(Clone, Debug)]
-pub struct PlaceMap<T> {
+pub(crate) struct PositionMap<T> {
     cells: HashMap<[i64; 3], Vec<(DVec3, T)>>,
-    /// A place no farther away (mm) is the same.
+    /// Positions no farther apart than this (mm) are equal.
     within: f64,
 }
 
-impl<T: Clone> PlaceMap<T> {
-    /// A map without places, in which a place no farther than `within` (mm) from another one is the same.
-    pub fn new(within: f64) -> Self {
+impl<T: Clone> PositionMap<T> {
+    pub(crate) fn new(within: f64) -> Self {
         Self { cells: HashMap::new(), within }
     }
 
-    /// Cells of ten times the distance within which places are the same: around most places all lies in one of them.
+    /// Cells are ten times wider than `within`, so most positions touch only one of them.
     fn cell(&self, place: DVec3) -> [i64; 3] {
         (place / (10.0 * self.within)).floor().as_i64vec3().to_array()
     }
 
-    /// Writes a value into every cell that holds places which are the same.
-    pub fn add(&mut self, place: DVec3, value: &T) {
+    pub(crate) fn add(&mut self, place: DVec3, value: &T) {
         let (low, high) = (self.cell(place - self.within), self.cell(place + self.within));
         for (x, y) in (low[0]..=high[0]).flat_map(|x| (low[1]..=high[1]).map(move |y| (x, y))) {
             for z in low[2]..=high[2] {
@@ -33,8 +30,7 @@ impl<T: Clone> PlaceMap<T> {
         }
     }
 
-    /// The value at a place, that which was added first where there are several.
-    pub fn at(&self, place: DVec3) -> Option<&T> {
+    pub(crate) fn at(&self, place: DVec3) -> Option<&T> {
         let near = self.cells.get(&self.cell(place))?;
         near.iter().find(|(known, _)| known.distance(place) <= self.within).map(|(_, value)| value)
     }
@@ -46,7 +42,7 @@ mod tests {
 
     #[test]
     fn places_are_found_within_their_distance_across_cells_too() {
-        let mut map = PlaceMap::new(0.1);
+        let mut map = PositionMap::new(0.1);
         map.add(DVec3::new(0.0, 1.0, -2.0), &1);
         map.add(DVec3::new(0.05, 1.0, -2.0), &2);
         for (x, found) in [(-0.09, Some(&1)), (0.09, Some(&1)), (0.14, Some(&2)), (-0.11, None), (0.16, None)]
