@@ -91,7 +91,7 @@ type NamedVessel<'py> = (VesselArrays<'py>, Option<String>);
 /// What is doubtful about vessels: the order of the points of each, and with `beside` also those that lie side by side.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
-pub fn line_doubts<'py>(
+pub(crate) fn line_doubts<'py>(
     py: Python<'py>,
     vessels: Vec<NamedVessel<'py>>,
     beside: bool,
@@ -114,7 +114,7 @@ pub fn line_doubts<'py>(
 }
 
 /// The exception that stands for an error of a file.
-pub fn raised(error: Error) -> PyErr {
+pub(crate) fn raised(error: Error) -> PyErr {
     let Error { subject, found, expected, mend, mended_by } = error;
     let mended_by = mended_by.map(|mend| Mend::from(*mend));
     mended("FormatError", [&subject, &found, &expected, &mend], mended_by.as_ref())

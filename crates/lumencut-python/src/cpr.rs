@@ -122,7 +122,7 @@ impl Cpr {
 /// The picture, shape (H, W, 4), of values (H, W) in the window and opacity of the settings.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
-pub fn picture<'py>(
+pub(crate) fn picture<'py>(
     py: Python<'py>,
     value: PyReadonlyArray2<'py, f32>,
     settings: &Bound<'py, Checked>,
@@ -137,12 +137,12 @@ pub fn picture<'py>(
 /// The level and width in which a feature of CFA is shown, by its name and level, where the volume is shown in those given.
 #[pyfunction]
 #[pyo3(signature = (feature, level, window))]
-pub fn feature_window(feature: &str, level: Option<f64>, window: [f64; 2]) -> PyResult<[f64; 2]> {
+pub(crate) fn feature_window(feature: &str, level: Option<f64>, window: [f64; 2]) -> PyResult<[f64; 2]> {
     Feature::named(feature, level).map(|feature| feature.window(window)).map_err(to_python)
 }
 
 /// The letters of the sides that the mark of a straightened volume states, and what its readers must know; None for another text.
 #[pyfunction]
-pub fn straightened_mark(text: &str) -> Option<(String, Vec<String>)> {
+pub(crate) fn straightened_mark(text: &str) -> Option<(String, Vec<String>)> {
     StraightenedSides::read(text).map(|sides| (sides.letters().to_owned(), sides.notes()))
 }

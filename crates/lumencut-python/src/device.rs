@@ -6,7 +6,7 @@ use pyo3::types::PyDict;
 
 /// The GPUs of this machine, the ones to take first in front, as dictionaries.
 #[pyfunction]
-pub fn devices(py: Python<'_>) -> PyResult<Vec<Bound<'_, PyDict>>> {
+pub(crate) fn devices(py: Python<'_>) -> PyResult<Vec<Bound<'_, PyDict>>> {
     let found = py.detach(|| pollster::block_on(found_devices()));
     let described = found.into_iter().map(|device| {
         let fields = PyDict::new(py);

@@ -26,7 +26,7 @@ type FoundParts<'py> = (Vec<FoundArrays<'py>>, Vec<Vec<usize>>, Vec<String>);
 #[pyfunction]
 #[pyo3(signature = (volume, smallest_radius, told=None))]
 #[allow(clippy::needless_pass_by_value)]
-pub fn find_vessels<'py>(
+pub(crate) fn find_vessels<'py>(
     py: Python<'py>,
     volume: VolumeArgument<'py>,
     smallest_radius: f64,
@@ -42,7 +42,7 @@ pub fn find_vessels<'py>(
 #[pyfunction]
 #[pyo3(signature = (volume, seed, smallest_radius, told=None))]
 #[allow(clippy::needless_pass_by_value)]
-pub fn trace_from<'py>(
+pub(crate) fn trace_from<'py>(
     py: Python<'py>,
     volume: VolumeArgument<'py>,
     seed: [f64; 3],

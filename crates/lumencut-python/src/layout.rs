@@ -78,6 +78,6 @@ impl Layout {
 }
 
 /// The numbers of points, one after the other.
-pub fn numbers_of<'py>(py: Python<'py>, points: &[DVec3]) -> Bound<'py, PyArray1<f64>> {
+pub(crate) fn numbers_of<'py>(py: Python<'py>, points: &[DVec3]) -> Bound<'py, PyArray1<f64>> {
     PyArray1::from_vec(py, points.iter().flat_map(DVec3::to_array).collect())
 }

@@ -11,7 +11,7 @@ use crate::tree::{flat_arrays, points_of};
 
 /// Points (n, 3), radii (n,), confidence (n,) and which points were bridged (n,) of one vessel.
 #[derive(FromPyObject)]
-pub struct LineArrays<'py>(
+pub(crate) struct LineArrays<'py>(
     PyReadonlyArray2<'py, f64>,
     Option<PyReadonlyArray1<'py, f64>>,
     Option<PyReadonlyArray1<'py, f64>>,
@@ -41,7 +41,7 @@ impl LineArrays<'_> {
 /// Both parts of a vessel that is cut at an arc length (mm).
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
-pub fn cut<'py>(py: Python<'py>, vessel: LineArrays<'py>, at: f64) -> PyResult<Vec<NewLineArrays<'py>>> {
+pub(crate) fn cut<'py>(py: Python<'py>, vessel: LineArrays<'py>, at: f64) -> PyResult<Vec<NewLineArrays<'py>>> {
     let parts = line_edits::cut(&vessel.line()?, at).map_err(to_python)?;
     parts.iter().map(|part| arrays(py, part)).collect()
 }
@@ -49,7 +49,7 @@ pub fn cut<'py>(py: Python<'py>, vessel: LineArrays<'py>, at: f64) -> PyResult<V
 /// Two vessels as one, joined at the ends that are nearest to each other.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
-pub fn join<'py>(
+pub(crate) fn join<'py>(
     py: Python<'py>,
     first: LineArrays<'py>,
     second: LineArrays<'py>,
@@ -60,7 +60,7 @@ pub fn join<'py>(
 /// The name of the second part of a vessel that is cut, beside names that are taken.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
-pub fn part_name(taken: Vec<String>, whole: &str) -> String {
+pub(crate) fn part_name(taken: Vec<String>, whole: &str) -> String {
     names::part_name(&taken, whole)
 }
 

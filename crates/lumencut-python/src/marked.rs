@@ -11,7 +11,7 @@ use crate::measuring::{Profile, Stenosis};
 
 /// The attributes of `lumencut.measured_vessel.Marked`.
 #[derive(FromPyObject)]
-pub struct MarkedParts {
+pub(crate) struct MarkedParts {
     at: Option<f64>,
     references: Vec<f64>,
     method: String,
@@ -23,7 +23,7 @@ pub struct MarkedParts {
 
 impl MarkedParts {
     /// The same for the facade.
-    pub fn marked(&self) -> PyResult<Marked> {
+    pub(crate) fn marked(&self) -> PyResult<Marked> {
         let method = Method::named("method of the stenosis", &self.method).map_err(to_python)?;
         let territory = self.group.as_ref().map(|name| Territory::named("vessel of the group", name));
         let compared = Compared {
@@ -70,6 +70,6 @@ impl Grade {
 /// What is told of the place that a reader marked on a vessel; None where nothing is marked.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
-pub fn grade(profile: &Profile, marked: MarkedParts) -> PyResult<Option<Grade>> {
+pub(crate) fn grade(profile: &Profile, marked: MarkedParts) -> PyResult<Option<Grade>> {
     Ok(marked.marked()?.grade(&profile.0).map(Grade))
 }

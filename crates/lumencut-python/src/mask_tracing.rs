@@ -35,7 +35,7 @@ type GapParts = (f64, (usize, usize), (Place, Place), bool);
 /// The connections between two lines of points (n, 3), (m, 3) as indices of their points, shape (n + m - 1, 2).
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
-pub fn correspondence<'py>(
+pub(crate) fn correspondence<'py>(
     py: Python<'py>,
     first: PyReadonlyArray2<'py, f64>,
     second: PyReadonlyArray2<'py, f64>,
@@ -55,7 +55,7 @@ type PlaceParts = ([usize; 3], [bool; 3], [usize; 3], String);
 
 /// The place of a mask among the voxels of its volume, none where it has their grid and need not be placed.
 #[pyfunction]
-pub fn place_mask(mask: GridParts, volume: GridParts, always: bool) -> PyResult<Option<PlaceParts>> {
+pub(crate) fn place_mask(mask: GridParts, volume: GridParts, always: bool) -> PyResult<Option<PlaceParts>> {
     let [own, every] = [mask, volume].map(|(size, rows)| {
         let column = |axis: usize| DVec3::from_array(rows.map(|row| row[axis]));
         let matrix3 = DMat3::from_cols(column(0), column(1), column(2));
@@ -70,7 +70,7 @@ pub fn place_mask(mask: GridParts, volume: GridParts, always: bool) -> PyResult<
 #[pyfunction]
 #[pyo3(signature = (mask, volume, labels, lengths, told=None))]
 #[allow(clippy::needless_pass_by_value)]
-pub fn trace_mask<'py>(
+pub(crate) fn trace_mask<'py>(
     py: Python<'py>,
     mask: VolumeArgument<'py>,
     volume: Option<VolumeArgument<'py>>,

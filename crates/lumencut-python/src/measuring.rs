@@ -36,7 +36,7 @@ use crate::watching::told_while;
 
 /// The flags of sections (name, bit, word, meaning, and the colours on paper and on a dark screen of each), the methods of
 /// stenoses and views with their words, and defaults.
-pub fn add_names(module: &Bound<'_, PyModule>) -> PyResult<()> {
+pub(crate) fn add_names(module: &Bound<'_, PyModule>) -> PyResult<()> {
     let row = |flag: &FlagLook| (flag.name, flag.bit, flag.word, flag.meaning, flag.paper, flag.screen);
     module.add("MEASURING_FLAGS", FLAGS.iter().map(row).collect::<Vec<_>>())?;
     let word = |(name, method): &(&'static str, Method)| (*name, measure_words::of_method(*method));
@@ -66,7 +66,7 @@ pub struct Profile(pub Arc<profile::Profile>, pub ScanDetails);
 #[pyfunction]
 #[pyo3(signature = (volume, measured, step, fwhm=None, tree=None, wall=None, told=None, progress=None))]
 #[allow(clippy::needless_pass_by_value, clippy::too_many_arguments)]
-pub fn measure<'py>(
+pub(crate) fn measure<'py>(
     py: Python<'py>,
     volume: VolumeArgument<'py>,
     measured: VesselArrays<'py>,
@@ -330,7 +330,7 @@ type SectionParts<'py> = (Bound<'py, PyArray2<f32>>, Bound<'py, PyArray3<f64>>, 
 #[pyfunction]
 #[pyo3(signature = (volume, measured, at, image, profile=None))]
 #[allow(clippy::needless_pass_by_value)]
-pub fn cross_section<'py>(
+pub(crate) fn cross_section<'py>(
     py: Python<'py>,
     volume: VolumeArgument<'py>,
     measured: VesselArrays<'py>,
@@ -359,7 +359,7 @@ type RadiusParts<'py> = (Option<Bound<'py, PyArray1<f64>>>, usize, usize);
 #[pyfunction]
 #[pyo3(signature = (volume, vessels, step, fwhm=None, wall=None, told=None))]
 #[allow(clippy::needless_pass_by_value)]
-pub fn measured_radii<'py>(
+pub(crate) fn measured_radii<'py>(
     py: Python<'py>,
     volume: VolumeArgument<'py>,
     vessels: Vec<VesselArrays<'py>>,

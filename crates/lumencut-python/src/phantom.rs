@@ -12,7 +12,7 @@ use crate::watching::computed;
 /// The phantom called `name`; `percent` is read by the stenosis alone, `seed` and `scale` by the workloads.
 #[pyfunction]
 #[pyo3(signature = (name, *, percent = 50.0, seed = 0, scale = 1.0))]
-pub fn make_phantom<'py>(
+pub(crate) fn make_phantom<'py>(
     py: Python<'py>,
     name: &str,
     percent: f64,

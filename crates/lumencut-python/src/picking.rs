@@ -18,7 +18,7 @@ use crate::volume::VolumeArgument;
 /// The brightest place (mm, LPS) on the ray of a pixel (column, row), between two depths (mm).
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
-pub fn brightest(
+pub(crate) fn brightest(
     py: Python<'_>,
     volume: VolumeArgument<'_>,
     camera: CameraArgument,
@@ -36,7 +36,7 @@ pub fn brightest(
 /// of this side (mm).
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
-pub fn meant_place(vessel: VesselArrays<'_>, point: [f64; 3], pixel_spacing: f64) -> PyResult<(f64, bool)> {
+pub(crate) fn meant_place(vessel: VesselArrays<'_>, point: [f64; 3], pixel_spacing: f64) -> PyResult<(f64, bool)> {
     let (vessel, point) = (tree::vessel(&vessel)?, DVec3::from_array(point));
     let at = meant_vessel::nearest_arc_length(&vessel, point);
     Ok((at, meant_vessel::is_meant(&vessel, point, pixel_spacing)))
@@ -45,7 +45,7 @@ pub fn meant_place(vessel: VesselArrays<'_>, point: [f64; 3], pixel_spacing: f64
 /// Whether the pixel (column, row) of a view of a renderer shows the cut surface rather than what a focus leaves around it.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
-pub fn shows_cut(
+pub(crate) fn shows_cut(
     renderer: &Bound<'_, Renderer>,
     volume: VolumeArgument<'_>,
     camera: CameraArgument,

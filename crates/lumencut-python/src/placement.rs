@@ -17,7 +17,7 @@ use crate::tree::points_of;
 use crate::volume::{GridArgument, VolumeArgument};
 
 /// A space by its name.
-pub struct SpaceArgument(Space);
+pub(crate) struct SpaceArgument(Space);
 
 impl FromPyObject<'_, '_> for SpaceArgument {
     type Error = PyErr;
@@ -30,7 +30,7 @@ impl FromPyObject<'_, '_> for SpaceArgument {
 }
 
 /// A unit by its name.
-pub struct UnitArgument(Unit);
+pub(crate) struct UnitArgument(Unit);
 
 impl FromPyObject<'_, '_> for UnitArgument {
     type Error = PyErr;
@@ -44,7 +44,7 @@ impl FromPyObject<'_, '_> for UnitArgument {
 
 /// What is known of a file's coordinates: what the caller asks for, and the attributes of `lumencut.placement.Stated`.
 #[derive(FromPyObject)]
-pub struct KnownArgument {
+pub(crate) struct KnownArgument {
     #[pyo3(item)]
     asked_space: Option<SpaceArgument>,
     #[pyo3(item)]
@@ -70,7 +70,7 @@ impl KnownArgument {
 }
 
 /// Millimetres per unit, what brings each space to LPS, and the extents (mm) that pass for vessels of a body.
-pub fn add_names(module: &Bound<'_, PyModule>) -> PyResult<()> {
+pub(crate) fn add_names(module: &Bound<'_, PyModule>) -> PyResult<()> {
     let (units, spaces) = (PyDict::new(module.py()), PyDict::new(module.py()));
     for unit in Unit::ALL {
         units.set_item(unit.name(), unit.in_mm())?;
@@ -107,7 +107,7 @@ fn judged<T: Send>(
 #[pyfunction]
 #[pyo3(signature = (subject, points, radii, known, volume))]
 #[allow(clippy::needless_pass_by_value)]
-pub fn placement<'py>(
+pub(crate) fn placement<'py>(
     py: Python<'py>,
     subject: &str,
     points: PyReadonlyArray2<'py, f64>,
@@ -152,7 +152,7 @@ type Better = (String, (&'static str, &'static str));
 /// into a volume, or that look like lumen in another space alone; and the place that fits, where they were read as LPS in mm.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
-pub fn better_place(
+pub(crate) fn better_place(
     py: Python<'_>,
     points: PyReadonlyArray2<'_, f64>,
     radii: PyReadonlyArray1<'_, f64>,
@@ -166,7 +166,7 @@ pub fn better_place(
 /// Whether points (n, 3) (mm, LPS) miss a volume in whatever space and unit they might be meant.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
-pub fn fits_nowhere(
+pub(crate) fn fits_nowhere(
     py: Python<'_>,
     points: PyReadonlyArray2<'_, f64>,
     volume: GridArgument,

@@ -22,18 +22,18 @@ static WANTED: AtomicUsize = AtomicUsize::new(0);
 
 /// From now on this number of threads computes; 0 stands for as many as the processor runs at once.
 #[pyfunction]
-pub fn set_threads(count: usize) {
+pub(crate) fn set_threads(count: usize) {
     WANTED.store(count, Ordering::Relaxed);
 }
 
 /// How many threads compute.
 #[pyfunction]
-pub fn threads() -> PyResult<usize> {
+pub(crate) fn threads() -> PyResult<usize> {
     pool().map(|pool| pool.current_num_threads())
 }
 
 /// Runs `work` on the threads of this process.
-pub fn install<T: Send>(work: impl FnOnce() -> T + Send) -> PyResult<T> {
+pub(crate) fn install<T: Send>(work: impl FnOnce() -> T + Send) -> PyResult<T> {
     let pool = pool()?;
     Ok(pool.install(work))
 }

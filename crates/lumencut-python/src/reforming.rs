@@ -13,7 +13,7 @@ use crate::errors::to_python;
 /// `spiral by angle`, and `map` by the radius at which its columns are true (mm).
 #[pyfunction]
 #[pyo3(signature = (reformation, number=0.0))]
-pub fn axes_words(reformation: &str, number: f64) -> PyResult<String> {
+pub(crate) fn axes_words(reformation: &str, number: f64) -> PyResult<String> {
     let axes = match reformation {
         "untangled" => Axes::Untangled,
         "uncurled" => Axes::Uncurled(number),
@@ -32,7 +32,7 @@ pub fn axes_words(reformation: &str, number: f64) -> PyResult<String> {
 /// The colours (RGBA) of values (H, W) between two ends; transparent where they are not finite.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
-pub fn coloured<'py>(
+pub(crate) fn coloured<'py>(
     py: Python<'py>,
     value: PyReadonlyArray2<'py, f32>,
     ends: [f64; 2],
@@ -49,20 +49,20 @@ pub fn coloured<'py>(
 /// The value (mm) at which colours of lengths (H, W) end.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
-pub fn scale_end(value: PyReadonlyArray2<'_, f32>) -> f64 {
+pub(crate) fn scale_end(value: PyReadonlyArray2<'_, f32>) -> f64 {
     let values: Vec<f32> = value.as_array().iter().copied().collect();
     value_colours::scale_end(&values)
 }
 
 /// How far from a vessel the windings of a spiral CPR reach (mm), by its largest radius (mm).
 #[pyfunction]
-pub fn spiral_reach(largest: f64) -> f64 {
+pub(crate) fn spiral_reach(largest: f64) -> f64 {
     spiral_lengths::spiral_reach(largest)
 }
 
 /// The pitch of a spiral CPR (mm), by the usual radius, the smallest side of a voxel, the radius that it reaches, the side of a pixel
 /// (mm), and the most columns.
 #[pyfunction]
-pub fn spiral_pitch(usual: f64, smallest_side: f64, radius: f64, pixel_spacing: f64, columns: f64) -> f64 {
+pub(crate) fn spiral_pitch(usual: f64, smallest_side: f64, radius: f64, pixel_spacing: f64, columns: f64) -> f64 {
     spiral_lengths::spiral_pitch(usual, smallest_side, Room { radius, pixel_spacing, columns })
 }

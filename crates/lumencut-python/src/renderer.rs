@@ -246,7 +246,7 @@ fn places(layout: &dyn lumencut::reformations::Layout, stop: Stop<'_>) -> lumenc
 
 /// A method by its name and its numbers: ("mpcpr",), or ("cr", radius offset, arc-length threshold) in pixels.
 #[derive(FromPyObject)]
-pub enum MethodArgument {
+pub(crate) enum MethodArgument {
     Cr(String, f64, f64),
     Plain((String,)),
 }

@@ -22,7 +22,7 @@ fn marks(places: &[PlaceParts]) -> Vec<ReportMark> {
 /// A vessel with its places, its straightened picture (PNG in base64, columns and rows, mm) and the pictures of its sections.
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
-pub struct PageParts {
+pub(crate) struct PageParts {
     measured: MeasuredParts,
     places: Vec<PlaceParts>,
     strip: (String, [usize; 2], f64),
@@ -33,7 +33,7 @@ pub struct PageParts {
 /// the sections and the side of their pictures (mm).
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
-pub fn report_plan(profile: &Profile, places: Vec<PlaceParts>) -> (f64, f64, Vec<f64>, f64) {
+pub(crate) fn report_plan(profile: &Profile, places: Vec<PlaceParts>) -> (f64, f64, Vec<f64>, f64) {
     let Plan { width, spacing, places, side } = report::plan(&profile.0, &marks(&places));
     (width, spacing, places.iter().map(|place| place.at).collect(), side)
 }
@@ -53,7 +53,7 @@ fn page(parts: &PageParts) -> VesselPage<'_> {
 /// The report as HTML, from the options that vessels were measured by, and level and width of the window of pictures.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
-pub fn report_html(options: Options, window: [f64; 2], pages: Vec<PageParts>) -> PyResult<String> {
+pub(crate) fn report_html(options: Options, window: [f64; 2], pages: Vec<PageParts>) -> PyResult<String> {
     let shown = Shown {
         scan: None,
         saved: None,

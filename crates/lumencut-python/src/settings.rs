@@ -56,7 +56,7 @@ fn plain(py: Python<'_>, default: Value) -> PyResult<Py<PyAny>> {
 }
 
 /// Adds the table of settings, by name, to the module, in what the paper's rules differ from the defaults, and what looks choose.
-pub fn add_table(module: &Bound<'_, PyModule>) -> PyResult<()> {
+pub(crate) fn add_table(module: &Bound<'_, PyModule>) -> PyResult<()> {
     let rows = PyDict::new(module.py());
     for setting in table() {
         rows.set_item(setting.name, Row::new(module.py(), setting)?)?;

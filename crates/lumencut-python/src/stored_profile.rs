@@ -30,7 +30,7 @@ type Given<'py> = (
 
 /// A profile as plain values.
 #[pyfunction]
-pub fn stored_profile<'py>(py: Python<'py>, profile: &Profile) -> Stored<'py> {
+pub(crate) fn stored_profile<'py>(py: Python<'py>, profile: &Profile) -> Stored<'py> {
     let StoredProfile { columns, flags, fwhm_source, wall_source } = StoredProfile::of(&profile.0);
     let columns = columns.into_iter().map(|(name, numbers)| (name, PyArray1::from_vec(py, numbers)));
     (columns.collect(), PyArray1::from_vec(py, flags), fwhm_source, wall_source)
@@ -39,7 +39,7 @@ pub fn stored_profile<'py>(py: Python<'py>, profile: &Profile) -> Stored<'py> {
 /// The profile of plain values, and of how the scan was made.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
-pub fn restored_profile(stored: Given<'_>, scan: ScanArgument) -> PyResult<Profile> {
+pub(crate) fn restored_profile(stored: Given<'_>, scan: ScanArgument) -> PyResult<Profile> {
     let (columns, flags, fwhm_source, wall_source) = stored;
     let columns = columns.into_iter().map(|(name, numbers)| (name, numbers.as_array().to_vec()));
     let flags = flags.as_array().to_vec();
@@ -52,7 +52,7 @@ type StenosisParts = ([f64; 6], Vec<[f64; 2]>, String, (u32, bool));
 
 /// A stenosis as plain values.
 #[pyfunction]
-pub fn stored_stenosis(stenosis: &Stenosis) -> StenosisParts {
+pub(crate) fn stored_stenosis(stenosis: &Stenosis) -> StenosisParts {
     let stenosis::Stenosis {
         percent,
         percent_uncertainty,
@@ -71,7 +71,7 @@ pub fn stored_stenosis(stenosis: &Stenosis) -> StenosisParts {
 /// The stenosis of plain values.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
-pub fn restored_stenosis(stored: StenosisParts) -> PyResult<Stenosis> {
+pub(crate) fn restored_stenosis(stored: StenosisParts) -> PyResult<Stenosis> {
     let (numbers, references, method, (flags, is_branch_between)) = stored;
     let [percent, percent_uncertainty, at, diameter, uncertainty, reference] = numbers;
     let method = Method::named("method of the stenosis", &method).map_err(to_python)?;

@@ -15,13 +15,13 @@ use crate::errors::{exception, to_python};
 use crate::pool;
 
 /// Points (n, 3) and radii (n,) of one vessel.
-pub type VesselArrays<'py> = (PyReadonlyArray2<'py, f64>, Option<PyReadonlyArray1<'py, f64>>);
+pub(crate) type VesselArrays<'py> = (PyReadonlyArray2<'py, f64>, Option<PyReadonlyArray1<'py, f64>>);
 
 /// Points (n, 3) and radii (n,) of one vessel, made by this module.
-pub type NewVesselArrays<'py> = (Bound<'py, PyArray2<f64>>, Option<Bound<'py, PyArray1<f64>>>);
+pub(crate) type NewVesselArrays<'py> = (Bound<'py, PyArray2<f64>>, Option<Bound<'py, PyArray1<f64>>>);
 
 /// The rows of points (n, 3).
-pub fn points_of(points: &PyReadonlyArray2<'_, f64>) -> PyResult<Vec<DVec3>> {
+pub(crate) fn points_of(points: &PyReadonlyArray2<'_, f64>) -> PyResult<Vec<DVec3>> {
     let shape = points.shape();
     if shape[1] != 3 {
         let found = format!("shape {shape:?}");
@@ -31,14 +31,14 @@ pub fn points_of(points: &PyReadonlyArray2<'_, f64>) -> PyResult<Vec<DVec3>> {
 }
 
 /// The vessel of the core.
-pub fn vessel((points, radius): &VesselArrays) -> PyResult<Vessel> {
+pub(crate) fn vessel((points, radius): &VesselArrays) -> PyResult<Vessel> {
     let points = points_of(points)?;
     let radius = radius.as_ref().map(|r| r.as_array().to_vec());
     Vessel::new(points, radius).map_err(to_python)
 }
 
 /// The tree of the core.
-pub fn tree(vessels: &[VesselArrays]) -> PyResult<VesselTree> {
+pub(crate) fn tree(vessels: &[VesselArrays]) -> PyResult<VesselTree> {
     let vessels = vessels.iter().map(vessel).collect::<PyResult<Vec<_>>>()?;
     VesselTree::new(vessels).map_err(to_python)
 }
@@ -46,7 +46,7 @@ pub fn tree(vessels: &[VesselArrays]) -> PyResult<VesselTree> {
 /// Checks the points (n, 3) and radii (n,) of a vessel.
 #[pyfunction]
 #[pyo3(signature = (points, radius=None))]
-pub fn check_vessel(
+pub(crate) fn check_vessel(
     points: PyReadonlyArray2<'_, f64>,
     radius: Option<PyReadonlyArray1<'_, f64>>,
 ) -> PyResult<()> {
@@ -56,7 +56,7 @@ pub fn check_vessel(
 /// The tree and its `count` levels of detail, finest first, each a list of (points, radius).
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
-pub fn levels<'py>(
+pub(crate) fn levels<'py>(
     py: Python<'py>,
     vessels: Vec<VesselArrays<'py>>,
     count: usize,
@@ -69,7 +69,7 @@ pub fn levels<'py>(
 /// The points of each vessel, smoothed by a Gaussian whose standard deviation is given in radii.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
-pub fn smoothed<'py>(
+pub(crate) fn smoothed<'py>(
     py: Python<'py>,
     vessels: Vec<VesselArrays<'py>>,
     radii: f64,
@@ -83,7 +83,7 @@ pub fn smoothed<'py>(
 /// Several vessels that meet as one: its points (n, 3) and radii (n,). `words` is what an error calls each of them.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
-pub fn path<'py>(
+pub(crate) fn path<'py>(
     py: Python<'py>,
     vessels: Vec<VesselArrays<'py>>,
     words: Vec<String>,
@@ -100,7 +100,7 @@ pub fn path<'py>(
 /// The numbers of the lines, points (n, 3) each, that hang together, the longest part first.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
-pub fn parts(py: Python<'_>, lines: Vec<PyReadonlyArray2<'_, f64>>) -> PyResult<Vec<Vec<usize>>> {
+pub(crate) fn parts(py: Python<'_>, lines: Vec<PyReadonlyArray2<'_, f64>>) -> PyResult<Vec<Vec<usize>>> {
     let lines = lines.iter().map(points_of).collect::<PyResult<Vec<_>>>()?;
     let lines: Vec<&[DVec3]> = lines.iter().map(Vec::as_slice).collect();
     Ok(py.detach(|| lines_in_parts::parts(&lines)))
@@ -111,7 +111,7 @@ fn arrays<'py>(py: Python<'py>, vessel: &Vessel) -> PyResult<NewVesselArrays<'py
 }
 
 /// Points (n, 3) and radii (n,) as arrays.
-pub fn flat_arrays<'py>(
+pub(crate) fn flat_arrays<'py>(
     py: Python<'py>,
     points: &[DVec3],
     radius: Option<&[f64]>,

@@ -17,7 +17,7 @@ use crate::tree::points_of;
 /// The tangential CPR of the points (n, 3) of a vessel.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
-pub fn tangential_layout(
+pub(crate) fn tangential_layout(
     points: PyReadonlyArray2<'_, f64>,
     smoothing: f64,
     camera: CameraArgument,

@@ -12,7 +12,7 @@ use pyo3::types::PyString;
 use crate::errors::to_python;
 
 /// The value that an object stands for in a setting of this kind.
-pub fn value(kind: Kind, object: &Bound<'_, PyAny>) -> PyResult<Value> {
+pub(crate) fn value(kind: Kind, object: &Bound<'_, PyAny>) -> PyResult<Value> {
     if object.is_none() {
         return Ok(Value::None);
     }

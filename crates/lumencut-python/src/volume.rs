@@ -18,7 +18,7 @@ use crate::watching::computed;
 /// `lumencut.Volume` as the binding needs it: voxels in memory order, grid size and strides along (i, j, k)
 /// in elements, and the affine from index to world, row by row.
 #[derive(FromPyObject)]
-pub struct VolumeArgument<'py> {
+pub(crate) struct VolumeArgument<'py> {
     #[pyo3(attribute("_voxels"))]
     voxels: Bound<'py, PyAny>,
     size: [usize; 3],
@@ -30,7 +30,7 @@ pub struct VolumeArgument<'py> {
 }
 
 /// The voxels of a volume, locked against writing from Rust while they are in use.
-pub enum Borrowed<'py> {
+pub(crate) enum Borrowed<'py> {
     I8(PyReadonlyArray1<'py, i8>),
     U8(PyReadonlyArray1<'py, u8>),
     I16(PyReadonlyArray1<'py, i16>),
@@ -67,17 +67,17 @@ each_type!(I8 i8, U8 u8, I16 i16, U16 u16, I32 i32, U32 u32, I64 i64, U64 u64, F
 
 impl<'py> VolumeArgument<'py> {
     /// How its scan was made.
-    pub fn scan(&self) -> ScanDetails {
+    pub(crate) fn scan(&self) -> ScanDetails {
         self.scan.details()
     }
 
     /// Borrows the voxels.
-    pub fn borrow(&self) -> PyResult<Borrowed<'py>> {
+    pub(crate) fn borrow(&self) -> PyResult<Borrowed<'py>> {
         borrow(&self.voxels)
     }
 
     /// The volume of the core over borrowed voxels.
-    pub fn volume<'a>(&self, borrowed: &'a Borrowed<'py>) -> PyResult<Volume<'a>> {
+    pub(crate) fn volume<'a>(&self, borrowed: &'a Borrowed<'py>) -> PyResult<Volume<'a>> {
         let affine = affine(self.affine_rows);
         Volume::new(borrowed.voxels()?, self.size, self.strides, affine).map_err(to_python)
     }
@@ -92,7 +92,7 @@ fn affine(rows: [[f64; 4]; 3]) -> DAffine3 {
 
 /// The grid of a `lumencut.Volume` without its voxels.
 #[derive(FromPyObject)]
-pub struct GridArgument {
+pub(crate) struct GridArgument {
     size: [usize; 3],
     #[pyo3(attribute("_affine_rows"))]
     affine_rows: [[f64; 4]; 3],
@@ -100,7 +100,7 @@ pub struct GridArgument {
 
 impl GridArgument {
     /// The space that the volume fills.
-    pub fn extent(&self) -> Extent {
+    pub(crate) fn extent(&self) -> Extent {
         Extent::new(self.size, affine(self.affine_rows))
     }
 }
@@ -108,7 +108,7 @@ impl GridArgument {
 /// What speaks against the lengths of a grid, by its size (ni, nj, nk) and world from index without the last row; None of a
 /// plausible one.
 #[pyfunction]
-pub fn doubted_size(size: [usize; 3], affine_rows: [[f64; 4]; 3]) -> Option<String> {
+pub(crate) fn doubted_size(size: [usize; 3], affine_rows: [[f64; 4]; 3]) -> Option<String> {
     lumencut::doubted_scan::doubted_size(size, affine(affine_rows))
 }
 
@@ -118,7 +118,7 @@ const PART: usize = 1 << 14;
 /// Which world points (n, 3) (mm, LPS) lie inside the outer corners of a volume; shape (n,).
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
-pub fn contains<'py>(
+pub(crate) fn contains<'py>(
     py: Python<'py>,
     volume: GridArgument,
     points: PyReadonlyArray2<'py, f64>,
@@ -130,7 +130,7 @@ pub fn contains<'py>(
 /// The volume at world points (n, 3) (mm, LPS), trilinear, NaN outside; shape (n,).
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
-pub fn sample<'py>(
+pub(crate) fn sample<'py>(
     py: Python<'py>,
     volume: VolumeArgument<'py>,
     points: PyReadonlyArray2<'py, f64>,

@@ -3,7 +3,7 @@
 use lumencut::measure::wall_level::WallRequest;
 
 /// The level of walls from a level and its standard deviation; one of 0 says that there is no wall.
-pub fn wall_request(wall: Option<[f64; 2]>) -> WallRequest {
+pub(crate) fn wall_request(wall: Option<[f64; 2]>) -> WallRequest {
     match wall {
         None => WallRequest::Automatic,
         Some([_, 0.0]) => WallRequest::Off,

@@ -15,17 +15,17 @@ use crate::pool;
 const SIGNAL_PERIOD: Duration = Duration::from_millis(50);
 
 /// Into how many parts a rendering is divided for whoever is told how far it is.
-pub const SHARES: u32 = 1000;
+pub(crate) const SHARES: u32 = 1000;
 
 /// How far long work is, and the function of Python that is told so.
-pub struct Watched<'a> {
+pub(crate) struct Watched<'a> {
     pub progress: &'a Progress,
     pub told: &'a Py<PyAny>,
 }
 
 impl Watched<'_> {
     /// Tells how much is done, of `SHARES` parts.
-    pub fn tell(&self, py: Python<'_>, done: u32) -> PyResult<()> {
+    pub(crate) fn tell(&self, py: Python<'_>, done: u32) -> PyResult<()> {
         self.told.call1(py, (done, SHARES)).map(drop)
     }
 
@@ -37,7 +37,7 @@ impl Watched<'_> {
 }
 
 /// Runs `work` on a thread of its own without the GIL while this one listens for signals, and tells how far it is.
-pub fn interruptible<T: Send>(
+pub(crate) fn interruptible<T: Send>(
     py: Python<'_>,
     watched: Option<&Watched<'_>>,
     work: impl FnOnce(Stop<'_>) -> PyResult<T> + Send,
@@ -77,7 +77,7 @@ pub fn interruptible<T: Send>(
 }
 
 /// Runs what the core computes on the threads of this process, as [`interruptible`] does.
-pub fn computed<T: Send>(
+pub(crate) fn computed<T: Send>(
     py: Python<'_>,
     work: impl FnOnce(Stop<'_>) -> lumencut::error::Result<T> + Send,
 ) -> PyResult<T> {
@@ -85,7 +85,7 @@ pub fn computed<T: Send>(
 }
 
 /// Runs long work as [`interruptible`] does, and tells `told` how far it is, to its end.
-pub fn told_while<T: Send>(
+pub(crate) fn told_while<T: Send>(
     py: Python<'_>,
     told: Option<&Py<PyAny>>,
     work: impl FnOnce(Stop<'_>, Option<&Progress>) -> PyResult<T> + Send,

@@ -13,7 +13,7 @@ use crate::volume::VolumeArgument;
 #[pyfunction]
 #[pyo3(signature = (name, volume, vessels))]
 #[allow(clippy::needless_pass_by_value)]
-pub fn find_window(
+pub(crate) fn find_window(
     py: Python<'_>,
     name: &str,
     volume: VolumeArgument<'_>,
@@ -29,13 +29,13 @@ pub fn find_window(
 
 /// The name of the window from the data that a context takes where its user chooses none.
 #[pyfunction]
-pub fn context_window(context: &str, has_tree: bool) -> PyResult<&'static str> {
+pub(crate) fn context_window(context: &str, has_tree: bool) -> PyResult<&'static str> {
     let context = ContextName::named("context", context).map_err(to_python)?;
     Ok(DataWindow::of_context(context, has_tree).name())
 }
 
 /// Adds the windows that have a name: what a page calls each, with level and width where they are fixed.
-pub fn add_presets(module: &Bound<'_, PyModule>) -> PyResult<()> {
+pub(crate) fn add_presets(module: &Bound<'_, PyModule>) -> PyResult<()> {
     let presets = WINDOW_PRESETS.map(|preset| match preset.source {
         PresetSource::Fixed(window) => (preset.name, preset.words, Some((window.level, window.width))),
         PresetSource::Data(_) => (preset.name, preset.words, None),

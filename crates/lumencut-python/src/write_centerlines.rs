@@ -17,7 +17,7 @@ type NamedVessel<'py> = (PyReadonlyArray2<'py, f64>, Numbers<'py>, Option<String
 /// The content of a file of vessels in mm, LPS; `kind` is the ending of its name.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
-pub fn write_centerlines<'py>(
+pub(crate) fn write_centerlines<'py>(
     py: Python<'py>,
     vessels: Vec<NamedVessel<'py>>,
     kind: &str,

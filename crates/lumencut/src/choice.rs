@@ -11,7 +11,7 @@ use crate::places::{Place, Reading, Statement, mm};
 type Lumen<'a> = &'a dyn Fn(Place) -> LumenCount;
 
 /// The choice of a place by the points that it brings into the volume.
-pub struct Choice {
+pub(crate) struct Choice {
     /// What each place makes of the points.
     pub readings: Vec<Reading>,
     /// The place that is taken where the volume does not speak against it.
@@ -21,7 +21,7 @@ pub struct Choice {
 }
 
 /// The place that was chosen.
-pub struct Chosen {
+pub(crate) struct Chosen {
     /// The place, and how many points it brings into the volume.
     pub best: Reading,
     /// Where the values of the volume have chosen the space or the unit: what they say.
@@ -32,7 +32,7 @@ pub struct Chosen {
 
 /// What the values of a volume have chosen.
 #[derive(Clone, Debug)]
-pub struct ByValues {
+pub(crate) struct ByValues {
     /// Whether they chose the space.
     pub space: bool,
     /// Whether they chose the unit, and not the usual one.
@@ -66,7 +66,7 @@ impl Choice {
     ///
     /// # Errors
     /// Where several places fit it alike and its values do not tell which, or none fits and the space is open.
-    pub fn best(&self, lumen: Lumen) -> Result<Chosen> {
+    pub(crate) fn best(&self, lumen: Lumen) -> Result<Chosen> {
         let most = self.readings.iter().map(Reading::fits).max().unwrap_or(0);
         let spaces: BTreeSet<&str> = self.readings.iter().map(|reading| reading.place.space.name()).collect();
         if most == 0 && spaces.len() == 1 {
@@ -205,7 +205,7 @@ impl Choice {
     }
 
     /// What the caller would state to confirm a choice against the usual place.
-    pub fn confirmed_by(&self, best: Reading) -> Statement {
+    pub(crate) fn confirmed_by(&self, best: Reading) -> Statement {
         let Place { space, unit } = best.place;
         Statement {
             space: (space != self.usual.space).then_some(space),
@@ -214,7 +214,7 @@ impl Choice {
     }
 
     /// The choice in words, with the counts that it rests on.
-    pub fn told(&self, best: Reading) -> String {
+    pub(crate) fn told(&self, best: Reading) -> String {
         if best.place == self.usual {
             return self.told_as_usual(best);
         }

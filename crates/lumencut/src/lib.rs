@@ -11,7 +11,7 @@ pub mod cut_at;
 pub mod cut_diameter;
 pub mod devices;
 pub mod doubted_scan;
-pub mod doubted_unit;
+mod doubted_unit;
 pub mod extent;
 pub mod feature_aggregation;
 pub mod flag_table;

@@ -45,7 +45,7 @@ const ALONE_DIFFERENCE: f64 = 0.25;
 const EDGE: f64 = 0.1;
 
 /// Voxels of cubes that are evenly spread over a volume, at most about two million.
-pub struct Looked {
+pub(crate) struct Looked {
     /// All finite ones.
     pub voxels: Vec<f64>,
     /// The largest of each cube.
@@ -58,7 +58,7 @@ impl Looked {
     /// Looks at a volume.
     // Of the ten types of voxels some fit into f64 as they are, others only by a cast.
     #[allow(clippy::cast_lossless, clippy::unnecessary_cast)]
-    pub fn at(volume: &Volume) -> Self {
+    pub(crate) fn at(volume: &Volume) -> Self {
         let (size, strides) = (volume.size(), volume.strides());
         let cubes = size.map(|n| n.div_ceil(SIDE));
         let all = cubes.iter().product::<usize>() as f64;
@@ -85,7 +85,7 @@ impl Looked {
 
 /// The smallest and the largest finite voxel; the first is the larger one where there is none.
 #[allow(clippy::cast_lossless, clippy::unnecessary_cast)]
-pub fn range(volume: &Volume) -> [f64; 2] {
+pub(crate) fn range(volume: &Volume) -> [f64; 2] {
     let (size, strides) = (volume.size(), volume.strides());
     let mut ends = [f64::INFINITY, f64::NEG_INFINITY];
     with_voxels!(volume.voxels(), voxels => {
@@ -100,7 +100,7 @@ pub fn range(volume: &Volume) -> [f64; 2] {
 }
 
 /// The padding: a dark value that many voxels have, where not all have it. Sorts the voxels.
-pub fn padding(voxels: &mut [f64]) -> Option<f64> {
+pub(crate) fn padding(voxels: &mut [f64]) -> Option<f64> {
     voxels.sort_unstable_by(f64::total_cmp);
     let darkest = *voxels.get((voxels.len() as f64 * DARKEST) as usize)?;
     let start = voxels.partition_point(|value| *value < darkest);
@@ -110,7 +110,7 @@ pub fn padding(voxels: &mut [f64]) -> Option<f64> {
 }
 
 /// The voxels that are brighter than the padding, all where there is none; sorted.
-pub fn without_padding(voxels: &mut [f64]) -> &mut [f64] {
+pub(crate) fn without_padding(voxels: &mut [f64]) -> &mut [f64] {
     let start = padding(voxels).map_or(0, |padding| voxels.partition_point(|value| *value <= padding));
     &mut voxels[start..]
 }
@@ -126,7 +126,7 @@ pub fn without_padding(voxels: &mut [f64]) -> &mut [f64] {
 /// compresses what is far brighter so that bone does not count more than lumen (asinh), and the brighter group again
 /// until it is less than a third of all. The 95th percentile of the darker cubes is the brightest tissue; the lumen is
 /// the 20th percentile of the brighter ones, as bone and metal are the larger part of them.
-pub struct Populations {
+pub(crate) struct Populations {
     /// The smallest voxel that was looked at.
     pub smallest: f64,
     /// The darkest voxels (1st percentile).
@@ -147,7 +147,7 @@ pub struct Populations {
 
 impl Populations {
     /// What the voxels are; None of no voxels.
-    pub fn of(looked: &mut Looked) -> Option<Self> {
+    pub(crate) fn of(looked: &mut Looked) -> Option<Self> {
         let Air { smallest, darkest, ends, at: air, .. } = Air::of(looked)?;
         let enough = VESSELS_ALONE * looked.count as f64;
         let shown = without_padding(&mut looked.voxels);
@@ -203,7 +203,7 @@ impl Air {
 /// The darkest tissue of a volume, which is fat in a CT: the 10th percentile of what is brighter than air. Where air was cut
 /// off at a value that is at least `cut_off`, that value, as tissue may be darker than what counts as air then. None where
 /// little but vessels is shown.
-pub fn darkest_tissue(looked: &mut Looked, cut_off: f64) -> Option<f64> {
+pub(crate) fn darkest_tissue(looked: &mut Looked, cut_off: f64) -> Option<f64> {
     let air = Air::of(looked)?;
     if air.is_cut_off && air.darkest >= cut_off {
         return Some(air.darkest);

@@ -11,14 +11,14 @@ use lumencut_vessels::voxels::Voxels;
 const SAMPLE: f64 = 0.4;
 
 /// What is brighter than the lumen by this share of its contrast is no lumen, but calcium or metal.
-pub const TOO_BRIGHT: f64 = 0.5;
+pub(crate) const TOO_BRIGHT: f64 = 0.5;
 
 /// Beyond its reach a ray is followed this much farther, to see whether bone or calcium begins there that touches the vessel.
 const FARTHER: f64 = 0.5;
 
 /// What a ray from the middle of the vessel meets.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Fall {
+pub(crate) enum Fall {
     /// A wall, so far away (mm).
     Wall(f64),
     /// Lumen as far as it was followed.
@@ -29,7 +29,7 @@ pub enum Fall {
 
 impl Fall {
     /// How far away a wall is (mm), where one is beyond the middle.
-    pub fn radius(self) -> Option<f64> {
+    pub(crate) fn radius(self) -> Option<f64> {
         match self {
             Self::Wall(radius) if radius > 0.0 => Some(radius),
             _ => None,
@@ -38,7 +38,7 @@ impl Fall {
 }
 
 /// Rays across a vessel through a volume.
-pub struct RaysAcross<'a, 'v> {
+pub(crate) struct RaysAcross<'a, 'v> {
     /// The volume.
     pub voxels: &'a Voxels<'v>,
     /// The space around the vessel.
@@ -51,7 +51,7 @@ impl RaysAcross<'_, '_> {
     /// What each ray in the section at an arc length meets within its reach (mm), where values first fall half of the way from the
     /// lumen's level to that of the surroundings. Bone that touches the vessel leaves no such fall: where values rise to it just beyond the
     /// reach, the wall lies where they are lowest before.
-    pub fn falls(&self, at: f64, [lumen, around]: [f64; 2], reach: impl Fn(usize) -> f64) -> Vec<Fall> {
+    pub(crate) fn falls(&self, at: f64, [lumen, around]: [f64; 2], reach: impl Fn(usize) -> f64) -> Vec<Fall> {
         let frame = self.straightened.frame(at);
         let index = &self.voxels.index_from_world;
         let middle = self.straightened.world_from_straightened(DVec3::new(0.0, 0.0, at));

@@ -30,12 +30,12 @@ pub(crate) struct Mean {
 
 impl Mean {
     /// The mean of no pictures yet, each with this number of pixels.
-    pub fn of(pixels: usize) -> Self {
+    pub(crate) fn of(pixels: usize) -> Self {
         Self { sums: vec![[0; 4]; pixels], pictures: 0 }
     }
 
     /// Takes one more picture.
-    pub fn add(&mut self, picture: &[[u8; 4]]) {
+    pub(crate) fn add(&mut self, picture: &[[u8; 4]]) {
         assert_eq!(picture.len(), self.sums.len(), "pixels of a sample");
         for (sum, pixel) in self.sums.iter_mut().zip(picture) {
             let [red, green, blue, alpha] = pixel.map(u32::from);
@@ -47,7 +47,7 @@ impl Mean {
     }
 
     /// The mean as RGBA with straight alpha; black where nothing is opaque at all.
-    pub fn pixels(&self) -> Vec<[u8; 4]> {
+    pub(crate) fn pixels(&self) -> Vec<[u8; 4]> {
         let pixel = |&[red, green, blue, alpha]: &[u32; 4]| {
             let color = [red, green, blue].map(|sum| rounded(sum, alpha));
             [color[0], color[1], color[2], rounded(alpha, self.pictures)]

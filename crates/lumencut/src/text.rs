@@ -1,7 +1,7 @@
 //! Numbers in messages, as Python writes them.
 
 /// A number with the fewest digits that tell it from all others, such as `0.5`, `2.0`, `1e-05` or `nan`.
-pub fn shortest(number: f64) -> String {
+pub(crate) fn shortest(number: f64) -> String {
     let magnitude = number.abs();
     if !number.is_finite() {
         return special(number);
@@ -15,7 +15,7 @@ pub fn shortest(number: f64) -> String {
 }
 
 /// A number rounded to `digits` significant digits, without zeros at its end, such as `0.5`, `12.3` or `1e+06`.
-pub fn rounded(number: f64, digits: usize) -> String {
+pub(crate) fn rounded(number: f64, digits: usize) -> String {
     if !number.is_finite() {
         return special(number);
     }
@@ -29,7 +29,7 @@ pub fn rounded(number: f64, digits: usize) -> String {
 }
 
 /// A number with a given count of digits behind the point, such as `12.30`.
-pub fn fixed(number: f64, decimals: usize) -> String {
+pub(crate) fn fixed(number: f64, decimals: usize) -> String {
     if number.is_finite() { format!("{number:.decimals$}") } else { special(number) }
 }
 

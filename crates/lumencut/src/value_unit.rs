@@ -16,7 +16,7 @@ const METAL: f64 = 3.0;
 
 /// What the values may stand for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct ValueUnit {
+pub(crate) struct ValueUnit {
     /// Whether they are Hounsfield units by what they are.
     pub is_hounsfield: bool,
     /// Whether some are as far above the lumen as metal is.
@@ -25,7 +25,7 @@ pub struct ValueUnit {
 
 impl ValueUnit {
     /// Looks at a volume; `lumen` is the window that shows its lumen.
-    pub fn of(volume: &Volume, lumen: Window) -> Self {
+    pub(crate) fn of(volume: &Volume, lumen: Window) -> Self {
         let mut voxels = Looked::at(volume).voxels;
         voxels.sort_unstable_by(f64::total_cmp);
         let darkest = voxels.first().copied().unwrap_or_default();

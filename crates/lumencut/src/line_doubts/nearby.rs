@@ -24,7 +24,7 @@ pub(super) struct Nearby<'a> {
 
 impl<'a> Nearby<'a> {
     /// Divides points into boxes of equal counts.
-    pub fn new(points: &'a [DVec3]) -> Self {
+    pub(super) fn new(points: &'a [DVec3]) -> Self {
         let mut nearby = Self { points, order: (0..points.len()).collect(), nodes: Vec::new() };
         if !points.is_empty() {
             nearby.divide(0, points.len());
@@ -53,7 +53,7 @@ impl<'a> Nearby<'a> {
     }
 
     /// Calls `hear` with the number of every point at most `reach` from a place, until it returns false.
-    pub fn within(&self, place: DVec3, reach: f64, mut hear: impl FnMut(usize) -> bool) {
+    pub(super) fn within(&self, place: DVec3, reach: f64, mut hear: impl FnMut(usize) -> bool) {
         let mut open: Vec<usize> = if self.nodes.is_empty() { Vec::new() } else { vec![0] };
         while let Some(number) = open.pop() {
             let node = &self.nodes[number];
@@ -73,7 +73,7 @@ impl<'a> Nearby<'a> {
     }
 
     /// For each box the piece that all its points belong to, where there is one.
-    pub fn pieces_of_boxes(&self, piece: &[usize]) -> Vec<Option<usize>> {
+    pub(super) fn pieces_of_boxes(&self, piece: &[usize]) -> Vec<Option<usize>> {
         let mut found = vec![None; self.nodes.len()];
         for (number, node) in self.nodes.iter().enumerate().rev() {
             found[number] = match node.second {
@@ -89,7 +89,7 @@ impl<'a> Nearby<'a> {
     }
 
     /// The nearest point of another piece than that of point `n`, nearer than `bound`, and its distance.
-    pub fn nearest_of_others(
+    pub(super) fn nearest_of_others(
         &self,
         n: usize,
         piece: &[usize],

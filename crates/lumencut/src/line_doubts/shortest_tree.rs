@@ -13,7 +13,7 @@ pub(super) struct ShortestTree {
 
 impl ShortestTree {
     /// The tree of two or more points, by Borůvka: in each round every piece gets the shortest edge to another one.
-    pub fn new(points: &[DVec3], nearby: &Nearby) -> Self {
+    pub(super) fn new(points: &[DVec3], nearby: &Nearby) -> Self {
         let mut heads: Vec<usize> = (0..points.len()).collect();
         let mut edges = Vec::with_capacity(points.len().saturating_sub(1));
         while edges.len() + 1 < points.len() {
@@ -51,12 +51,12 @@ impl ShortestTree {
     }
 
     /// Whether it is a path: then no path through the points is shorter.
-    pub fn is_path(&self) -> bool {
+    pub(super) fn is_path(&self) -> bool {
         self.neighbours.iter().all(|edges| edges.len() <= 2)
     }
 
     /// The points in the order of a short path: from one end of the tree's longest way to the other, short branches first.
-    pub fn path(&self) -> Vec<usize> {
+    pub(super) fn path(&self) -> Vec<usize> {
         let start = self.farthest(self.farthest(0));
         let (order, before) = self.from(start);
         let mut reach = vec![0.0_f64; order.len()];
@@ -77,7 +77,7 @@ impl ShortestTree {
     }
 
     /// Which piece of the tree each point belongs to where its edges longer than `longest` are left out.
-    pub fn pieces(&self, longest: f64) -> Vec<usize> {
+    pub(super) fn pieces(&self, longest: f64) -> Vec<usize> {
         let mut heads: Vec<usize> = (0..self.neighbours.len()).collect();
         for (a, b, _) in self.edges.iter().filter(|(.., length)| *length <= longest) {
             let (first, second) = (head(&mut heads, *a), head(&mut heads, *b));

@@ -6,7 +6,7 @@ use super::scale::Axis;
 
 /// Both axes of a plot.
 #[derive(Clone, Copy, Debug)]
-pub struct Axes {
+pub(super) struct Axes {
     /// Along the vessel (mm).
     pub x: Axis,
     /// The diameter (mm).
@@ -20,7 +20,7 @@ impl Axes {
 }
 
 /// A line through values, interrupted where there is none; a value between two without one is no line.
-pub fn line(axes: &Axes, at: &[f64], values: &[f64]) -> String {
+pub(super) fn line(axes: &Axes, at: &[f64], values: &[f64]) -> String {
     let mut path = String::new();
     for run in stretches(values).iter().filter(|run| run.len() > 1) {
         push(&mut path, run.clone().map(|n| axes.point(at[n], values[n])));
@@ -29,7 +29,7 @@ pub fn line(axes: &Axes, at: &[f64], values: &[f64]) -> String {
 }
 
 /// The area between two lines, where both have values.
-pub fn band(axes: &Axes, at: &[f64], low: &[f64], high: &[f64]) -> String {
+pub(super) fn band(axes: &Axes, at: &[f64], low: &[f64], high: &[f64]) -> String {
     let both: Vec<f64> = low.iter().zip(high).map(|(low, high)| low + high).collect();
     let mut path = String::new();
     for run in stretches(&both).iter().filter(|run| run.len() > 1) {
@@ -41,7 +41,7 @@ pub fn band(axes: &Axes, at: &[f64], low: &[f64], high: &[f64]) -> String {
 }
 
 /// The numbers of values that stand alone between two that are missing.
-pub fn lonely(values: &[f64]) -> Vec<usize> {
+pub(super) fn lonely(values: &[f64]) -> Vec<usize> {
     stretches(values).iter().filter(|run| run.len() == 1).map(|run| run.start).collect()
 }
 
@@ -51,7 +51,7 @@ fn stretches(values: &[f64]) -> Vec<std::ops::Range<usize>> {
 }
 
 /// Stretches of numbers below `count` for which something holds.
-pub fn runs(count: usize, holds: impl Fn(usize) -> bool) -> Vec<std::ops::Range<usize>> {
+pub(super) fn runs(count: usize, holds: impl Fn(usize) -> bool) -> Vec<std::ops::Range<usize>> {
     let mut found: Vec<std::ops::Range<usize>> = Vec::new();
     for n in (0..count).filter(|n| holds(*n)) {
         match found.last_mut() {

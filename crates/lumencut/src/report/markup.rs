@@ -3,7 +3,7 @@
 use lumencut_core::error::{Error, ErrorKind, Result};
 
 /// A text that stands in HTML as it is.
-pub fn escaped(text: &str) -> String {
+pub(super) fn escaped(text: &str) -> String {
     let mut safe = String::with_capacity(text.len());
     for letter in text.chars() {
         match letter {
@@ -19,7 +19,7 @@ pub fn escaped(text: &str) -> String {
 }
 
 /// The paragraph of a text.
-pub fn paragraph(class: &str, text: &str) -> String {
+pub(super) fn paragraph(class: &str, text: &str) -> String {
     let class = if class.is_empty() { String::new() } else { format!(" class=\"{class}\"") };
     format!("<p{class}>{}</p>\n", escaped(text))
 }
@@ -28,7 +28,7 @@ pub fn paragraph(class: &str, text: &str) -> String {
 ///
 /// # Errors
 /// [`ErrorKind::Settings`] for a text that is not base64.
-pub fn png_address(base64: &str) -> Result<String> {
+pub(super) fn png_address(base64: &str) -> Result<String> {
     let is_known = |letter: u8| letter.is_ascii_alphanumeric() || b"+/=".contains(&letter);
     if base64.is_empty() || !base64.bytes().all(is_known) {
         let found = format!("{} letters that are not base64", base64.len());
@@ -41,7 +41,7 @@ pub fn png_address(base64: &str) -> Result<String> {
 ///
 /// # Errors
 /// As [`png_address`].
-pub fn figure(base64: &str, words: &str) -> Result<String> {
+pub(super) fn figure(base64: &str, words: &str) -> Result<String> {
     let (address, words) = (png_address(base64)?, escaped(words));
     Ok(format!("<figure><img src=\"{address}\" alt=\"{words}\"><figcaption>{words}</figcaption></figure>\n"))
 }

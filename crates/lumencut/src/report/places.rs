@@ -67,7 +67,7 @@ impl Place {
 }
 
 /// The places of marks: references say on which side of the first place they lie.
-pub fn places(marks: &[ReportMark]) -> Vec<Place> {
+pub(super) fn places(marks: &[ReportMark]) -> Vec<Place> {
     let is_main = |mark: &&ReportMark| mark.name != REFERENCE && mark.name != NOTED;
     let main = marks.iter().find(is_main).map(|mark| mark.at);
     let named = |mark: &ReportMark| {
@@ -90,13 +90,13 @@ pub fn places(marks: &[ReportMark]) -> Vec<Place> {
 }
 
 /// A line of the table: the numbers of the section that is nearest to a place.
-pub fn row(profile: &Profile, place: &Place, shown: &Shown) -> String {
+pub(super) fn row(profile: &Profile, place: &Place, shown: &Shown) -> String {
     let dot = format!("<span style=\"color: {}\">●</span> ", place.color());
     numbers(profile, &format!("{dot}{}", escaped(&place.name)), place.at, shown)
 }
 
 /// The line of the place of the longest diameter, which nobody marked.
-pub fn widest_row(profile: &Profile, at: f64, shown: &Shown) -> String {
+pub(super) fn widest_row(profile: &Profile, at: f64, shown: &Shown) -> String {
     numbers(profile, "longest diameter (suggestion)", at, shown)
 }
 
@@ -121,7 +121,7 @@ fn numbers(profile: &Profile, name: &str, at: f64, shown: &Shown) -> String {
 }
 
 /// A table of lines; lengths have no unit where none is known.
-pub fn table(rows: &[String], has_units: bool) -> String {
+pub(super) fn table(rows: &[String], has_units: bool) -> String {
     let [mm, square] = if has_units { [" (mm)", " (mm²)"] } else { [""; 2] };
     let heads = ["arc length", "diameter ± 1 SD", "shortest", "longest"].map(|name| format!("{name}{mm}"));
     let heads: String =

@@ -44,7 +44,7 @@ const QUIET: &str = "#444444";
 const OUTLINE: &str = "#222222";
 
 /// What is drawn.
-pub struct Plot<'a> {
+pub(super) struct Plot<'a> {
     /// The sections.
     pub profile: &'a Profile,
     /// Marked and suggested places.
@@ -67,7 +67,7 @@ struct Layout {
 }
 
 /// The axis along a vessel of this length (mm).
-pub fn axis_along(length: f64) -> Axis {
+pub(super) fn axis_along(length: f64) -> Axis {
     Axis { low: 0.0, high: length, start: LEFT, end: WIDTH - RIGHT }
 }
 
@@ -87,7 +87,7 @@ impl Plot<'_> {
     ///
     /// # Errors
     /// Where the picture of the vessel is not base64.
-    pub fn svg(&self) -> Result<String> {
+    pub(super) fn svg(&self) -> Result<String> {
         let layout = Layout::of(self.profile);
         let (strip, top) = self.strip_markup(&layout.axes.x)?;
         let mut svg = format!(

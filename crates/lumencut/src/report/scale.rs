@@ -2,7 +2,7 @@
 
 /// A straight axis: `low` lies at the pixel `start`, `high` at `end`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Axis {
+pub(super) struct Axis {
     /// The length at the beginning.
     pub low: f64,
     /// The length at the end.
@@ -15,18 +15,18 @@ pub struct Axis {
 
 impl Axis {
     /// The pixel of a length.
-    pub fn pixel(&self, value: f64) -> f64 {
+    pub(super) fn pixel(&self, value: f64) -> f64 {
         self.start + (value - self.low) / (self.high - self.low) * (self.end - self.start)
     }
 
     /// The pixel of a length, no farther than both ends.
-    pub fn pixel_within(&self, value: f64) -> f64 {
+    pub(super) fn pixel_within(&self, value: f64) -> f64 {
         self.pixel(value.clamp(self.low, self.high))
     }
 
     /// Multiples of 1, 2 or 5 times a power of ten with at least this number of pixels between them; none on an axis without
     /// length.
-    pub fn ticks(&self, pixels: f64) -> Vec<f64> {
+    pub(super) fn ticks(&self, pixels: f64) -> Vec<f64> {
         let span = self.high - self.low;
         let most = (self.end - self.start).abs() / pixels;
         if !(span > 0.0 && most >= 1.0) {

@@ -11,13 +11,13 @@ use crate::measure_words::{of_method, of_source, of_wall};
 use crate::text::{fixed, rounded, shortest};
 
 /// How to read the numbers.
-pub const EXPLAINED: &str = "Diameters are those of the lumen: thrombus and plaque are not lumen, so that an aneurysm may be \
+pub(super) const EXPLAINED: &str = "Diameters are those of the lumen: thrombus and plaque are not lumen, so that an aneurysm may be \
     wider. Diameter means that of a circle of the same area; ± is one standard deviation: noise, blur, wall, levels and \
     surroundings. A stenosis is compared with the median within 1.5 mm of each reference. Suggested places are no findings: a reader must look at them. \
     The contour of a section is cyan where it counts for what is narrowest or widest, and orange where its flags leave it out.";
 
 /// Why lengths have no unit.
-pub const UNITLESS: &str =
+pub(super) const UNITLESS: &str =
     "The scan does not say how far its voxels lie apart: 1 mm is assumed, and lengths have no unit.";
 
 /// What a file states of its grid, or a reader assumed.
@@ -48,7 +48,7 @@ impl Stated {
 }
 
 /// How a vessel was measured and shown.
-pub fn told(shown: &Shown, vessel: &VesselPage) -> String {
+pub(super) fn told(shown: &Shown, vessel: &VesselPage) -> String {
     let profile = vessel.measured.profile;
     let counted = (0..profile.len()).filter(|n| profile.counts(*n)).count();
     format!(

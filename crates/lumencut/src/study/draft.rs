@@ -14,7 +14,7 @@ const FEWEST: usize = 2;
 
 /// A document that is being edited.
 #[derive(Clone, Debug, Default)]
-pub struct Draft {
+pub(crate) struct Draft {
     /// As it is by now.
     pub document: Document,
     /// The largest id that was ever given in the study.
@@ -29,13 +29,13 @@ pub struct Draft {
 
 impl Draft {
     /// A document before an edit.
-    pub fn of(document: Document, last_id: u32) -> Self {
+    pub(crate) fn of(document: Document, last_id: u32) -> Self {
         let last_id = document.vessels.iter().map(|vessel| vessel.id).fold(last_id, u32::max);
         Self { document, last_id, ..Self::default() }
     }
 
     /// Adds a vessel at the end, in the next colour.
-    pub fn add(&mut self, line: usize, name: String) -> &mut DocumentVessel {
+    pub(crate) fn add(&mut self, line: usize, name: String) -> &mut DocumentVessel {
         self.last_id += 1;
         self.added.push(self.last_id);
         let color = self.document.next_color().to_owned();
@@ -46,19 +46,19 @@ impl Draft {
     }
 
     /// Adds a vessel that has a name of its own, or none: then it gets one of its kind, such as `Mask 2`.
-    pub fn add_named(&mut self, line: usize, name: &str, kind: &str) -> &mut DocumentVessel {
+    pub(crate) fn add_named(&mut self, line: usize, name: &str, kind: &str) -> &mut DocumentVessel {
         let name = if name.is_empty() { fresh_name(&self.document.names(), kind) } else { name.to_owned() };
         self.add(line, name)
     }
 
     /// Removes vessels with what was marked on them.
-    pub fn remove(&mut self, ids: &[u32]) {
+    pub(crate) fn remove(&mut self, ids: &[u32]) {
         self.without_marks.extend(ids.iter().filter(|id| self.document.position(**id).is_some()));
         self.document.vessels.retain(|vessel| !ids.contains(&vessel.id));
     }
 
     /// Gives a vessel another line, which is not that between its clicks; places that were marked on it lie elsewhere.
-    pub fn replace(&mut self, id: u32, line: usize) {
+    pub(crate) fn replace(&mut self, id: u32, line: usize) {
         if let Some(vessel) = self.vessel(id) {
             vessel.line = line;
             vessel.clicks = None;
@@ -67,7 +67,7 @@ impl Draft {
     }
 
     /// Puts both parts of a vessel in its place.
-    pub fn part(&mut self, id: u32, [first, second]: [usize; 2]) {
+    pub(crate) fn part(&mut self, id: u32, [first, second]: [usize; 2]) {
         let Some((place, whole)) = self.document.position(id).zip(self.document.vessel(id)) else { return };
         let name = part_name(&self.document.names(), &whole.called());
         self.replace(id, first);
@@ -76,27 +76,27 @@ impl Draft {
     }
 
     /// Accepts branches that are doubtful.
-    pub fn accept(&mut self, ids: &[u32]) {
+    pub(crate) fn accept(&mut self, ids: &[u32]) {
         for vessel in self.document.vessels.iter_mut().filter(|vessel| ids.contains(&vessel.id)) {
             vessel.doubt = None;
         }
     }
 
     /// Removes those vessels that are doubtful.
-    pub fn leave_out(&mut self, ids: &[u32]) {
+    pub(crate) fn leave_out(&mut self, ids: &[u32]) {
         let is_doubtful = |id: &&u32| self.document.vessel(**id).is_some_and(|vessel| vessel.doubt.is_some());
         let doubtful: Vec<u32> = ids.iter().filter(is_doubtful).copied().collect();
         self.remove(&doubtful);
     }
 
     /// Begins a vessel between clicks; its line follows once it is traced.
-    pub fn begin(&mut self, clicks: &[Place]) {
+    pub(crate) fn begin(&mut self, clicks: &[Place]) {
         let id = self.add_named(0, "", "Vessel").id;
         self.give_clicks(id, clicks.to_vec());
     }
 
     /// Gives a vessel clicks, all of which are new.
-    pub fn give_clicks(&mut self, id: u32, clicks: Vec<Place>) {
+    pub(crate) fn give_clicks(&mut self, id: u32, clicks: Vec<Place>) {
         self.new_clicks = (0..clicks.len()).map(|number| (id, number)).collect();
         if let Some(vessel) = self.vessel(id) {
             vessel.clicks = Some(clicks);
@@ -104,7 +104,7 @@ impl Draft {
     }
 
     /// Adds a click at the end of a vessel, or before another click.
-    pub fn insert_click(&mut self, id: u32, before: Option<usize>, point: Place) {
+    pub(crate) fn insert_click(&mut self, id: u32, before: Option<usize>, point: Place) {
         let Some(clicks) = self.clicks(id) else { return };
         let number = before.map_or(clicks.len(), |before| before.min(clicks.len()));
         clicks.insert(number, point);
@@ -112,7 +112,7 @@ impl Draft {
     }
 
     /// Moves a click of a vessel.
-    pub fn move_click(&mut self, id: u32, number: usize, point: Place) {
+    pub(crate) fn move_click(&mut self, id: u32, number: usize, point: Place) {
         if let Some(click) = self.clicks(id).and_then(|clicks| clicks.get_mut(number)) {
             *click = point;
             self.new_clicks.push((id, number));
@@ -120,7 +120,7 @@ impl Draft {
     }
 
     /// Removes a click of a vessel, or all of the vessel; says whether a line is to be traced for it.
-    pub fn remove_click(&mut self, id: u32, number: usize) -> bool {
+    pub(crate) fn remove_click(&mut self, id: u32, number: usize) -> bool {
         let Some(clicks) = self.clicks(id).filter(|clicks| number < clicks.len()) else { return false };
         let is_kept = clicks.len() > FEWEST;
         if is_kept {
@@ -132,7 +132,7 @@ impl Draft {
     }
 
     /// Changes stoppers; says nothing of one that does not exist.
-    pub fn change_stoppers(&mut self, edit: &Edit) {
+    pub(crate) fn change_stoppers(&mut self, edit: &Edit) {
         let stoppers = &mut self.document.stoppers;
         match edit {
             Edit::AddStopper { center } => {
@@ -151,12 +151,12 @@ impl Draft {
     }
 
     /// The vessels that were clicked, in their order.
-    pub fn clicked(&self) -> impl Iterator<Item = (&DocumentVessel, &Vec<Place>)> {
+    pub(crate) fn clicked(&self) -> impl Iterator<Item = (&DocumentVessel, &Vec<Place>)> {
         self.document.vessels.iter().filter_map(|vessel| Some((vessel, vessel.clicks.as_ref()?)))
     }
 
     /// Why the vessels that were clicked cannot be traced, in their names: tracing counts vessels and points.
-    pub fn in_names(&self, mut failure: Failure) -> Failure {
+    pub(crate) fn in_names(&self, mut failure: Failure) -> Failure {
         let Some(about) = &failure.more.about else { return failure };
         let vessel = about.vessel.and_then(|number| self.clicked().nth(number));
         failure.subject = match (vessel, about.point) {

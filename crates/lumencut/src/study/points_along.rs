@@ -11,20 +11,20 @@ const APART: f64 = 20.0;
 const NEAREST: f64 = 5.0;
 
 /// The number of the point that is nearest to a place.
-pub fn nearest_point(points: &[DVec3], place: DVec3) -> usize {
+pub(super) fn nearest_point(points: &[DVec3], place: DVec3) -> usize {
     let apart = |n: &usize| points[*n].distance(place);
     (0..points.len()).min_by(|a, b| apart(a).total_cmp(&apart(b))).unwrap_or(0)
 }
 
 /// Before which of the clicks of a line a point of it lies; never before the first and never after the last.
-pub fn click_after(clicks: &[DVec3], points: &[DVec3], number: usize) -> usize {
+pub(super) fn click_after(clicks: &[DVec3], points: &[DVec3], number: usize) -> usize {
     let last = clicks.len().saturating_sub(1);
     let after = clicks.iter().position(|click| nearest_point(points, *click) > number);
     after.map_or(last, |after| after.max(1))
 }
 
 /// Both ends of a line, the point of a number, and points between them at distances that are alike, by their numbers.
-pub fn points_along(points: &[DVec3], number: usize) -> BTreeSet<usize> {
+pub(super) fn points_along(points: &[DVec3], number: usize) -> BTreeSet<usize> {
     let lengths = arc_lengths(points);
     let last = points.len() - 1;
     let total = lengths[last];

@@ -13,22 +13,22 @@ use crate::study::failure::Result;
 use crate::study::open_study::Study;
 use crate::study::tracing::Watch;
 
-pub fn tried(study: &mut Study, document: &Document, edit: &Json, bridging: bool) -> Result<Edited> {
+pub(super) fn tried(study: &mut Study, document: &Document, edit: &Json, bridging: bool) -> Result<Edited> {
     let message = json!({"document": document, "edit": edit, "bridging": bridging});
     let message: EditMessage = serde_json::from_value(message).expect("a message");
     study.edit(&message, Watch { stop: &|| false, progress: &Progress::default() })
 }
 
-pub fn edited(study: &mut Study, document: &Document, edit: &Json) -> Edited {
+pub(super) fn edited(study: &mut Study, document: &Document, edit: &Json) -> Edited {
     tried(study, document, edit, false).expect("an edit")
 }
 
-pub fn after(study: &mut Study, document: &Document, edit: &Json) -> Document {
+pub(super) fn after(study: &mut Study, document: &Document, edit: &Json) -> Document {
     edited(study, document, edit).document
 }
 
 /// The scan of a phantom without its vessels, which are known beside it.
-pub fn bare(phantom: &str) -> (Study, Vec<Vec<DVec3>>) {
+pub(super) fn bare(phantom: &str) -> (Study, Vec<Vec<DVec3>>) {
     let mut study = opened(phantom);
     let lines = study.begin_document().vessels.iter().map(|vessel| points(&study, vessel.line)).collect();
     study.content.named = None;
@@ -36,7 +36,7 @@ pub fn bare(phantom: &str) -> (Study, Vec<Vec<DVec3>>) {
     (study, lines)
 }
 
-pub fn called(document: &Document) -> Vec<String> {
+pub(super) fn called(document: &Document) -> Vec<String> {
     document.vessels.iter().map(DocumentVessel::called).collect()
 }
 
@@ -45,7 +45,7 @@ fn ids(document: &Document) -> Vec<u32> {
 }
 
 /// Three vessels with these names.
-pub fn three(study: &mut Study, names: [&str; 3]) -> Document {
+pub(super) fn three(study: &mut Study, names: [&str; 3]) -> Document {
     let lines: Vec<usize> = study.begin_document().vessels.iter().map(|vessel| vessel.line).collect();
     let named: Vec<Json> =
         lines.iter().zip(names).map(|(line, name)| json!({"line": line, "name": name})).collect();

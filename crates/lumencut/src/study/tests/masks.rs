@@ -13,18 +13,18 @@ use crate::study::tracing::Watch;
 use crate::study::view::ViewMessage;
 
 /// The grid of the volume that is open.
-pub fn grid(study: &Study) -> ([usize; 3], DAffine3) {
+pub(super) fn grid(study: &Study) -> ([usize; 3], DAffine3) {
     let held = study.content.held.as_ref().expect("a volume");
     (held.size, held.world_from_index)
 }
 
-pub fn header((size, world_from_index): ([usize; 3], DAffine3), dtype: &str) -> String {
+pub(super) fn header((size, world_from_index): ([usize; 3], DAffine3), dtype: &str) -> String {
     let rows = DMat4::from(world_from_index).transpose().to_cols_array_2d();
     json!({"size": size, "dtype": dtype, "world_from_index": rows}).to_string()
 }
 
 /// The voxels of the volume that is open.
-pub fn values(study: &Study) -> Vec<i16> {
+pub(super) fn values(study: &Study) -> Vec<i16> {
     match &study.content.held.as_ref().expect("a volume").stored {
         crate::study::voxels::Stored::I16(values) => values.clone(),
         other => panic!("{other:?}"),

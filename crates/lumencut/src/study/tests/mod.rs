@@ -36,17 +36,17 @@ use crate::study::view::{CameraMessage, ViewMessage};
 use crate::study::voxels::Stored;
 
 /// Centerlines are asked for in LPS.
-pub const LPS: Statement = Statement { space: Some(Space::Lps), unit: None };
+pub(crate) const LPS: Statement = Statement { space: Some(Space::Lps), unit: None };
 
 /// A study that holds a phantom and its vessels.
-pub fn opened(phantom: &str) -> Study {
+pub(crate) fn opened(phantom: &str) -> Study {
     let mut study = Study::default();
     open_phantom(&mut study, phantom);
     study
 }
 
 /// Opens a phantom in the place of all that is open.
-pub fn open_phantom(study: &mut Study, name: &str) {
+pub(crate) fn open_phantom(study: &mut Study, name: &str) {
     let made = match name {
         "stenosis" => lumencut_phantom::stenosis(50.0),
         "helix" => lumencut_phantom::helix(),
@@ -62,7 +62,7 @@ pub fn open_phantom(study: &mut Study, name: &str) {
 }
 
 /// What a viewer is told of what is open.
-pub fn report_of(study: &Study) -> serde_json::Value {
+pub(crate) fn report_of(study: &Study) -> serde_json::Value {
     serde_json::to_value(study.report().expect("a report")).expect("JSON")
 }
 

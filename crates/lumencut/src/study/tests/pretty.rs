@@ -1,12 +1,12 @@
 //! TypeScript as people read it: a line for each field, which nobody changes.
 
 /// A comment of these words, with a line for each of theirs.
-pub fn comment(words: &str) -> String {
+pub(super) fn comment(words: &str) -> String {
     format!("/**\n * {}\n */\n", words.replace('\n', "\n * "))
 }
 
 /// A line for each field of an object; comments become those of one line where they have one.
-pub fn pretty(types: &str) -> String {
+pub(super) fn pretty(types: &str) -> String {
     let mut made = String::new();
     let mut depth: usize = 0;
     let mut rest = types;
@@ -61,7 +61,7 @@ fn is_field(made: &str) -> bool {
 }
 
 /// Every field, list and tuple as one that nobody changes; places and pairs of numbers by their names.
-pub fn with_readonly(types: &str) -> String {
+pub(super) fn with_readonly(types: &str) -> String {
     let line = |line: &str| {
         let bare = line.trim_start();
         if bare.starts_with("/**") {

@@ -18,7 +18,7 @@ fn header(size: [usize; 3], world_from_index: DAffine3) -> String {
 }
 
 /// A phantom that the page does not offer.
-pub fn holding(phantom: Phantom) -> Study {
+pub(super) fn holding(phantom: Phantom) -> Study {
     let mut study = Study::default();
     study.begin_volume(&header(phantom.size, phantom.world_from_index)).expect("room");
     let bytes: Vec<u8> = phantom.voxels.iter().flat_map(|voxel| voxel.to_le_bytes()).collect();
@@ -40,7 +40,7 @@ fn request(vessels: &[Vec<[f64; 3]>], beside: &[usize]) -> TraceRequest {
 }
 
 /// Two clicks on a vessel of the phantom, a number of points from its ends.
-pub fn clicks(study: &Study, vessel: usize, from_ends: usize) -> Vec<[f64; 3]> {
+pub(super) fn clicks(study: &Study, vessel: usize, from_ends: usize) -> Vec<[f64; 3]> {
     let points = study.content.tree().expect("a tree").tree().vessels()[vessel].points().to_vec();
     vec![points[from_ends].to_array(), points[points.len() - 1 - from_ends].to_array()]
 }
@@ -50,7 +50,7 @@ fn path(study: &mut Study, message: Json, stop: bool) -> Option<Vec<[f64; 3]>> {
     study.path(&message, &|| stop).expect("an open volume")
 }
 
-pub fn points(study: &Study, line: usize) -> Vec<DVec3> {
+pub(super) fn points(study: &Study, line: usize) -> Vec<DVec3> {
     study.lines.get(line).expect("a line").points.clone()
 }
 

@@ -16,7 +16,7 @@ use crate::study::questions::declare;
 use crate::study::view::METHODS;
 
 /// What the table declares.
-pub struct Types {
+pub(crate) struct Types {
     config: Config,
     /// The declarations of types, by their names.
     declared: BTreeMap<String, String>,
@@ -26,7 +26,7 @@ pub struct Types {
 
 impl Types {
     /// A row of the table.
-    pub fn question<M: TS + 'static, A: TS + 'static>(&mut self, name: &str, about: &[&str], turn: Turn) {
+    pub(crate) fn question<M: TS + 'static, A: TS + 'static>(&mut self, name: &str, about: &[&str], turn: Turn) {
         let message = self.named::<M>();
         let answer = self.named::<A>();
         let about: Vec<&str> = about.iter().map(|line| line.trim()).collect();
