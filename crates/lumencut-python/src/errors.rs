@@ -46,7 +46,11 @@ fn made<'py>(
 }
 
 /// Advice and a mend as a text that hosts can word.
-pub(crate) fn advised<'py>(py: Python<'py>, advice: &str, mended_by: Option<&Mend>) -> PyResult<Bound<'py, PyAny>> {
+pub(crate) fn advised<'py>(
+    py: Python<'py>,
+    advice: &str,
+    mended_by: Option<&Mend>,
+) -> PyResult<Bound<'py, PyAny>> {
     let mends: Vec<_> = mended_by.iter().map(|mend| (mend.name(), mend.values())).collect();
     py.import("lumencut.mends")?.getattr("told")?.call1((advice, mends))
 }

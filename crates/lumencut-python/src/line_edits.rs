@@ -41,7 +41,11 @@ impl LineArrays<'_> {
 /// Both parts of a vessel that is cut at an arc length (mm).
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
-pub(crate) fn cut<'py>(py: Python<'py>, vessel: LineArrays<'py>, at: f64) -> PyResult<Vec<NewLineArrays<'py>>> {
+pub(crate) fn cut<'py>(
+    py: Python<'py>,
+    vessel: LineArrays<'py>,
+    at: f64,
+) -> PyResult<Vec<NewLineArrays<'py>>> {
     let parts = line_edits::cut(&vessel.line()?, at).map_err(to_python)?;
     parts.iter().map(|part| arrays(py, part)).collect()
 }

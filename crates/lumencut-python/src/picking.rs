@@ -36,7 +36,11 @@ pub(crate) fn brightest(
 /// of this side (mm).
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
-pub(crate) fn meant_place(vessel: VesselArrays<'_>, point: [f64; 3], pixel_spacing: f64) -> PyResult<(f64, bool)> {
+pub(crate) fn meant_place(
+    vessel: VesselArrays<'_>,
+    point: [f64; 3],
+    pixel_spacing: f64,
+) -> PyResult<(f64, bool)> {
     let (vessel, point) = (tree::vessel(&vessel)?, DVec3::from_array(point));
     let at = meant_vessel::nearest_arc_length(&vessel, point);
     Ok((at, meant_vessel::is_meant(&vessel, point, pixel_spacing)))

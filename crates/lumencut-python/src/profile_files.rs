@@ -123,7 +123,11 @@ pub(crate) fn not_measured_stretches(profile: &Profile) -> Vec<String> {
 #[pyfunction]
 #[pyo3(signature = (profile, at, references))]
 #[allow(clippy::needless_pass_by_value)]
-pub(crate) fn profile_marks(profile: &Profile, at: Option<f64>, references: Vec<f64>) -> PyResult<Vec<MarkParts>> {
+pub(crate) fn profile_marks(
+    profile: &Profile,
+    at: Option<f64>,
+    references: Vec<f64>,
+) -> PyResult<Vec<MarkParts>> {
     marks(&profile.0, at, &references).map(|found| parts_of(&found)).map_err(to_python)
 }
 

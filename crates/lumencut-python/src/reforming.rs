@@ -63,6 +63,12 @@ pub(crate) fn spiral_reach(largest: f64) -> f64 {
 /// The pitch of a spiral CPR (mm), by the usual radius, the smallest side of a voxel, the radius that it reaches, the side of a pixel
 /// (mm), and the most columns.
 #[pyfunction]
-pub(crate) fn spiral_pitch(usual: f64, smallest_side: f64, radius: f64, pixel_spacing: f64, columns: f64) -> f64 {
+pub(crate) fn spiral_pitch(
+    usual: f64,
+    smallest_side: f64,
+    radius: f64,
+    pixel_spacing: f64,
+    columns: f64,
+) -> f64 {
     spiral_lengths::spiral_pitch(usual, smallest_side, Room { radius, pixel_spacing, columns })
 }

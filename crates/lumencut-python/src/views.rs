@@ -105,7 +105,11 @@ pub(crate) fn add_names(module: &Bound<'_, PyModule>) -> PyResult<()> {
 /// The place from where all points (n, 3) just fit into the image of a camera of the same direction and up.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
-pub(crate) fn fitted(py: Python<'_>, camera: MadeCamera, points: PyReadonlyArray2<'_, f64>) -> PyResult<Place> {
+pub(crate) fn fitted(
+    py: Python<'_>,
+    camera: MadeCamera,
+    points: PyReadonlyArray2<'_, f64>,
+) -> PyResult<Place> {
     let (camera, points) = (camera.camera()?, points_of(&points)?);
     placed(py.detach(|| views::fitted(&camera, &points)))
 }

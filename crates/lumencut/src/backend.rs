@@ -16,7 +16,7 @@ use crate::samples::{Mean, sub_views};
 /// The environment variable that names the stages that the CPU does in place of the GPU, with commas between: to find
 /// the one that errs.
 #[cfg(not(target_arch = "wasm32"))]
-pub const CPU_STAGES: &str = "LUMENCUT_CPU_STAGES";
+pub(crate) const CPU_STAGES: &str = "LUMENCUT_CPU_STAGES";
 
 /// Where a picture went.
 #[cfg(target_arch = "wasm32")]
@@ -43,7 +43,7 @@ enum Computer {
 }
 
 /// A frame; and where the CPU took over for good since the frame before, why.
-pub type Rendered = (Frame, Option<Error>);
+pub(crate) type Rendered = (Frame, Option<Error>);
 
 impl Backend {
     /// What is wanted; where that is a GPU that the CPU may stand in for, and it does not open, the reason too.

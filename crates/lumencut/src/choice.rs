@@ -13,17 +13,17 @@ type Lumen<'a> = &'a dyn Fn(Place) -> LumenCount;
 /// The choice of a place by the points that it brings into the volume.
 pub(crate) struct Choice {
     /// What each place makes of the points.
-    pub readings: Vec<Reading>,
+    pub(crate) readings: Vec<Reading>,
     /// The place that is taken where the volume does not speak against it.
     pub usual: Place,
     /// How many points there are.
-    pub total: usize,
+    pub(crate) total: usize,
 }
 
 /// The place that was chosen.
 pub(crate) struct Chosen {
     /// The place, and how many points it brings into the volume.
-    pub best: Reading,
+    pub(crate) best: Reading,
     /// Where the values of the volume have chosen the space or the unit: what they say.
     pub by_values: Option<ByValues>,
     /// The units that fit the volume too.

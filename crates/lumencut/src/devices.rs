@@ -8,7 +8,7 @@ pub use lumencut_gpu::adapter::{Choice, Description, devices};
 pub use lumencut_gpu::device::Device;
 
 /// The environment variable that says what `auto` takes: `hardware` where nothing is said, `any` GPU, or the `cpu`.
-pub const AUTO: &str = "LUMENCUT_AUTO_DEVICE";
+pub(crate) const AUTO: &str = "LUMENCUT_AUTO_DEVICE";
 
 /// Whether a search for hardware has found none; it does not appear later.
 static IS_BARE: AtomicBool = AtomicBool::new(false);
@@ -110,7 +110,7 @@ fn share(device: Arc<Device>, choice: Choice) -> Arc<Device> {
 ///
 /// # Errors
 /// [`ErrorKind::Device`] where there is one that cannot be used.
-pub async fn open_if_there(choice: Choice) -> Result<Option<Arc<Device>>> {
+pub(crate) async fn open_if_there(choice: Choice) -> Result<Option<Arc<Device>>> {
     if choice == Choice::Hardware && IS_BARE.load(Ordering::Relaxed) {
         return Ok(None);
     }

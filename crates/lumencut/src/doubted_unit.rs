@@ -18,7 +18,7 @@ pub struct Doubt {
 }
 
 /// What speaks against the unit of the points of a file, as they stand in it, that are read in a place.
-pub fn doubted_unit(points: &[DVec3], place: Place, volume: Option<&Judge>) -> Option<Doubt> {
+pub(crate) fn doubted_unit(points: &[DVec3], place: Place, volume: Option<&Judge>) -> Option<Doubt> {
     match volume {
         Some(volume) => doubted_by_volume(points, place, volume),
         None => doubted_by_size(points, place),

@@ -135,7 +135,7 @@ fn turns(cpr: &Cpr, pixel_spacing: f64) -> impl Iterator<Item = f64> {
 ///
 /// # Errors
 /// Those of the layout.
-pub fn half_circle(cpr: &Cpr, pixel_spacing: f64, pixel: DVec2) -> Result<Vec<DVec3>> {
+pub(crate) fn half_circle(cpr: &Cpr, pixel_spacing: f64, pixel: DVec2) -> Result<Vec<DVec3>> {
     turns(cpr, pixel_spacing).map(|aside| Ok(cpr.rotated(aside)?.world_from_pixel(pixel))).collect()
 }
 

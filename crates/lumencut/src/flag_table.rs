@@ -88,7 +88,7 @@ pub const FLAGS: [FlagLook; 10] = [
 ];
 
 /// The flags that are set among these bits, in their order.
-pub fn set_in(bits: u32) -> impl Iterator<Item = &'static FlagLook> {
+pub(crate) fn set_in(bits: u32) -> impl Iterator<Item = &'static FlagLook> {
     FLAGS.iter().filter(move |flag| bits & flag.bit > 0)
 }
 

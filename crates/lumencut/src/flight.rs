@@ -5,7 +5,7 @@ use lumencut_core::camera::Camera;
 use lumencut_core::error::{Error, ErrorKind, Result};
 
 /// The most frames of a flight.
-pub const MOST_FRAMES: usize = 1_000_000;
+pub(crate) const MOST_FRAMES: usize = 1_000_000;
 
 /// The views of a flight from one camera to another, the first and the last of which are these cameras to the bit.
 ///

@@ -59,7 +59,7 @@ pub fn told(trees: &Trees, smallest_radius: f64) -> Result<FoundTree> {
 ///
 /// # Errors
 /// [`lumencut_core::error::ErrorKind::Tracing`] where not even a doubtful one was found.
-pub fn told_with_doubtful(trees: &Trees, smallest_radius: f64) -> Result<FoundTree> {
+pub(crate) fn told_with_doubtful(trees: &Trees, smallest_radius: f64) -> Result<FoundTree> {
     if trees.vessels.is_empty() {
         return Err(refusals::no_vessel(0, smallest_radius));
     }
@@ -78,7 +78,12 @@ pub fn trace_from(volume: &Volume, seed: DVec3, request: &FindRequest) -> Result
 ///
 /// # Errors
 /// [`lumencut_core::error::ErrorKind::Tracing`] for a click in no vessel that was found, and in one that there is already.
-pub fn one_vessel(volume: &Volume, trees: &Trees, click: DVec3, beside: &[Centerline]) -> Result<Centerline> {
+pub(crate) fn one_vessel(
+    volume: &Volume,
+    trees: &Trees,
+    click: DVec3,
+    beside: &[Centerline],
+) -> Result<Centerline> {
     let voxels = Voxels::new(volume);
     if !click.is_finite() || voxels.voxel_at(click).is_none() {
         return Err(refusals::outside(click));

@@ -81,7 +81,7 @@ impl<K: PartialEq> KeptProfiles<K> {
     }
 
     /// A profile of a vessel, however it was asked for; none where it was not measured.
-    pub fn any_of(&self, key: &K) -> Option<&Profile> {
+    pub(crate) fn any_of(&self, key: &K) -> Option<&Profile> {
         self.kept.iter().find(|kept| kept.of == *key).map(|kept| &*kept.profile)
     }
 

@@ -13,7 +13,8 @@ const STEPS: f64 = 1e6;
 const SAME: f64 = 1e-6;
 
 /// The signed axes of the patient (LPS) in the order in which equally near ones are preferred: along the body first.
-pub const PREFERRED: [DVec3; 6] = [DVec3::NEG_Z, DVec3::Z, DVec3::X, DVec3::NEG_X, DVec3::Y, DVec3::NEG_Y];
+pub(crate) const PREFERRED: [DVec3; 6] =
+    [DVec3::NEG_Z, DVec3::Z, DVec3::X, DVec3::NEG_X, DVec3::Y, DVec3::NEG_Y];
 
 /// The sides of the patient at the low and the high end of each axis (LPS).
 const SIDES: [[char; 2]; 3] = [['R', 'L'], ['A', 'P'], ['I', 'S']];

@@ -36,7 +36,7 @@ pub struct Lines<'a> {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct LumenCount {
     /// Those that are brighter than their surroundings, or those that are darker, whichever are more.
-    pub like_lumen: usize,
+    pub(crate) like_lumen: usize,
     /// How many were looked at.
     pub of: usize,
 }
@@ -53,7 +53,7 @@ pub struct Judge<'a> {
 impl LumenCount {
     /// Whether these points are lumen and those of the other reading are not: at least three times as many look like it,
     /// at least half of all, and at least twenty.
-    pub fn is_evident_beside(self, other: Self) -> bool {
+    pub(crate) fn is_evident_beside(self, other: Self) -> bool {
         self.like_lumen >= FEWEST
             && 2 * self.like_lumen >= self.of
             && self.like_lumen >= TIMES * other.like_lumen

@@ -110,7 +110,7 @@ fn unmeasured(vessel: &Vessel, straightened: &Straightened) -> Result<Vec<Statio
 }
 
 /// An error for a vessel whose radius nothing tells.
-pub fn no_radius() -> Error {
+pub(crate) fn no_radius() -> Error {
     let found = "a vessel without radii, whose lumen could not be measured either";
     Error::new(
         ErrorKind::VesselTree,

@@ -10,7 +10,7 @@ use crate::flag_table::set_in;
 use crate::text::fixed;
 
 /// What is told wherever lengths are in mm because a reader took voxels for 1 mm apart.
-pub const MILLIMETRE_ASSUMED: &str =
+pub(crate) const MILLIMETRE_ASSUMED: &str =
     "1 mm is assumed between voxels: the scan does not say how far they lie apart.";
 
 /// How readers call a method: `NASCET`, `ECST` or `area`.
@@ -108,7 +108,7 @@ pub fn of_wall(source: &WallSource) -> String {
 }
 
 /// What the calcium or metal beside a lumen leaves open, by the bounds of its diameter (mm); None where nothing is brighter than it.
-pub fn of_bounds([excluded, included]: [f64; 2]) -> Option<String> {
+pub(crate) fn of_bounds([excluded, included]: [f64; 2]) -> Option<String> {
     let [excluded, included] = [excluded, included].map(|mm| mm.is_finite().then(|| fixed(mm, 2)));
     Some(format!("{} mm if nothing brighter is lumen, {} mm if all of it is", excluded?, included?))
 }

@@ -48,7 +48,7 @@ impl Method {
     ///
     /// # Errors
     /// As [`Method::on_cpu`], and [`ErrorKind::Device`] where the GPU has no room or fails.
-    pub async fn on_gpu(
+    pub(crate) async fn on_gpu(
         self,
         gpu: &mut GpuRenderer,
         scene: &Scene<'_>,

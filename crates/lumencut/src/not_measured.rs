@@ -8,11 +8,11 @@ use serde::Serialize;
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub struct NotMeasured {
     /// Where it begins (arc length, mm).
-    pub from_mm: f64,
+    pub(crate) from_mm: f64,
     /// Where it ends (arc length, mm).
-    pub to_mm: f64,
+    pub(crate) to_mm: f64,
     /// Where the vessel can be cut so that this stretch is off it (arc length, mm).
-    pub cut_mm: f64,
+    pub(crate) cut_mm: f64,
     /// That it was not measured, and why.
     pub words: String,
 }

@@ -8,7 +8,7 @@ use crate::flag_table::FLAGS;
 use crate::profile_marks::{main_place, offered_references};
 
 /// What hinders a suggestion beside the flags, as words.
-pub const HINDRANCES: [(u32, &str); 3] =
+pub(crate) const HINDRANCES: [(u32, &str); 3] =
     [(CHANGE_OF_LUMEN, "change of lumen"), (FLAP, "flap"), (UNSURE, "unsure diameter")];
 
 /// Why the narrowest place, or any reference, is not suggested beside what a reader marked (arc lengths, mm): a sentence each,

@@ -25,7 +25,7 @@ pub fn parts(lines: &[&[DVec3]]) -> Vec<Vec<usize>> {
 
 /// The line that each one hangs on: from the widest line of a part the way leads to those that touch it, from these to the next, and
 /// so on. The widest one itself hangs on none. `widths` are those of the lines; those that are not known are the narrowest.
-pub fn parents(lines: &[&[DVec3]], widths: &[Option<f64>]) -> Vec<Option<usize>> {
+pub(crate) fn parents(lines: &[&[DVec3]], widths: &[Option<f64>]) -> Vec<Option<usize>> {
     let mut neighbors = vec![Vec::new(); lines.len()];
     touching(lines, |number, owner| {
         neighbors[number].push(owner);

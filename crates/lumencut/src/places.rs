@@ -80,7 +80,7 @@ pub fn places(spaces: &[Space], units: &[Unit]) -> Vec<Place> {
 
 /// How many points lie inside a volume where their coordinates are read in a place.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Reading {
+pub(crate) struct Reading {
     /// The place.
     pub place: Place,
     /// How many points lie inside.
@@ -89,33 +89,33 @@ pub struct Reading {
     pub across: f64,
     /// Whether vessels can have that size: in mm they may be short pieces, of a few voxels at least; in another unit they have a
     /// size of a body's.
-    pub is_plausible: bool,
+    pub(crate) is_plausible: bool,
 }
 
 impl Reading {
     /// How many points lie inside; none of vessels without a plausible size.
-    pub fn fits(&self) -> usize {
+    pub(crate) fn fits(&self) -> usize {
         if self.is_plausible { self.inside } else { 0 }
     }
 
     /// Whether the vessels are shorter than most, so that another unit is as likely where it fits.
-    pub fn is_short(&self) -> bool {
+    pub(crate) fn is_short(&self) -> bool {
         self.across < SMALLEST
     }
 
     /// Whether it brings about as many points into the volume as a place that brings this many.
-    pub fn is_as_good_as(&self, inside: usize) -> bool {
+    pub(crate) fn is_as_good_as(&self, inside: usize) -> bool {
         self.fits() as f64 >= AS_GOOD * inside as f64
     }
 
     /// Whether it brings twice as many points into the volume, and a tenth of all more.
-    pub fn is_clearly_better_than(&self, inside: usize, total: usize) -> bool {
+    pub(crate) fn is_clearly_better_than(&self, inside: usize, total: usize) -> bool {
         self.fits() >= 2 * inside && self.fits() >= inside + (total / 10).max(1)
     }
 }
 
 /// What each place makes of the points.
-pub fn readings(points: &[DVec3], candidates: &[Place], volume: &Extent) -> Vec<Reading> {
+pub(crate) fn readings(points: &[DVec3], candidates: &[Place], volume: &Extent) -> Vec<Reading> {
     let bare = across(points);
     let reading = |place: &Place| {
         let across = bare * place.unit.in_mm();

@@ -130,19 +130,19 @@ pub(crate) struct Populations {
     /// The smallest voxel that was looked at.
     pub smallest: f64,
     /// The darkest voxels (1st percentile).
-    pub darkest: f64,
+    pub(crate) darkest: f64,
     /// The median of the tissue.
-    pub tissue: f64,
+    pub(crate) tissue: f64,
     /// What hardly a ray through tissue exceeds.
-    pub brightest_tissue: f64,
+    pub(crate) brightest_tissue: f64,
     /// The lumen.
     pub lumen: f64,
     /// The brightest voxels (99th percentile of what is no padding).
     pub brightest: f64,
     /// What is brighter than nearly all of them (99.9th percentile of the same).
-    pub peak: f64,
+    pub(crate) peak: f64,
     /// Whether vessels alone are shown, and their edges are darker than their lumen.
-    pub has_edges: bool,
+    pub(crate) has_edges: bool,
 }
 
 impl Populations {

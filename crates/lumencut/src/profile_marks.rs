@@ -26,7 +26,7 @@ pub struct Marked {
 }
 
 /// What a place is called whose diameter a reader noted.
-pub const NOTED: &str = "noted diameter";
+pub(crate) const NOTED: &str = "noted diameter";
 
 /// What is told of a place that a reader marked.
 #[derive(Clone, Debug, PartialEq)]
@@ -129,7 +129,7 @@ impl Marked {
     ///
     /// # Errors
     /// [`lumencut_core::error::ErrorKind::Measuring`] for a place beyond the vessel.
-    pub fn offered_references(&self, profile: &Profile) -> Result<[Option<Spot>; 2]> {
+    pub(crate) fn offered_references(&self, profile: &Profile) -> Result<[Option<Spot>; 2]> {
         offered_references(profile, self.at, &self.compared.reference)
     }
 
@@ -219,7 +219,7 @@ pub fn marks(profile: &Profile, at: Option<f64>, references: &[f64]) -> Result<V
 ///
 /// # Errors
 /// [`lumencut_core::error::ErrorKind::Measuring`] for a place beyond the vessel.
-pub fn offered_references(
+pub(crate) fn offered_references(
     profile: &Profile,
     at: Option<f64>,
     references: &[f64],

@@ -51,7 +51,12 @@ impl RaysAcross<'_, '_> {
     /// What each ray in the section at an arc length meets within its reach (mm), where values first fall half of the way from the
     /// lumen's level to that of the surroundings. Bone that touches the vessel leaves no such fall: where values rise to it just beyond the
     /// reach, the wall lies where they are lowest before.
-    pub(crate) fn falls(&self, at: f64, [lumen, around]: [f64; 2], reach: impl Fn(usize) -> f64) -> Vec<Fall> {
+    pub(crate) fn falls(
+        &self,
+        at: f64,
+        [lumen, around]: [f64; 2],
+        reach: impl Fn(usize) -> f64,
+    ) -> Vec<Fall> {
         let frame = self.straightened.frame(at);
         let index = &self.voxels.index_from_world;
         let middle = self.straightened.world_from_straightened(DVec3::new(0.0, 0.0, at));

@@ -20,7 +20,7 @@ use crate::profile_marks::Measured;
 use crate::profile_record::{Asked, NOTICE};
 use crate::study::view::method_word;
 use findings::findings;
-pub use findings::{Sentence, distances, sentences};
+pub(crate) use findings::{Sentence, distances, sentences};
 use markup::{escaped, figure, paragraph};
 pub use places::{Place, ReportMark};
 use places::{places, row, table, widest_row};
@@ -73,7 +73,7 @@ pub struct Lengths {
     /// Stretches of the vessel, from one arc length to another (mm): two at most.
     pub stretches: Vec<[f64; 2]>,
     /// Straight distances (mm).
-    pub distances: Vec<f64>,
+    pub(crate) distances: Vec<f64>,
 }
 
 /// A view of all vessels.

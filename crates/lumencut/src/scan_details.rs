@@ -24,11 +24,11 @@ pub struct ScanDetails {
 }
 
 /// What tables write of a text that the file does not state.
-pub const NOT_STATED: &str = "not stated";
+pub(crate) const NOT_STATED: &str = "not stated";
 
 impl ScanDetails {
     /// That of a file that tells nothing.
-    pub const NOTHING: Self = Self {
+    pub(crate) const NOTHING: Self = Self {
         series_number: None,
         series_description: None,
         phase: None,

@@ -18,9 +18,9 @@ const METAL: f64 = 3.0;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct ValueUnit {
     /// Whether they are Hounsfield units by what they are.
-    pub is_hounsfield: bool,
+    pub(crate) is_hounsfield: bool,
     /// Whether some are as far above the lumen as metal is.
-    pub has_metal: bool,
+    pub(crate) has_metal: bool,
 }
 
 impl ValueUnit {

@@ -52,7 +52,7 @@ pub struct Lumen {
 ///
 /// # Errors
 /// As [`about`].
-pub fn about_lumen(vessel: &Vessel, Lumen { at, radius }: Lumen, size: [usize; 2]) -> Result<Camera> {
+pub(crate) fn about_lumen(vessel: &Vessel, Lumen { at, radius }: Lumen, size: [usize; 2]) -> Result<Camera> {
     let path = CenterlinePath::new(vessel, 0.0)?;
     if !(0.0..=path.length()).contains(&at) {
         let found = format!("{} mm on a vessel of {} mm", rounded(at, 6), rounded(path.length(), 6));
@@ -80,7 +80,7 @@ pub fn radius_at(vessel: &Vessel, at: f64) -> f64 {
 }
 
 /// The same; None where it is not known.
-pub fn known_radius_at(vessel: &Vessel, at: f64) -> Option<f64> {
+pub(crate) fn known_radius_at(vessel: &Vessel, at: f64) -> Option<f64> {
     let lengths = vessel.arc_length();
     let after = lengths.partition_point(|length| *length < at).clamp(1, lengths.len() - 1);
     let step = lengths[after] - lengths[after - 1];

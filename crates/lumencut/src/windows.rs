@@ -168,7 +168,7 @@ fn beside(tree: &VesselTree, beyond: f64) -> Vec<DVec3> {
 ///
 /// # Errors
 /// [`ErrorKind::Volume`] for values beyond all windows.
-pub fn of_volume(volume: &Volume) -> Result<Window> {
+pub(crate) fn of_volume(volume: &Volume) -> Result<Window> {
     alone(volume, |_, _| 1.0)
 }
 
@@ -178,7 +178,7 @@ pub fn of_volume(volume: &Volume) -> Result<Window> {
 ///
 /// # Errors
 /// [`ErrorKind::Volume`] for values beyond all windows.
-pub fn of_slices(volume: &Volume) -> Result<Window> {
+pub(crate) fn of_slices(volume: &Volume) -> Result<Window> {
     let mut looked = Looked::at(volume);
     let Some(found) = Populations::of(&mut looked) else {
         return Ok(OF_NOTHING);
@@ -204,7 +204,7 @@ fn cut_off_tissue(looked: &mut Looked, lumen: f64) -> Option<Tissue> {
 ///
 /// # Errors
 /// [`ErrorKind::Volume`] for values beyond all windows.
-pub fn holding_lumen(volume: &Volume, tree: &VesselTree) -> Result<Window> {
+pub(crate) fn holding_lumen(volume: &Volume, tree: &VesselTree) -> Result<Window> {
     let window = along(volume, tree)?;
     let black = window.level - window.width / 2.0;
     let needed = brightest_lumen(volume, tree).map_or(0.0, |lumen| (lumen - black) / HELD[0]);
@@ -213,7 +213,7 @@ pub fn holding_lumen(volume: &Volume, tree: &VesselTree) -> Result<Window> {
 }
 
 /// Whether the brightest vessels of a tree are not white in a window; true where there are none.
-pub fn holds_lumen(window: Window, volume: &Volume, tree: &VesselTree) -> bool {
+pub(crate) fn holds_lumen(window: Window, volume: &Volume, tree: &VesselTree) -> bool {
     let share = |lumen: f64| (lumen - window.level) / window.width + 0.5;
     brightest_lumen(volume, tree).is_none_or(|lumen| share(lumen) <= HELD[1])
 }
@@ -232,7 +232,7 @@ fn brightest_lumen(volume: &Volume, tree: &VesselTree) -> Option<f64> {
 ///
 /// # Errors
 /// [`ErrorKind::Volume`] for values beyond all windows.
-pub fn of_mip(volume: &Volume) -> Result<Window> {
+pub(crate) fn of_mip(volume: &Volume) -> Result<Window> {
     alone(volume, |found, [black, width]| ((found.peak - black) / width).clamp(1.0, MIP_WIDEST))
 }
 
@@ -265,7 +265,7 @@ pub fn whole(volume: &Volume) -> Result<Window> {
 ///
 /// # Errors
 /// [`ErrorKind::Volume`] for values beyond all windows.
-pub fn mra(volume: &Volume) -> Result<Window> {
+pub(crate) fn mra(volume: &Volume) -> Result<Window> {
     without_unit(volume, BRIGHTEST)
 }
 

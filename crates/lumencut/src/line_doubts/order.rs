@@ -50,7 +50,7 @@ pub(super) struct Disorder {
     /// The length of the line and of a short path through its points.
     pub lengths: [f64; 2],
     /// Whether an order is found without doubt.
-    pub is_found: bool,
+    pub(crate) is_found: bool,
 }
 
 /// A step that is far longer than others.

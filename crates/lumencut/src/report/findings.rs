@@ -16,7 +16,7 @@ use crate::text::fixed;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename = "SentenceKind"))]
 #[serde(rename_all = "snake_case")]
-pub enum Kind {
+pub(crate) enum Kind {
     /// The percentage of a stenosis, or why there is none.
     Finding,
     /// What makes it doubtful.
@@ -28,7 +28,7 @@ pub enum Kind {
 /// A sentence of what was found.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct Sentence {
+pub(crate) struct Sentence {
     /// What it tells.
     pub kind: Kind,
     /// Its words.
@@ -36,7 +36,7 @@ pub struct Sentence {
 }
 
 /// Stenosis with its doubts, or why it is not graded, and its group; then diameters that are noted, and stretches.
-pub fn sentences(stated: Stated, measured: &Measured, lengths: &Lengths) -> Vec<Sentence> {
+pub(crate) fn sentences(stated: Stated, measured: &Measured, lengths: &Lengths) -> Vec<Sentence> {
     let told = |kind, words: &str| Sentence { kind, words: stated.spoken(words) };
     let graded = match measured.grade {
         Some(Grade::NotGraded(reason)) => vec![told(Kind::Finding, &format!("No percentage: {reason}"))],
@@ -74,7 +74,7 @@ fn noted(stated: Stated, profile: &Profile, at: f64) -> Option<String> {
 }
 
 /// Straight distances (mm) that a reader measured anywhere in the scan, a sentence each.
-pub fn distances(stated: Stated, lengths: &[f64]) -> Vec<String> {
+pub(crate) fn distances(stated: Stated, lengths: &[f64]) -> Vec<String> {
     let numbered = lengths.iter().enumerate();
     numbered
         .map(|(n, length)| format!("Straight distance {}: {}", n + 1, stated.length(*length, 1)))

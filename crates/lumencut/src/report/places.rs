@@ -46,7 +46,7 @@ pub struct Place {
     /// Whether it is offered; a reader marked it otherwise.
     pub is_suggestion: bool,
     /// Whether it is compared with the place of a stenosis.
-    pub is_reference: bool,
+    pub(crate) is_reference: bool,
 }
 
 impl Place {
@@ -61,7 +61,7 @@ impl Place {
     }
 
     /// Its name and where it is.
-    pub fn caption(&self, unit: &str) -> String {
+    pub(crate) fn caption(&self, unit: &str) -> String {
         format!("{} at {}{unit}", self.name, fixed(self.at, 1))
     }
 }

@@ -16,23 +16,23 @@ use crate::study::whole_vessel::WholeVessel;
 /// An edit that was made, and what is shown after it.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct AfterEdit {
+pub(crate) struct AfterEdit {
     /// What came of it.
-    pub edited: Edited,
+    pub(crate) edited: Edited,
     /// What is open now: the vessels of the document that are not doubtful are shown, as `show` shows them.
-    pub report: Report,
+    pub(crate) report: Report,
     /// The lines that came to the document.
     pub lines: Vec<NumberedLine>,
     /// What is known of the lines that are not doubtful, as `line_facts` tells it.
-    pub facts: Vec<LineFacts>,
+    pub(crate) facts: Vec<LineFacts>,
     /// What lies where the edit was made; none of an edit that has no place.
-    pub pick: Option<Pick>,
+    pub(crate) pick: Option<Pick>,
 }
 
 /// A line with its number.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct NumberedLine {
+pub(crate) struct NumberedLine {
     /// Its number.
     pub line: usize,
     /// Its content.
@@ -42,9 +42,9 @@ pub struct NumberedLine {
 /// What a first click of a vessel hit.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct FirstClick {
+pub(crate) struct FirstClick {
     /// What lies there.
-    pub pick: Pick,
+    pub(crate) pick: Pick,
     /// The whole vessel that it would add, as `whole_vessel` tells it.
     pub whole: Option<WholeVessel>,
 }
@@ -54,7 +54,7 @@ impl Study {
     ///
     /// # Errors
     /// Those of [`Study::edit`] and [`Study::show`]; what was shown stays then.
-    pub fn edit_and_show(&mut self, message: &EditMessage, watch: Watch) -> Result<AfterEdit> {
+    pub(crate) fn edit_and_show(&mut self, message: &EditMessage, watch: Watch) -> Result<AfterEdit> {
         let edited = self.edit(message, watch)?;
         let listed = listed(&edited.document);
         self.show(&listed)?;
@@ -72,7 +72,7 @@ impl Study {
     ///
     /// # Errors
     /// Those of [`Study::check_click`] and [`Study::whole_vessel`].
-    pub fn first_click(&self, click: Place, vessels: &[DocumentVessel]) -> Result<FirstClick> {
+    pub(crate) fn first_click(&self, click: Place, vessels: &[DocumentVessel]) -> Result<FirstClick> {
         self.check_click(click)?;
         Ok(FirstClick { pick: self.at(click), whole: self.whole_vessel(click, vessels)? })
     }

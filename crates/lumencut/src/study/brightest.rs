@@ -57,7 +57,7 @@ impl Study {
     ///
     /// # Errors
     /// Those of [`brightest_on_ray`], `volume` where none is open, and those of the view.
-    pub fn brightest(&mut self, view: &View, pixel: [f64; 2]) -> Result<Pick> {
+    pub(crate) fn brightest(&mut self, view: &View, pixel: [f64; 2]) -> Result<Pick> {
         let within = self.depths_of_slab(view, pixel)?;
         self.brightest_within(view, pixel, within)
     }

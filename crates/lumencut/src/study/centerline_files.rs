@@ -19,25 +19,25 @@ use crate::study::failure::Result;
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(default)]
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename = "CenterlineWish"))]
-pub struct AskedMessage {
+pub(crate) struct AskedMessage {
     /// `lps` or `ras`.
     #[cfg_attr(test, ts(optional))]
-    pub coordinates: Option<String>,
+    pub(crate) coordinates: Option<String>,
     /// `um`, `mm`, `cm`, `dm` or `m`.
     #[cfg_attr(test, ts(optional))]
     pub unit: Option<String>,
     /// Whether the points of each line are put into their order.
     #[cfg_attr(test, ts(optional))]
-    pub reorder: Option<bool>,
+    pub(crate) reorder: Option<bool>,
 }
 
 /// How centerlines are to be read.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Asked {
+pub(crate) struct Asked {
     /// Their space and unit.
     pub place: Statement,
     /// Whether the points of each line are put into their order.
-    pub reorder: bool,
+    pub(crate) reorder: bool,
 }
 
 impl From<Statement> for Asked {
@@ -54,7 +54,7 @@ impl From<AskedMessage> for Asked {
 
 impl AskedMessage {
     /// What it asks for; other names ask for nothing.
-    pub fn statement(self) -> Statement {
+    pub(crate) fn statement(self) -> Statement {
         let space = |space: &Space| Some(space.name()) == self.coordinates.as_deref();
         let unit = |unit: &Unit| Some(unit.name()) == self.unit.as_deref();
         Statement { space: Space::ALL.into_iter().find(space), unit: Unit::ALL.into_iter().find(unit) }
@@ -63,37 +63,37 @@ impl AskedMessage {
 
 /// Vessels, their names, and what was odd about their file.
 #[derive(Clone, Debug)]
-pub struct PlacedVessels {
+pub(crate) struct PlacedVessels {
     /// The vessels in world space.
     pub tree: VesselTree,
     /// The name of each vessel; empty where the file has none.
     pub names: Vec<String>,
     /// One sentence each.
-    pub notes: Vec<String>,
+    pub(crate) notes: Vec<String>,
     /// Whether points are in another order, and may be put in order.
-    pub can_reorder: bool,
+    pub(crate) can_reorder: bool,
     /// What speaks against the space or unit in which they were read.
-    pub doubt: Option<PlaceDoubt>,
+    pub(crate) doubt: Option<PlaceDoubt>,
 }
 
 /// What speaks against the space or unit of centerlines, and how else they can be read.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct PlaceDoubt {
+pub(crate) struct PlaceDoubt {
     /// What was found, in words.
     pub found: String,
     /// The places that fit instead, such as `lps in cm`; none where no other fits.
-    pub readings: Vec<String>,
+    pub(crate) readings: Vec<String>,
 }
 
 /// What is told of centerlines that were opened.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct OpenedLines {
+pub(crate) struct OpenedLines {
     /// What was odd about their file, one sentence each.
-    pub notes: Vec<String>,
+    pub(crate) notes: Vec<String>,
     /// What speaks against the space or unit in which they were read.
-    pub doubt: Option<PlaceDoubt>,
+    pub(crate) doubt: Option<PlaceDoubt>,
 }
 
 /// The vessels of the file `name` in world space, read in the space and unit that are asked for; what neither the file nor the
@@ -101,7 +101,7 @@ pub struct OpenedLines {
 ///
 /// # Errors
 /// `format` for a file that is damaged or holds no centerlines, and where nothing tells where they lie.
-pub fn read_centerlines(
+pub(crate) fn read_centerlines(
     bytes: &[u8],
     name: &str,
     asked: Asked,

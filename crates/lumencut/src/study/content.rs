@@ -20,9 +20,9 @@ use crate::windows;
 
 /// A tree with the names and the lines of its vessels.
 #[derive(Debug)]
-pub struct NamedTree {
+pub(crate) struct NamedTree {
     /// The tree.
-    pub leveled: Arc<LeveledTree>,
+    pub(crate) leveled: Arc<LeveledTree>,
     /// One name for each vessel; empty where it has none.
     pub names: Vec<String>,
     /// The number of the line of each vessel.
@@ -33,7 +33,7 @@ pub struct NamedTree {
 
 /// Vessels that are measured among each other, with the numbers of their lines.
 #[derive(Debug)]
-pub struct Listed {
+pub(crate) struct Listed {
     /// One number for each vessel.
     pub lines: Vec<usize>,
     /// In the order of the list.
@@ -42,17 +42,17 @@ pub struct Listed {
 
 impl NamedTree {
     /// A tree of which nothing is known yet.
-    pub fn new(tree: VesselTree, names: Vec<String>, lines: Vec<usize>) -> Self {
+    pub(crate) fn new(tree: VesselTree, names: Vec<String>, lines: Vec<usize>) -> Self {
         Self { leveled: Arc::new(LeveledTree::new(tree)), names, lines, with_hidden: None }
     }
 
     /// The same tree, whose vessels are measured among all of a list.
-    pub fn among(self, listed: Listed) -> Self {
+    pub(crate) fn among(self, listed: Listed) -> Self {
         Self { with_hidden: Some(listed), ..self }
     }
 
     /// The vessels that tell each other's point spread and branches, and the numbers of their lines: also those that are hidden.
-    pub fn measured_among(&self) -> (&[usize], &[Vessel]) {
+    pub(crate) fn measured_among(&self) -> (&[usize], &[Vessel]) {
         let shown = (&self.lines[..], self.leveled.tree().vessels());
         self.with_hidden.as_ref().map_or(shown, |all| (&all.lines, &all.vessels))
     }
@@ -64,9 +64,9 @@ pub struct Content {
     /// The volume.
     pub held: Option<HeldVolume>,
     /// The tree.
-    pub named: Option<NamedTree>,
+    pub(crate) named: Option<NamedTree>,
     /// Whether the points of centerlines that were opened may be put in order.
-    pub can_reorder: bool,
+    pub(crate) can_reorder: bool,
     /// The windows of what was opened, once they were asked for.
     windows: OnceLock<Option<Windows>>,
 }
@@ -77,23 +77,23 @@ type LevelWidth = [f64; 2];
 /// What is open.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct Report {
+pub(crate) struct Report {
     /// The volume; none where vessels alone are open.
     pub volume: Option<VolumeReport>,
     /// The vessels that are shown; none where the volume alone is open.
     pub vessels: Option<Vec<VesselReport>>,
     /// The windows that the data suggest; none without a volume.
-    pub windows: Option<Windows>,
+    pub(crate) windows: Option<Windows>,
     /// Whether points of the centerlines that were read last are in another order, and may be put in order; left out where not.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     #[cfg_attr(test, ts(optional, as = "Option<bool>"))]
-    pub can_reorder: bool,
+    pub(crate) can_reorder: bool,
 }
 
 /// The volume that is open.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct VolumeReport {
+pub(crate) struct VolumeReport {
     /// The number of voxels along (i, j, k).
     pub size: [usize; 3],
     /// World position of a continuous index, row by row.
@@ -101,19 +101,19 @@ pub struct VolumeReport {
     pub world_from_index: [[f64; 4]; 4],
     /// The corners of its outermost voxels.
     #[cfg_attr(test, ts(type = "Array<Vector>"))]
-    pub corners: [[f64; 3]; 8],
+    pub(crate) corners: [[f64; 3]; 8],
     /// The smallest side of a voxel (mm).
-    pub smallest_side: f64,
+    pub(crate) smallest_side: f64,
     /// How the scan was made, in words.
     pub scan: String,
     /// What speaks against its lengths; none where nothing does.
-    pub doubt: Option<String>,
+    pub(crate) doubt: Option<String>,
 }
 
 /// A vessel that is shown.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct VesselReport {
+pub(crate) struct VesselReport {
     /// The number of its line.
     pub line: usize,
     /// Its name; empty where it has none.
@@ -121,13 +121,13 @@ pub struct VesselReport {
     /// mm
     pub length: f64,
     /// Whether its radius is known.
-    pub has_radius: bool,
+    pub(crate) has_radius: bool,
 }
 
 /// The windows of what is open.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct Windows {
+pub(crate) struct Windows {
     /// That of cut surface and flat views.
     main: LevelWidth,
     /// Those of the contexts, by their names.
@@ -178,7 +178,7 @@ impl Content {
     ///
     /// # Errors
     /// `volume` for an invalid grid.
-    pub fn hold_lumen(&mut self) -> Result<()> {
+    pub(crate) fn hold_lumen(&mut self) -> Result<()> {
         let (Some(Some(windows)), Some(held), Some(tree)) = (self.windows.get(), &self.held, self.tree())
         else {
             return Ok(());
@@ -191,7 +191,7 @@ impl Content {
     }
 
     /// Takes the windows from the data anew when they are asked for.
-    pub fn forget_windows(&mut self) {
+    pub(crate) fn forget_windows(&mut self) {
         self.windows = OnceLock::new();
     }
 
@@ -199,7 +199,7 @@ impl Content {
     ///
     /// # Errors
     /// `volume` for values beyond all windows.
-    pub fn windows(&self) -> Result<Option<Windows>> {
+    pub(crate) fn windows(&self) -> Result<Option<Windows>> {
         if let Some(known) = self.windows.get() {
             return Ok(known.clone());
         }
@@ -243,7 +243,7 @@ impl Content {
     }
 
     /// What a view of all of it must show: the corners of the volume, or the points of the tree.
-    pub fn outline(&self) -> Result<Vec<DVec3>> {
+    pub(crate) fn outline(&self) -> Result<Vec<DVec3>> {
         let points = |named: &NamedTree| {
             named.leveled.tree().vessels().iter().flat_map(|vessel| vessel.points()).copied().collect()
         };
@@ -258,7 +258,7 @@ impl Content {
     ///
     /// # Errors
     /// As [`Content::windows`].
-    pub fn report(&self) -> Result<Report> {
+    pub(crate) fn report(&self) -> Result<Report> {
         let volume = self.held.as_ref().map(VolumeReport::of).transpose()?;
         let vessels = self.named.as_ref().map(VesselReport::of_all);
         Ok(Report { volume, vessels, windows: self.windows()?, can_reorder: self.can_reorder })

@@ -6,15 +6,15 @@ use serde::Serialize;
 /// A reason for doubt.
 #[derive(Clone, Copy, Debug, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct DoubtRow {
+pub(crate) struct DoubtRow {
     /// What a vessel of a document and a session file say, as a part of a sentence.
     pub words: &'static str,
     /// The same in a word or two.
-    pub short: &'static str,
+    pub(crate) short: &'static str,
 }
 
 /// All reasons.
-pub fn doubt_rows() -> Vec<DoubtRow> {
+pub(crate) fn doubt_rows() -> Vec<DoubtRow> {
     TrackDoubt::ALL.iter().map(|doubt| DoubtRow { words: doubt.words(), short: doubt.short() }).collect()
 }
 

@@ -16,13 +16,13 @@ const FEWEST: usize = 2;
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Draft {
     /// As it is by now.
-    pub document: Document,
+    pub(crate) document: Document,
     /// The largest id that was ever given in the study.
-    pub last_id: u32,
+    pub(crate) last_id: u32,
     /// The vessels that came to it.
-    pub added: Vec<u32>,
+    pub(crate) added: Vec<u32>,
     /// The vessels whose marks are lost.
-    pub without_marks: Vec<u32>,
+    pub(crate) without_marks: Vec<u32>,
     /// The clicks that the edit sets: a vessel, and the number of the click.
     new_clicks: Vec<(u32, usize)>,
 }

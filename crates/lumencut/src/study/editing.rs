@@ -13,7 +13,7 @@ use crate::study::tracing::{TraceRequest, Watch};
 
 impl Study {
     /// The document that the study begins with: the vessels that were opened, counted from 1.
-    pub fn begin_document(&mut self) -> Document {
+    pub(crate) fn begin_document(&mut self) -> Document {
         let mut draft = Draft::default();
         if let Some(named) = &self.content.named {
             for (line, name) in named.lines.iter().zip(&named.names) {
@@ -30,7 +30,7 @@ impl Study {
     /// # Errors
     /// Those of tracing, with the names of the vessels, of cutting and joining, of seeds and masks; `interrupted`. Where
     /// the error is mended by `bridge`, the same edit with [`EditMessage::bridging`] may succeed.
-    pub fn edit(&mut self, message: &EditMessage, watch: Watch) -> Result<Edited> {
+    pub(crate) fn edit(&mut self, message: &EditMessage, watch: Watch) -> Result<Edited> {
         let mut draft = Draft::of(message.document.clone(), self.last_id);
         let mut notes = Vec::new();
         let is_traced = match &message.edit {

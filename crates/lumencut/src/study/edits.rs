@@ -14,7 +14,7 @@ use crate::study::telling::Told;
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub enum Edit {
+pub(crate) enum Edit {
     /// A vessel between two clicks or more.
     BeginVessel {
         /// In order along it.
@@ -128,7 +128,7 @@ pub enum Edit {
 
 impl Edit {
     /// Whether it is of clicks, stoppers or bridges, after which vessels between clicks run elsewhere.
-    pub fn is_of_clicks(&self) -> bool {
+    pub(crate) fn is_of_clicks(&self) -> bool {
         matches!(
             self,
             Self::BeginVessel { .. }
@@ -144,7 +144,7 @@ impl Edit {
     }
 
     /// The vessel that it traces, where it is a single one; `added` are those that came of it.
-    pub fn traces(&self, added: &[u32]) -> Option<u32> {
+    pub(crate) fn traces(&self, added: &[u32]) -> Option<u32> {
         match self {
             Self::BeginVessel { .. } | Self::AddWholeVessel { .. } => added.first().copied(),
             Self::AddClick { id, .. }
@@ -156,7 +156,7 @@ impl Edit {
     }
 
     /// What it does, as the name of a step that can be undone.
-    pub fn words(&self) -> &'static str {
+    pub(crate) fn words(&self) -> &'static str {
         let count = |ids: &[u32], one, several| if ids.len() == 1 { one } else { several };
         match self {
             Self::BeginVessel { .. } => "begin a vessel",
@@ -185,18 +185,18 @@ impl Edit {
 /// What a host asks for: an edit of a document.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename = "EditRequest"))]
-pub struct EditMessage {
+pub(crate) struct EditMessage {
     /// The document as it is.
-    pub document: Document,
+    pub(crate) document: Document,
     /// What is done to it.
-    pub edit: Edit,
+    pub(crate) edit: Edit,
     /// Whether gaps are bridged from now on, as part of the same step: what mends an edit that was refused by `bridge`.
-    pub bridging: bool,
+    pub(crate) bridging: bool,
 }
 
 impl EditMessage {
     /// The name of the step that can be undone.
-    pub fn words(&self) -> String {
+    pub(crate) fn words(&self) -> String {
         let bridging = if self.bridging { " and bridge gaps" } else { "" };
         format!("{}{bridging}", self.edit.words())
     }
@@ -205,17 +205,17 @@ impl EditMessage {
 /// What came of an edit.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct Edited {
+pub(crate) struct Edited {
     /// The document after it; the same one where there was nothing to do.
-    pub document: Document,
+    pub(crate) document: Document,
     /// The name of the step that can be undone.
     pub words: String,
     /// The vessels that came to it, by their ids.
-    pub added: Vec<u32>,
+    pub(crate) added: Vec<u32>,
     /// The vessels whose marks are lost, by their ids: they are gone, or their places lie elsewhere.
-    pub without_marks: Vec<u32>,
+    pub(crate) without_marks: Vec<u32>,
     /// What was odd, one sentence each.
-    pub notes: Vec<String>,
+    pub(crate) notes: Vec<String>,
     /// What is told of the vessel that was traced; none after an edit that traces no single one.
     pub told: Option<Told>,
 }

@@ -28,18 +28,18 @@ pub struct Failure {
 #[derive(Debug, Default, Serialize)]
 pub struct More {
     /// What mends it beside the advice.
-    pub mends: Vec<Mend>,
+    pub(crate) mends: Vec<Mend>,
     /// Which of the clicked points it is about.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub about: Option<About>,
+    pub(crate) about: Option<About>,
     /// Where it shows in the volume.
     #[serde(flatten)]
-    pub seen: Option<Seen>,
+    pub(crate) seen: Option<Seen>,
 }
 
 /// Points of a request to trace, counted from 0.
 #[derive(Debug, PartialEq, Eq, Serialize)]
-pub struct About {
+pub(crate) struct About {
     /// The vessel; none for a point of no vessel yet.
     pub vessel: Option<usize>,
     /// The point along it; none where all of them are meant.
@@ -58,7 +58,7 @@ impl From<Clicked> for About {
 
 /// Where an error shows in the volume.
 #[derive(Debug, Serialize)]
-pub struct Seen {
+pub(crate) struct Seen {
     /// The place (mm, LPS).
     pub place: [f64; 3],
     /// The value of the volume there; `null` outside of it.

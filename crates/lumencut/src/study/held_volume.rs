@@ -13,11 +13,11 @@ use crate::study::voxels::Stored;
 
 /// What comes before the voxels of a volume.
 #[derive(Clone, Debug, Deserialize)]
-pub struct VolumeHeader {
+pub(crate) struct VolumeHeader {
     /// The number of voxels along (i, j, k); i is stored fastest.
     pub size: [usize; 3],
     /// The type of the voxels as NumPy calls it.
-    pub dtype: String,
+    pub(crate) dtype: String,
     /// World position (LPS, mm) of a continuous index, row by row.
     pub world_from_index: [[f64; 4]; 4],
     /// How its scan was made.
@@ -25,7 +25,7 @@ pub struct VolumeHeader {
     pub scan: ScanDetails,
     /// The names of its labels, where it is a mask whose file has them.
     #[serde(default)]
-    pub label_names: BTreeMap<i64, String>,
+    pub(crate) label_names: BTreeMap<i64, String>,
 }
 
 impl VolumeHeader {
@@ -33,7 +33,7 @@ impl VolumeHeader {
     ///
     /// # Errors
     /// `settings` for an invalid text.
-    pub fn read(text: &str) -> Result<Self> {
+    pub(crate) fn read(text: &str) -> Result<Self> {
         let expected = "size, dtype and world_from_index as JSON";
         serde_json::from_str(text)
             .map_err(|error| Failure::of_message("header of the volume", &error, expected))
@@ -43,7 +43,7 @@ impl VolumeHeader {
     ///
     /// # Errors
     /// `volume` for more voxels than there is memory for, and for an invalid grid.
-    pub fn held(&self) -> Result<HeldVolume> {
+    pub(crate) fn held(&self) -> Result<HeldVolume> {
         let count = self.size.iter().map(|side| *side as f64).product();
         let stored = Stored::zeros(&self.dtype, count)?;
         let (size, world_from_index) = (self.size, self.affine());
@@ -112,14 +112,14 @@ impl HeldVolume {
 
 /// A mask that is read to be traced.
 #[derive(Debug)]
-pub struct HeldMask {
+pub(crate) struct HeldMask {
     /// Its voxels and its grid.
     pub held: HeldVolume,
     /// The names of its labels, where its file has them.
-    pub label_names: BTreeMap<i64, String>,
+    pub(crate) label_names: BTreeMap<i64, String>,
 }
 
 /// The error for a question that only a volume answers.
-pub fn no_volume() -> Failure {
+pub(crate) fn no_volume() -> Failure {
     Failure { kind: "volume", ..Failure::of_message("volume", &"none", "one that is open") }
 }

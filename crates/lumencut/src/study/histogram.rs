@@ -9,18 +9,18 @@ const MOST: usize = 500_000;
 /// How many voxels are in each of equally wide ranges of values.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct Histogram {
+pub(crate) struct Histogram {
     /// The smallest value.
-    pub low: f32,
+    pub(crate) low: f32,
     /// The largest value.
-    pub high: f32,
+    pub(crate) high: f32,
     /// The number of voxels of each range, the lowest first; the largest value counts to the last.
     pub counts: Vec<u32>,
 }
 
 impl Histogram {
     /// That of the voxels, of which only a part is looked at where they are many; NaN does not count.
-    pub fn of<T: Voxel>(voxels: &[T], bins: usize) -> Self {
+    pub(crate) fn of<T: Voxel>(voxels: &[T], bins: usize) -> Self {
         let values = || {
             let looked_at = voxels.iter().step_by(voxels.len().div_ceil(MOST).max(1));
             looked_at.map(|voxel| voxel.real().to_f32()).filter(|value| value.is_finite())

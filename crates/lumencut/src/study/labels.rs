@@ -9,7 +9,7 @@ use crate::scale_bar::ScaleBar;
 /// How a picture lies: unit vectors to the right and downwards (LPS), its width in pixels and their side (mm).
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct LaidPicture {
+pub(crate) struct LaidPicture {
     /// To the right.
     right: [f64; 3],
     /// Downwards.
@@ -23,11 +23,11 @@ pub struct LaidPicture {
 /// What stands around a picture.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct PictureLabels {
+pub(crate) struct PictureLabels {
     /// The letters at its edges.
-    pub letters: EdgeLetters,
+    pub(crate) letters: EdgeLetters,
     /// The scale bar; none where the picture has no width.
-    pub bar: Option<ScaleBar>,
+    pub(crate) bar: Option<ScaleBar>,
 }
 
 impl From<LaidPicture> for PictureLabels {

@@ -9,7 +9,7 @@ use lumencut_vessels::trace::lumen::refine::STEP;
 use crate::study::lines::{Line, wrong};
 
 /// Ends no farther apart than this meet, and are one point (mm): what files lose by rounding, and far less than any lumen.
-pub const MEETING: f64 = 0.1;
+pub(crate) const MEETING: f64 = 0.1;
 
 /// How far apart the ends of lines may be that are joined: this distance (mm), or this number of radii of the wider one. It is
 /// as far as tracing passes over without being asked for a bridge.

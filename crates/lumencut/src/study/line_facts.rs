@@ -12,13 +12,13 @@ use crate::study::open_study::Study;
 /// What is known of a line among others.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct LineFacts {
+pub(crate) struct LineFacts {
     /// The number of the line.
     pub line: usize,
     /// mm
     pub length: f64,
     /// The median diameter of its points (mm); null where no radius is known.
-    pub calibre: Option<f64>,
+    pub(crate) calibre: Option<f64>,
     /// Which of the parts that hang together it belongs to; 0 is the longest.
     pub part: usize,
     /// The line among them that it hangs on, as a branch on its trunk; null for the widest line of a part.
@@ -30,7 +30,7 @@ impl Study {
     ///
     /// # Errors
     /// `vessel tree` for the number of no line.
-    pub fn line_facts(&self, numbers: &[usize]) -> Result<Vec<LineFacts>> {
+    pub(crate) fn line_facts(&self, numbers: &[usize]) -> Result<Vec<LineFacts>> {
         let lines = numbers.iter().map(|number| self.lines.get(*number)).collect::<Result<Vec<_>>>()?;
         let points: Vec<_> = lines.iter().map(|line| &line.points[..]).collect();
         let mut part_of = vec![0; lines.len()];

@@ -29,7 +29,7 @@ pub struct Line {
 /// A line as the page has it; `null` stands for a radius that is not known.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct LineContent {
+pub(crate) struct LineContent {
     /// At least two.
     points: Vec<[f64; 3]>,
     /// mm; null where it is not known, of all points or of one
@@ -43,7 +43,7 @@ pub struct LineContent {
 /// A line with the name under which it is shown and saved.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct NamedLine {
+pub(crate) struct NamedLine {
     /// Its number.
     pub line: usize,
     /// Its name; empty where it has none.
@@ -54,13 +54,13 @@ pub struct NamedLine {
 /// no number.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct ListedLine {
+pub(crate) struct ListedLine {
     /// Its number.
     pub line: usize,
     /// Its name; empty where it has none.
     pub name: String,
     /// Whether it is hidden.
-    pub hidden: bool,
+    pub(crate) hidden: bool,
 }
 
 impl Line {
@@ -73,7 +73,7 @@ impl Line {
     }
 
     /// The line as a file holds it.
-    pub fn in_file(&self, name: &str) -> centerlines::Line {
+    pub(crate) fn in_file(&self, name: &str) -> centerlines::Line {
         centerlines::Line {
             points: self.points.clone(),
             radius: self.known_radius(),
@@ -84,7 +84,7 @@ impl Line {
     }
 
     /// The line as tracing meets it; of no width where its radius is not known.
-    pub fn met(&self) -> Centerline {
+    pub(crate) fn met(&self) -> Centerline {
         let radius = self.known_radius().unwrap_or_else(|| vec![0.0; self.points.len()]);
         Centerline { points: self.points.clone(), radius, confidence: Vec::new() }
     }
@@ -96,7 +96,7 @@ impl Line {
     }
 
     /// As the page has it.
-    pub fn content(&self) -> LineContent {
+    pub(crate) fn content(&self) -> LineContent {
         let known = |radius: &f64| (!radius.is_nan()).then_some(*radius);
         LineContent {
             points: self.points.iter().map(|point| point.to_array()).collect(),
@@ -161,13 +161,13 @@ impl From<&Vessel> for Line {
 }
 
 /// What is wrong with a line.
-pub fn wrong(what: &str, found: String, expected: &str) -> Error {
+pub(crate) fn wrong(what: &str, found: String, expected: &str) -> Error {
     Error::new(ErrorKind::VesselTree, format!("{what} of the line"), found, expected)
 }
 
 /// All lines of the study that is open.
 #[derive(Debug, Default)]
-pub struct Lines {
+pub(crate) struct Lines {
     /// How many there were in earlier studies: no number stands for two lines.
     before: usize,
     held: Vec<Arc<Line>>,
@@ -178,7 +178,7 @@ impl Lines {
     ///
     /// # Errors
     /// `vessel tree` for what is no line.
-    pub fn add(&mut self, line: Line) -> Result<usize> {
+    pub(crate) fn add(&mut self, line: Line) -> Result<usize> {
         line.check()?;
         self.held.push(Arc::new(line));
         Ok(self.before + self.held.len() - 1)
@@ -188,7 +188,7 @@ impl Lines {
     ///
     /// # Errors
     /// `vessel tree` for a number that stands for none.
-    pub fn get(&self, number: usize) -> Result<Arc<Line>> {
+    pub(crate) fn get(&self, number: usize) -> Result<Arc<Line>> {
         let line = number.checked_sub(self.before).and_then(|place| self.held.get(place));
         line.cloned().ok_or_else(|| {
             let error = wrong("number", number.to_string(), "the number of a line of the scan that is open");
@@ -197,7 +197,7 @@ impl Lines {
     }
 
     /// Forgets all of them.
-    pub fn clear(&mut self) {
+    pub(crate) fn clear(&mut self) {
         self.before += self.held.len();
         self.held.clear();
     }

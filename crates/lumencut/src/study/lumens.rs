@@ -13,7 +13,7 @@ use crate::study::open_study::Study;
 /// Where a pointer is: a place, or the ray through it.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename = "PointedAt"))]
-pub struct PointedMessage {
+pub(crate) struct PointedMessage {
     /// The place (LPS, mm).
     pub point: Place,
     /// The direction of the ray, away from the viewer (a unit vector); none where the place itself is meant.
@@ -23,7 +23,7 @@ pub struct PointedMessage {
 /// A lumen that is pointed at.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct PointedLumen {
+pub(crate) struct PointedLumen {
     /// The place in it that is pointed at: on a ray the one that is nearest to its middle.
     pub point: Place,
     /// Its middle.
@@ -35,7 +35,7 @@ pub struct PointedLumen {
     /// The section across it, to the right.
     pub right: Place,
     /// The section across it, downwards.
-    pub down: Place,
+    pub(crate) down: Place,
 }
 
 impl Study {
@@ -43,7 +43,7 @@ impl Study {
     ///
     /// # Errors
     /// `volume` where none is open.
-    pub fn lumens(&self, pointed: &PointedMessage) -> Result<Vec<PointedLumen>> {
+    pub(crate) fn lumens(&self, pointed: &PointedMessage) -> Result<Vec<PointedLumen>> {
         let volume = self.content.held.as_ref().ok_or_else(no_volume)?.volume()?;
         let point = DVec3::from_array(pointed.point);
         let seen: Vec<(SeenLumen, DVec3)> = match pointed.along.map(DVec3::from_array) {

@@ -32,7 +32,7 @@ pub(crate) struct MaskLines {
     /// The lines, each with the name of its label; empty where the mask has one alone.
     pub lines: Vec<NamedLine>,
     /// One sentence each.
-    pub notes: Vec<String>,
+    pub(crate) notes: Vec<String>,
 }
 
 impl Study {

@@ -22,7 +22,7 @@ type Vector = [f64; 3];
 /// A place on a vessel and the diameter there (mm).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename = "Spot"))]
-pub struct SpotMessage {
+pub(crate) struct SpotMessage {
     /// mm along the vessel
     at: f64,
     /// mm
@@ -38,7 +38,7 @@ impl From<Spot> for SpotMessage {
 /// The lumen of a vessel by its arc length. What was not measured is NaN, null in JSON.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename = "Profile"))]
-pub struct ProfileMessage {
+pub(crate) struct ProfileMessage {
     /// mm
     arc_length: Vec<f64>,
     /// Of a circle of the same area (mm).
@@ -110,7 +110,7 @@ impl From<&Profile> for ProfileMessage {
 /// What a reader marked on one vessel (arc lengths, mm).
 #[derive(Clone, Debug, Deserialize)]
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename = "Marks"))]
-pub struct MarksMessage {
+pub(crate) struct MarksMessage {
     /// The place of a stenosis.
     at: Option<f64>,
     /// One or two places to compare it with.
@@ -137,12 +137,12 @@ pub struct MarksMessage {
 
 impl MarksMessage {
     /// The stretches that were marked (mm).
-    pub fn stretches(&self) -> Vec<[f64; 2]> {
+    pub(crate) fn stretches(&self) -> Vec<[f64; 2]> {
         self.stretch.into_iter().chain(self.second_stretch).collect()
     }
 
     /// The places whose diameters are noted (mm).
-    pub fn diameters(&self) -> &[f64] {
+    pub(crate) fn diameters(&self) -> &[f64] {
         &self.diameters
     }
 
@@ -150,7 +150,7 @@ impl MarksMessage {
     ///
     /// # Errors
     /// `settings` for another method or territory.
-    pub fn marked(&self) -> Result<Marked> {
+    pub(crate) fn marked(&self) -> Result<Marked> {
         let method = Method::named("method of the stenosis", &self.method)?;
         let territory = self.group.as_ref().map(|name| Territory::named("vessel of the group", name));
         let compared = Compared {
@@ -163,7 +163,7 @@ impl MarksMessage {
     }
 
     /// The same as what the command line is asked for; without a graded stenosis its place alone.
-    pub fn asked(&self, is_graded: bool) -> Asked {
+    pub(crate) fn asked(&self, is_graded: bool) -> Asked {
         let only = Asked { at_mm: self.at, ..Asked::default() };
         if !is_graded {
             return only;
@@ -182,7 +182,7 @@ impl MarksMessage {
 /// What is told of a place that was marked; nothing where none is.
 #[derive(Clone, Debug, Default, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename = "Grade"))]
-pub struct GradeMessage {
+pub(crate) struct GradeMessage {
     /// The stenosis that was marked.
     stenosis: Option<StenosisMessage>,
     /// What is still missing, or what is wrong with a place.
@@ -250,7 +250,7 @@ impl StenosisMessage {
 /// Places that are compared before anything is graded, such as those that are offered (arc lengths, mm).
 #[derive(Clone, Debug, Deserialize)]
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename = "Compared"))]
-pub struct ComparedMessage {
+pub(crate) struct ComparedMessage {
     /// The narrow place.
     at: f64,
     /// The places that it is compared with.
@@ -265,7 +265,7 @@ impl ComparedMessage {
     ///
     /// # Errors
     /// `settings` for another method.
-    pub fn doubts(&self, profile: &Profile) -> Result<Vec<String>> {
+    pub(super) fn doubts(&self, profile: &Profile) -> Result<Vec<String>> {
         let method = Method::named("method of the stenosis", &self.method)?;
         Ok(of_doubts(&profile.doubts(self.at, method, &self.references)))
     }
@@ -274,7 +274,7 @@ impl ComparedMessage {
 /// The diameter at a place and its standard deviation (mm).
 #[derive(Clone, Copy, Debug, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename = "Diameter"))]
-pub struct DiameterMessage {
+pub(crate) struct DiameterMessage {
     /// Of a circle of the same area (mm).
     pub diameter: f64,
     /// Its standard deviation (mm).
@@ -291,7 +291,7 @@ impl From<(f64, f64)> for DiameterMessage {
 /// A section: its number, its wall, and the ends of its shortest and longest diameter (mm, LPS).
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename = "MeasuredSection"))]
-pub struct SectionMessage {
+pub(crate) struct SectionMessage {
     /// Its number in the profile.
     number: usize,
     /// The points of the wall; empty where none was found.
@@ -304,7 +304,7 @@ pub struct SectionMessage {
 
 impl SectionMessage {
     /// The section of a profile that is nearest to an arc length (mm).
-    pub fn nearest(profile: &Profile, at: f64) -> Self {
+    pub(super) fn nearest(profile: &Profile, at: f64) -> Self {
         let number = profile.nearest_section(at);
         let middle = profile.center[number];
         let ends =
@@ -317,7 +317,7 @@ impl SectionMessage {
 /// From where a stretch is seen.
 #[derive(Clone, Copy, Debug, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename = "Look"))]
-pub struct LookMessage {
+pub(crate) struct LookMessage {
     /// From the viewer into the scene.
     direction: Vector,
     /// Upwards.
@@ -327,7 +327,7 @@ pub struct LookMessage {
 /// A marked stretch of a vessel.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename = "Stretch"))]
-pub struct StretchMessage {
+pub(crate) struct StretchMessage {
     /// Along the vessel (mm).
     length: f64,
     /// From end to end (mm).
@@ -352,7 +352,7 @@ impl StretchMessage {
     ///
     /// # Errors
     /// `measuring` for places beyond the vessel, or one place twice.
-    pub fn between(profile: &Profile, ends: [f64; 2]) -> Result<Self> {
+    pub(super) fn between(profile: &Profile, ends: [f64; 2]) -> Result<Self> {
         let stretch = profile.stretch(ends)?;
         let arm = profile.c_arm(ends, None)?;
         let view = LookMessage {
@@ -375,15 +375,15 @@ impl StretchMessage {
 /// A vessel for tables.
 #[derive(Clone, Debug, Deserialize)]
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename = "MeasuredVessel"))]
-pub struct VesselMessage {
+pub(crate) struct VesselMessage {
     /// Its id.
-    pub id: String,
+    pub(crate) id: String,
     /// Its name, empty where it has none.
     pub name: String,
     /// Its line.
     pub line: usize,
     /// What was marked on it.
-    pub marks: MarksMessage,
+    pub(crate) marks: MarksMessage,
 }
 
 fn arrays(points: &[DVec3]) -> Vec<Vector> {

@@ -38,7 +38,7 @@ impl Study {
     }
 
     /// Forgets what was measured.
-    pub fn forget_profiles(&mut self) {
+    pub(crate) fn forget_profiles(&mut self) {
         self.profiles = Profiles::default();
     }
 
@@ -46,7 +46,7 @@ impl Study {
     ///
     /// # Errors
     /// As [`Study::profile`]; `settings` for marks with another method or territory.
-    pub fn profiles_csv(
+    pub(crate) fn profiles_csv(
         &mut self,
         vessels: &[VesselMessage],
         is_millimetre_assumed: bool,
@@ -61,7 +61,7 @@ impl Study {
     ///
     /// # Errors
     /// As [`Study::profiles_csv`].
-    pub fn profiles_json(
+    pub(crate) fn profiles_json(
         &mut self,
         vessels: &[VesselMessage],
         is_millimetre_assumed: bool,

@@ -1,7 +1,7 @@
 //! Names of vessels that an edit adds.
 
 /// A name that no vessel has: the kind and the first free number, such as `Branch 3`.
-pub fn fresh_name(taken: &[String], kind: &str) -> String {
+pub(crate) fn fresh_name(taken: &[String], kind: &str) -> String {
     let mut name = String::new();
     for number in 1..=taken.len() + 1 {
         name = format!("{kind} {number}");

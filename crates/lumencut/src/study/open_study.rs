@@ -48,7 +48,7 @@ pub struct Study {
     /// What was measured.
     pub(crate) profiles: Profiles,
     /// All lines of the study.
-    pub lines: Lines,
+    pub(crate) lines: Lines,
     /// What is known of the volume from one tracing to the next, and the lines that it gave last.
     pub(crate) tracer: Tracer,
     pub(crate) traced: Vec<usize>,
@@ -86,7 +86,7 @@ impl Study {
     ///
     /// # Errors
     /// `volume` for values beyond all windows.
-    pub fn report(&self) -> Result<Report> {
+    pub(crate) fn report(&self) -> Result<Report> {
         self.content.report()
     }
 
@@ -94,7 +94,7 @@ impl Study {
     ///
     /// # Errors
     /// `camera` for another name, and where nothing is open.
-    pub fn fitted(&self, view: &str, size: [usize; 2]) -> Result<CameraMessage> {
+    pub(crate) fn fitted(&self, view: &str, size: [usize; 2]) -> Result<CameraMessage> {
         let named = views::named(view)?;
         let camera = Camera::new(DVec3::ZERO, named.direction, named.up, size, 1.0)?;
         Ok(CameraMessage::from(&views::fitted(&camera, &self.content.outline()?)?))
@@ -104,7 +104,7 @@ impl Study {
     ///
     /// # Errors
     /// `volume` where none is open.
-    pub fn histogram(&self, bins: usize) -> Result<Histogram> {
+    pub(crate) fn histogram(&self, bins: usize) -> Result<Histogram> {
         let held = self.content.held.as_ref().ok_or_else(no_volume)?;
         Ok(with_voxels!(held.stored.voxels(), voxels => Histogram::of(voxels, bins)))
     }
@@ -113,7 +113,7 @@ impl Study {
     ///
     /// # Errors
     /// `camera` for a plane without pixels, `volume` where none is open.
-    pub fn slice(&self, plane: &Plane, window: [f64; 2]) -> Result<Picture> {
+    pub(crate) fn slice(&self, plane: &Plane, window: [f64; 2]) -> Result<Picture> {
         self.shown(plane.geometry()?, window)
     }
 
@@ -122,7 +122,7 @@ impl Study {
     ///
     /// # Errors
     /// `vessel tree` for a vessel that there is not.
-    pub fn across(&self, number: usize, at: f64) -> Result<[[f64; 3]; 3]> {
+    pub(crate) fn across(&self, number: usize, at: f64) -> Result<[[f64; 3]; 3]> {
         let vessel = self.vessel(number)?;
         let length = vessel.arc_length().last().copied().unwrap_or(0.0);
         let line = self.content.named.as_ref().and_then(|named| named.lines.get(number));

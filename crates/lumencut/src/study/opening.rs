@@ -53,7 +53,7 @@ impl Study {
     ///
     /// # Errors
     /// `format` for a file that is damaged or holds none; the tree before stays then.
-    pub fn open_centerlines(
+    pub(crate) fn open_centerlines(
         &mut self,
         bytes: &[u8],
         name: &str,

@@ -1,13 +1,13 @@
 //! The colours of vessels: those of Okabe and Ito that stand out on a dark picture come first. None is yellow, orange or red, which warn.
 
 /// The colours that vessels get, in this order. Hosts name them in their own words.
-pub const PALETTE: [&str; 12] = [
+pub(crate) const PALETTE: [&str; 12] = [
     "#56b4e9", "#cc79a7", "#00b98a", "#b18cff", "#8fdc6a", "#ffa6dc", "#3f6fe0", "#8ff0e8", "#c44df0",
     "#2f8f9f", "#9aa8b6", "#ffffff",
 ];
 
 /// The colour of the palette that the fewest vessels have, the first of several such.
-pub fn next_color(taken: &[&str]) -> &'static str {
+pub(crate) fn next_color(taken: &[&str]) -> &'static str {
     let count = |color: &&str| taken.iter().filter(|taken| *taken == color).count();
     PALETTE.into_iter().min_by_key(count).unwrap_or(PALETTE[0])
 }

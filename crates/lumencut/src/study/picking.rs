@@ -13,7 +13,7 @@ use crate::study::view::View;
 /// What a pixel shows.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct Pick {
+pub(crate) struct Pick {
     /// The world point.
     pub point: [f64; 3],
     /// The volume there; none outside.
@@ -30,7 +30,7 @@ impl Study {
     ///
     /// # Errors
     /// Those of the view, and `volume` where nothing is open.
-    pub fn pick(&mut self, view: &View, pixel: [f64; 2]) -> Result<Pick> {
+    pub(crate) fn pick(&mut self, view: &View, pixel: [f64; 2]) -> Result<Pick> {
         let cut = self.cut_in(view, pixel)?;
         if !cut.is_shown {
             // Beside the scan there is no brightest place, and no vessel.
@@ -61,7 +61,7 @@ impl Study {
     }
 
     /// What lies at a world point, and the vessel in whose lumen it is.
-    pub fn at(&self, point: [f64; 3]) -> Pick {
+    pub(crate) fn at(&self, point: [f64; 3]) -> Pick {
         let point = DVec3::from_array(point);
         let vessels = self.content.tree().map_or(&[][..], |tree| tree.tree().vessels());
         let inside = vessels.iter().position(|vessel| {

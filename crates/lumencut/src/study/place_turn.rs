@@ -18,12 +18,12 @@ const HALF_TURN: u32 = 180;
 /// A turn about a place on a vessel, which runs upwards through the middle of the picture.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct PlaceTurn {
+pub(crate) struct PlaceTurn {
     /// The first view: of all views about the place the one that is nearest to that from the front.
     pub camera: CameraMessage,
     /// The diameter (mm) that is cut after each whole degree of the turn, from 0 to 179; from there on they repeat. None where a
     /// view has no two walls.
-    pub diameters: Vec<Option<f64>>,
+    pub(crate) diameters: Vec<Option<f64>>,
 }
 
 impl Study {
@@ -31,7 +31,7 @@ impl Study {
     ///
     /// # Errors
     /// `camera` for one that defines no view, `vessel tree` for a line that there is not or that has no length.
-    pub fn best_view(&self, camera: &CameraMessage, line: usize) -> Result<CameraMessage> {
+    pub(crate) fn best_view(&self, camera: &CameraMessage, line: usize) -> Result<CameraMessage> {
         Ok((&refocused(&camera.camera()?, &self.lines.get(line)?.vessel()?)?).into())
     }
 
@@ -40,7 +40,13 @@ impl Study {
     /// # Errors
     /// `vessel tree` for a vessel that there is not, `camera` for a place that is not on it, `volume` where none is open, and
     /// `measuring` where the radius of the vessel is neither known nor measured there.
-    pub fn turn_about(&mut self, vessel: usize, at: f64, size: [usize; 2], stop: Stop) -> Result<PlaceTurn> {
+    pub(crate) fn turn_about(
+        &mut self,
+        vessel: usize,
+        at: f64,
+        size: [usize; 2],
+        stop: Stop,
+    ) -> Result<PlaceTurn> {
         let radius = self.lumen_radius(vessel, at, stop)?;
         let first = about_lumen(self.vessel(vessel)?, Lumen { at, radius }, size)?;
         let volume = self.content.held.as_ref().ok_or_else(no_volume)?.volume()?;

@@ -10,13 +10,13 @@ use crate::study::failure::Result;
 /// size in pixels and their side (mm).
 #[derive(Clone, Copy, Debug, Deserialize, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct Plane {
+pub(crate) struct Plane {
     /// The world point in the middle.
     pub center: [f64; 3],
     /// To the right.
     pub right: [f64; 3],
     /// Downwards.
-    pub down: [f64; 3],
+    pub(crate) down: [f64; 3],
     /// Columns and rows.
     pub size: [usize; 2],
     /// The side of a pixel (mm).
@@ -28,7 +28,7 @@ impl Plane {
     ///
     /// # Errors
     /// `camera` for a picture without pixels.
-    pub fn geometry(&self) -> Result<Geometry> {
+    pub(crate) fn geometry(&self) -> Result<Geometry> {
         let [center, right, down] = [self.center, self.right, self.down].map(DVec3::from_array);
         let [width, height] = self.size;
         let away = |count: usize, n: usize| (n as f64 - (count as f64 - 1.0) / 2.0) * self.pixel_spacing;

@@ -19,7 +19,7 @@ use crate::study::lines::wrong;
 
 /// The profiles that are kept, and how they were asked for.
 #[derive(Default)]
-pub struct Profiles {
+pub(crate) struct Profiles {
     /// The lines that they were measured among.
     listed: Vec<usize>,
     kept: KeptProfiles<usize>,
@@ -32,7 +32,7 @@ impl Profiles {
     ///
     /// # Errors
     /// `vessel tree` for a line that is not shown, `volume` where none is open, and those of measuring.
-    pub fn of(&mut self, content: &Content, line: usize, asking: &Asking) -> Result<usize> {
+    pub(crate) fn of(&mut self, content: &Content, line: usize, asking: &Asking) -> Result<usize> {
         let (listed, tree) = content.named.as_ref().map_or((&[][..], &[][..]), NamedTree::measured_among);
         if self.listed != listed {
             self.kept = KeptProfiles::default();
@@ -52,28 +52,28 @@ impl Profiles {
     }
 
     /// The profile of a number that [`Profiles::of`] gave last.
-    pub fn kept(&self, number: usize) -> &Profile {
+    pub(crate) fn kept(&self, number: usize) -> &Profile {
         self.kept.kept(number)
     }
 
     /// A profile of a line, if any is kept; its planes do not depend on the point spread.
-    pub fn any_of(&self, line: usize) -> Option<&Profile> {
+    pub(crate) fn any_of(&self, line: usize) -> Option<&Profile> {
         self.kept.any_of(&line)
     }
 
     /// From now on a line is asked for with this width of the point spread (mm), or the one that the tree tells.
-    pub fn ask_with(&mut self, line: usize, fwhm: Option<f64>) {
+    pub(crate) fn ask_with(&mut self, line: usize, fwhm: Option<f64>) {
         self.widths.insert(line, fwhm);
     }
 
     /// The width (mm) that a line was asked for with last.
-    pub fn width(&self, line: usize) -> Option<f64> {
+    pub(crate) fn width(&self, line: usize) -> Option<f64> {
         self.widths.get(&line).copied().flatten()
     }
 }
 
 /// How a line is asked for: the width of the point spread (mm), where it is given, and a way to stop.
-pub struct Asking<'a> {
+pub(crate) struct Asking<'a> {
     /// The width (mm).
     pub fwhm: Option<f64>,
     /// Asked whether to stop.

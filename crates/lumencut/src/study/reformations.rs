@@ -29,12 +29,12 @@ use crate::uncurling::fitted_uncurling;
 const FINEST: f64 = 0.05;
 
 /// From where to where beyond the wall a map looks (mm).
-pub const BAND: [f64; 2] = [-1.0, 3.0];
+pub(crate) const BAND: [f64; 2] = [-1.0, 3.0];
 
 /// From where a view is taken that a reformation begins with.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct Side {
+pub(crate) struct Side {
     /// From the viewer into the scene.
     direction: [f64; 3],
     /// Upwards.
@@ -52,7 +52,7 @@ impl Side {
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
 #[serde(rename_all = "lowercase")]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub enum MapOf {
+pub(crate) enum MapOf {
     /// The brightest that lies at the wall.
     Wall,
     /// How far the wall is from the middle.
@@ -65,7 +65,7 @@ pub enum MapOf {
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq)]
 #[serde(tag = "kind", rename_all = "lowercase")]
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename = "Reformation"))]
-pub enum ReformationMessage {
+pub(crate) enum ReformationMessage {
     /// All vessels that are shown, none before another.
     Untangled {
         /// From where they are seen.
@@ -98,7 +98,7 @@ pub enum ReformationMessage {
 
 impl ReformationMessage {
     /// The vessel that it is about; none where it is about all.
-    pub fn vessel(&self) -> Option<usize> {
+    pub(crate) fn vessel(&self) -> Option<usize> {
         match self {
             Self::Untangled { .. } => None,
             Self::Uncurl { vessel, .. } | Self::Spiral { vessel, .. } | Self::Map { vessel, .. } => {
@@ -109,7 +109,7 @@ impl ReformationMessage {
 }
 
 /// A reformation that is laid out in a pane.
-pub enum Laid {
+pub(crate) enum Laid {
     /// All vessels.
     Untangled(Untangled),
     /// A vessel, and how far it is straightened.
@@ -122,7 +122,7 @@ pub enum Laid {
 
 impl Laid {
     /// Where its pixels look.
-    pub fn layout(&self) -> &dyn Layout {
+    pub(crate) fn layout(&self) -> &dyn Layout {
         match self {
             Self::Untangled(layout) => layout,
             Self::Uncurl(layout, _) => layout,
@@ -132,7 +132,7 @@ impl Laid {
     }
 
     /// What its rows and columns are.
-    pub fn axes(&self) -> Axes {
+    pub(super) fn axes(&self) -> Axes {
         match self {
             Self::Untangled(_) => Axes::Untangled,
             Self::Uncurl(_, amount) => Axes::Uncurled(*amount),
@@ -142,7 +142,7 @@ impl Laid {
     }
 
     /// How far along its vessel a place in the picture is (mm), where rows run along one.
-    pub fn arc_length(&self, [_, row]: [f64; 2]) -> Option<f64> {
+    pub(super) fn arc_length(&self, [_, row]: [f64; 2]) -> Option<f64> {
         match self {
             Self::Untangled(_) | Self::Uncurl(..) => None,
             Self::Spiral(_) | Self::Map(..) => Some(row * self.layout().pixel_spacing()),
@@ -154,7 +154,7 @@ impl Laid {
 ///
 /// # Errors
 /// Those of [`Untangled::new`].
-pub fn untangled(
+pub(crate) fn untangled(
     tree: &VesselTree,
     side: &Side,
     size: [usize; 2],
@@ -171,7 +171,7 @@ pub fn untangled(
 ///
 /// # Errors
 /// Those of [`Uncurl::new`].
-pub fn uncurl(vessel: &Vessel, side: &Side, amount: f64, size: [usize; 2]) -> Result<Uncurl> {
+pub(crate) fn uncurl(vessel: &Vessel, side: &Side, amount: f64, size: [usize; 2]) -> Result<Uncurl> {
     let camera = fitted_uncurling(&side.camera(size)?, vessel, 0.0)?;
     let path = Arc::new(CenterlinePath::new(vessel, 0.0)?);
     Ok(Uncurl::new(path, camera, amount, None)?)
@@ -181,7 +181,7 @@ pub fn uncurl(vessel: &Vessel, side: &Side, amount: f64, size: [usize; 2]) -> Re
 ///
 /// # Errors
 /// `vessel tree` for a vessel without radii, and those of [`Spiral::new`].
-pub fn spiral(vessel: &Vessel, angle: f64, smallest_side: f64, size: [usize; 2]) -> Result<Spiral> {
+pub(crate) fn spiral(vessel: &Vessel, angle: f64, smallest_side: f64, size: [usize; 2]) -> Result<Spiral> {
     let no_radii = || Failure::from(crate::lumen_wall::no_radius());
     let usual = known_radius(vessel).ok_or_else(no_radii)?;
     let largest = vessel.radius().unwrap_or_default().iter().copied().fold(usual, f64::max);
@@ -206,7 +206,7 @@ pub fn spiral(vessel: &Vessel, angle: f64, smallest_side: f64, size: [usize; 2])
 ///
 /// # Errors
 /// Those of [`LumenMap::new`].
-pub fn map(
+pub(super) fn map(
     volume: &Volume,
     (path, found): (&Arc<CenterlinePath>, &FoundWall),
     (of, size): (MapOf, [usize; 2]),
@@ -224,12 +224,12 @@ pub fn map(
 }
 
 /// Where the pixels of a map look beyond the wall (mm): about the wall itself where its radius is shown.
-pub fn band_of(of: MapOf) -> [f64; 2] {
+pub(crate) fn band_of(of: MapOf) -> [f64; 2] {
     if of == MapOf::Radius { [0.0; 2] } else { BAND }
 }
 
 /// How straightened vessels are seen: the head is up.
-pub fn head_up() -> View {
+pub(crate) fn head_up() -> View {
     View { up: DVec3::Z, angle: 0.0, normal: None }
 }
 

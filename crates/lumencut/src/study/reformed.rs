@@ -7,7 +7,7 @@ use crate::study::reformations::{Laid, ReformationMessage};
 /// The picture of a reformation.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct ReformedPicture {
+pub(crate) struct ReformedPicture {
     /// Columns and rows.
     pub size: [usize; 2],
     /// A byte for each channel.
@@ -18,13 +18,13 @@ pub struct ReformedPicture {
     /// The side of a pixel (mm).
     pub pixel_spacing: f64,
     /// Names of vessels where they end, or open into the one that is shown.
-    pub marks: Vec<Mark>,
+    pub(crate) marks: Vec<Mark>,
 }
 
 /// A name at a place of a picture.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct Mark {
+pub(crate) struct Mark {
     /// The name.
     pub words: String,
     /// Column and row.
@@ -32,7 +32,7 @@ pub struct Mark {
 }
 
 /// The reformation that was shown last.
-pub struct Reformed {
+pub(crate) struct Reformed {
     /// What was asked for.
     pub(super) message: ReformationMessage,
     /// The size of its pane.

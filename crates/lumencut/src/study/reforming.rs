@@ -30,7 +30,7 @@ impl Study {
     /// # Errors
     /// `vessel tree` where no vessels are shown, for a vessel that there is not, and for one without radii where they are needed;
     /// `volume` where none is open; and those of the layout.
-    pub fn reformed(
+    pub(crate) fn reformed(
         &mut self,
         message: ReformationMessage,
         size: [usize; 2],
@@ -54,7 +54,7 @@ impl Study {
     ///
     /// # Errors
     /// `settings` where none was shown.
-    pub fn pick_reformed(&self, pixel: [f64; 2]) -> Result<Option<Pick>> {
+    pub(crate) fn pick_reformed(&self, pixel: [f64; 2]) -> Result<Option<Pick>> {
         let none = || Failure::of_message("reformation", &"none", "one that is shown");
         let reformed = self.reformed.as_ref().ok_or_else(none)?;
         let point = reformed.laid.layout().world_from_pixel(DVec2::from_array(pixel));
@@ -72,7 +72,7 @@ impl Study {
     }
 
     /// Column and row of a world point in the reformation that was shown last; none where it is not shown.
-    pub fn on_reformed(&self, point: [f64; 3]) -> Option<[f64; 2]> {
+    pub(crate) fn on_reformed(&self, point: [f64; 3]) -> Option<[f64; 2]> {
         let pixel = self.reformed.as_ref()?.laid.layout().pixel_from_world(DVec3::from_array(point));
         pixel.is_finite().then(|| pixel.to_array())
     }

@@ -68,7 +68,7 @@ const REGIONS: [Region; 5] = [
 /// A region for viewers.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct RegionRow {
+pub(crate) struct RegionRow {
     /// Its name.
     pub name: &'static str,
     /// What it is called.
@@ -79,13 +79,13 @@ pub struct RegionRow {
     #[cfg_attr(test, ts(type = "Settings"))]
     pub settings: Map<String, Json>,
     /// The name of its window where the values are Hounsfield units.
-    pub preset: &'static str,
+    pub(crate) preset: &'static str,
     /// The name of its window where they are not.
-    pub preset_of_other_units: &'static str,
+    pub(crate) preset_of_other_units: &'static str,
 }
 
 /// All regions, in the order to show them.
-pub fn regions() -> Vec<RegionRow> {
+pub(crate) fn regions() -> Vec<RegionRow> {
     REGIONS.iter().map(row).collect()
 }
 

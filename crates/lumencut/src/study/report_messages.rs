@@ -18,7 +18,7 @@ use crate::study::view::method_word;
 /// What was found on a vessel.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct Finding {
+pub(crate) struct Finding {
     /// Its line.
     line: usize,
     /// The same sentences that the report has, in their order.
@@ -28,7 +28,7 @@ pub struct Finding {
 /// What was found in a scan.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct Findings {
+pub(crate) struct Findings {
     /// On each of the vessels, in their order.
     vessels: Vec<Finding>,
     /// Straight distances, a sentence each.
@@ -38,7 +38,7 @@ pub struct Findings {
 /// A vessel of a report with its pictures, PNGs in base64.
 #[derive(Clone, Debug, Deserialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct ReportVessel {
+pub(crate) struct ReportVessel {
     /// The vessel, with its marks.
     vessel: VesselMessage,
     /// A view of all vessels.
@@ -52,7 +52,7 @@ pub struct ReportVessel {
 /// A report of some vessels.
 #[derive(Clone, Debug, Deserialize)]
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename = "ReportRequest"))]
-pub struct ReportMessage {
+pub(crate) struct ReportMessage {
     /// A page each, in this order.
     vessels: Vec<ReportVessel>,
     /// The name of the scan, where the user wants it there.
@@ -114,7 +114,7 @@ impl Study {
     ///
     /// # Errors
     /// As [`Study::profile`]; `settings` for marks with another method or territory.
-    pub fn findings(
+    pub(crate) fn findings(
         &mut self,
         vessels: &[VesselMessage],
         straight: &[f64],
@@ -133,7 +133,7 @@ impl Study {
     ///
     /// # Errors
     /// As [`Study::findings`].
-    pub fn report_plan(&mut self, vessel: &VesselMessage, stop: Stop) -> Result<Plan> {
+    pub(crate) fn report_plan(&mut self, vessel: &VesselMessage, stop: Stop) -> Result<Plan> {
         let marked = vessel.marks.marked()?;
         let profile = self.measured(vessel.line, stop)?;
         let marks: Vec<ReportMark> = marked.places(profile).iter().map(ReportMark::from).collect();
@@ -144,7 +144,7 @@ impl Study {
     ///
     /// # Errors
     /// As [`Study::report_plan`], and `settings` for a picture that is not base64.
-    pub fn measured_report(&mut self, message: &ReportMessage, stop: Stop) -> Result<String> {
+    pub(crate) fn measured_report(&mut self, message: &ReportMessage, stop: Stop) -> Result<String> {
         let vessels: Vec<VesselMessage> = message.vessels.iter().map(|one| one.vessel.clone()).collect();
         let graded = self.graded(&vessels, stop)?;
         let shown = message.shown(self.asked(&vessels, &graded));

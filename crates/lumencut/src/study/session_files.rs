@@ -20,7 +20,7 @@ const ROUNDING: f64 = 1e-3;
 /// A session as the page has it: lines by their numbers, and all else as the file has it but for what is known at each point.
 #[derive(Debug, Deserialize, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct SessionContent {
+pub(crate) struct SessionContent {
     /// One for each vessel.
     lines: Vec<NamedLine>,
     /// One for each doubtful branch.
@@ -34,7 +34,7 @@ pub struct SessionContent {
 ///
 /// # Errors
 /// `settings` for an invalid content, `vessel tree` for lines that do not exist, `format` for parts that do not go together.
-pub fn written(content: SessionContent, lines: &Lines) -> Result<Vec<u8>> {
+pub(crate) fn written(content: SessionContent, lines: &Lines) -> Result<Vec<u8>> {
     let SessionContent { lines: named, doubtful_lines, session } = content;
     let session = session_of(session, (named.len(), doubtful_lines.len()))?;
     let mut file = SessionFile { lines: Vec::new(), session };
@@ -78,7 +78,7 @@ impl Study {
     ///
     /// # Errors
     /// As [`written`].
-    pub fn write_session(&self, content: SessionContent) -> Result<Vec<u8>> {
+    pub(crate) fn write_session(&self, content: SessionContent) -> Result<Vec<u8>> {
         written(content, &self.lines)
     }
 
@@ -86,7 +86,7 @@ impl Study {
     ///
     /// # Errors
     /// `session` where no scan is open and for a session of another one, `format` for an invalid file. Nothing is held then.
-    pub fn read_session(&mut self, bytes: &[u8], name: &str) -> Result<SessionContent> {
+    pub(crate) fn read_session(&mut self, bytes: &[u8], name: &str) -> Result<SessionContent> {
         let Some(held) = &self.content.held else {
             return Err(not_of_scan(name, "a session without its scan", "a scan that is open"));
         };

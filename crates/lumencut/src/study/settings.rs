@@ -12,7 +12,7 @@ use crate::study::failure::{Failure, Result};
 /// A row of the table of settings.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct SettingRow {
+pub(crate) struct SettingRow {
     /// Its name in Python and in files.
     name: &'static str,
     /// What kind of value it has.
@@ -37,7 +37,7 @@ pub struct SettingRow {
 }
 
 /// The table of settings for viewers.
-pub fn rows() -> Vec<SettingRow> {
+pub(super) fn rows() -> Vec<SettingRow> {
     let row = |setting: &Setting| SettingRow {
         name: setting.name,
         kind: setting.kind.name(),
@@ -56,7 +56,7 @@ pub fn rows() -> Vec<SettingRow> {
 /// A look for viewers: several settings under one name.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct LookRow {
+pub(crate) struct LookRow {
     /// Its name on the command line and in Python.
     pub name: &'static str,
     /// What its button is called.
@@ -69,7 +69,7 @@ pub struct LookRow {
 }
 
 /// All looks, in the order to show them.
-pub fn looks() -> Vec<LookRow> {
+pub(crate) fn looks() -> Vec<LookRow> {
     let row = |look: &Look| {
         let settings = settings_of_a_look(&(look.values)());
         LookRow { name: look.name, words: look.words, sentence: look.sentence, settings }
@@ -78,7 +78,7 @@ pub fn looks() -> Vec<LookRow> {
 }
 
 /// The values of all settings that some look chooses: those that are given, and else the defaults.
-pub fn settings_of_a_look(chosen: &[(&'static str, Value)]) -> Map<String, Json> {
+pub(crate) fn settings_of_a_look(chosen: &[(&'static str, Value)]) -> Map<String, Json> {
     let value = |setting: &Setting| {
         let own = chosen.iter().find(|(name, _)| *name == setting.name);
         json_of(own.map_or_else(|| setting.default(), |(_, value)| value.clone()))
@@ -109,7 +109,7 @@ fn json_of(value: Value) -> Json {
 ///
 /// # Errors
 /// `settings` for an unknown name, a value of another kind, or one outside its range.
-pub fn settings(first: Vec<(&str, Value)>, chosen: &Map<String, Json>) -> Result<Settings> {
+pub(super) fn settings(first: Vec<(&str, Value)>, chosen: &Map<String, Json>) -> Result<Settings> {
     let mut choices = Choices::default();
     for (name, value) in first {
         choices.set(name, value)?;

@@ -13,7 +13,7 @@ use crate::study::failure::Result;
 /// A CPR as the page asks for it.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq)]
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename = "Cpr"))]
-pub struct CprMessage {
+pub(crate) struct CprMessage {
     /// The vessel's number.
     pub vessel: usize,
     /// The rotation about its axis (radians).
@@ -24,17 +24,17 @@ pub struct CprMessage {
     pub pixel_spacing: f64,
     /// Which value of a half circle a pixel shows, by CFA; without one its own.
     #[serde(default)]
-    pub feature: Option<Aggregated>,
+    pub(crate) feature: Option<Aggregated>,
     /// Which side of the lumen each row follows; without one all rows have the same angle.
     #[serde(default)]
-    pub roll: Option<Followed>,
+    pub(crate) roll: Option<Followed>,
 }
 
 /// The sides that a roll follows, by their names.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq)]
 #[serde(rename_all = "lowercase")]
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename = "Roll"))]
-pub enum Followed {
+pub(crate) enum Followed {
     /// The narrowest one.
     Narrowest,
     /// The widest one.
@@ -54,7 +54,7 @@ impl From<Followed> for Side {
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq)]
 #[serde(rename_all = "lowercase")]
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename = "Feature"))]
-pub enum Aggregated {
+pub(crate) enum Aggregated {
     /// The largest value.
     Max,
     /// The mean.
@@ -75,11 +75,11 @@ impl From<Aggregated> for Feature {
 
 /// The layout of the vessel that was straightened last.
 #[derive(Clone)]
-pub struct Laid {
+pub(crate) struct Laid {
     /// What was asked for.
     pub message: CprMessage,
     /// From pixels to the world and back.
-    pub cpr: Cpr,
+    pub(crate) cpr: Cpr,
 }
 
 impl Laid {
@@ -87,7 +87,7 @@ impl Laid {
     ///
     /// # Errors
     /// `camera` for an invalid angle, width or spacing.
-    pub fn new(message: CprMessage, vessel: &Vessel, before: Option<&Self>) -> Result<Self> {
+    pub(crate) fn new(message: CprMessage, vessel: &Vessel, before: Option<&Self>) -> Result<Self> {
         if let Some(laid) = before.filter(|laid| laid.is_turned(&message)) {
             let is_rolled = message.roll.is_some();
             let cpr = if is_rolled { laid.cpr.clone() } else { laid.cpr.rotated(message.angle)? };
@@ -103,27 +103,27 @@ impl Laid {
     ///
     /// # Errors
     /// As [`Cpr::rolled`].
-    pub fn rolled(self, roll: Roll) -> Result<Self> {
+    pub(crate) fn rolled(self, roll: Roll) -> Result<Self> {
         Ok(Self { cpr: self.cpr.rolled(roll)?, ..self })
     }
 
     /// Whether a message asks for this layout, but for the angle and what a pixel shows.
-    pub fn is_turned(&self, message: &CprMessage) -> bool {
+    pub(crate) fn is_turned(&self, message: &CprMessage) -> bool {
         CprMessage { angle: message.angle, feature: message.feature, ..self.message } == *message
     }
 
     /// The world point at a place in the picture, column and row.
-    pub fn world(&self, pixel: [f64; 2]) -> [f64; 3] {
+    pub(crate) fn world(&self, pixel: [f64; 2]) -> [f64; 3] {
         self.cpr.world_from_pixel(DVec2::from_array(pixel)).to_array()
     }
 
     /// The column and row of a world point.
-    pub fn pixel(&self, point: [f64; 3]) -> [f64; 2] {
+    pub(crate) fn pixel(&self, point: [f64; 3]) -> [f64; 2] {
         self.cpr.pixel_from_world(DVec3::from_array(point)).to_array()
     }
 
     /// The arc length (mm) of a row.
-    pub fn arc_length(&self, row: f64) -> f64 {
+    pub(crate) fn arc_length(&self, row: f64) -> f64 {
         row * self.message.pixel_spacing
     }
 }

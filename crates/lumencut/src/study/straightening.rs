@@ -20,7 +20,7 @@ use crate::study::straightened::{CprMessage, Laid};
 /// What a place in the straightened CPR shows.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct StraightenedPick {
+pub(crate) struct StraightenedPick {
     /// The world point.
     pub point: [f64; 3],
     /// The volume there; none outside.
@@ -37,7 +37,11 @@ impl Study {
     /// # Errors
     /// `vessel tree` for a vessel that there is not, and for a roll along one without radii whose lumen cannot be measured either;
     /// `camera` for a feature of a roll; and those of the layout.
-    pub fn straightened(&mut self, message: CprMessage, (window, stop): ([f64; 2], Stop)) -> Result<Picture> {
+    pub(crate) fn straightened(
+        &mut self,
+        message: CprMessage,
+        (window, stop): ([f64; 2], Stop),
+    ) -> Result<Picture> {
         let mut laid = Laid::new(message, self.vessel(message.vessel)?, self.laid.as_ref())?;
         if let Some(followed) = message.roll
             && self.laid.as_ref().is_none_or(|before| !before.is_turned(&message))
@@ -61,7 +65,7 @@ impl Study {
     ///
     /// # Errors
     /// `settings` where none was shown.
-    pub fn pick_straightened(&self, [column, row]: [f64; 2]) -> Result<StraightenedPick> {
+    pub(crate) fn pick_straightened(&self, [column, row]: [f64; 2]) -> Result<StraightenedPick> {
         let none = || Failure::of_message("CPR", &"none", "one that is shown");
         let laid = self.laid.as_ref().ok_or_else(none)?;
         let on_half_circle = match laid.message.feature {
@@ -81,7 +85,7 @@ impl Study {
     }
 
     /// Column and row of a world point in the straightened CPR that was shown last; none where none was.
-    pub fn on_straightened(&self, point: [f64; 3]) -> Option<[f64; 2]> {
+    pub(crate) fn on_straightened(&self, point: [f64; 3]) -> Option<[f64; 2]> {
         self.laid.as_ref().map(|laid| laid.pixel(point))
     }
 

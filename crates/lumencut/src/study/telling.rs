@@ -20,7 +20,7 @@ const SAME: f64 = 1e-6;
 /// What is told of a vessel that was traced.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct Told {
+pub(crate) struct Told {
     /// The vessel.
     pub vessel: u32,
     /// Its name, its length, and which vessels it joins, in a sentence.
@@ -32,7 +32,7 @@ pub struct Told {
 /// Where a line is doubtful.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct DoubtfulPlace {
+pub(crate) struct DoubtfulPlace {
     /// Why, in a sentence.
     pub words: String,
     /// From which arc length on, or up to which (mm): where it can be looked at and cut. None where all of the line is meant.

@@ -32,7 +32,7 @@ pub struct Watch<'a> {
 /// A ball that no vessel may pass.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename = "Stopper"))]
-pub struct StopperMessage {
+pub(crate) struct StopperMessage {
     /// Its center.
     pub center: [f64; 3],
     /// Its radius (mm).
@@ -44,9 +44,9 @@ pub struct StopperMessage {
 pub(crate) struct TraceRequest {
     /// At least two points for each.
     pub vessels: Vec<Vec<[f64; 3]>>,
-    pub stoppers: Vec<StopperMessage>,
+    pub(crate) stoppers: Vec<StopperMessage>,
     /// Whether stretches without lumen are bridged, however long.
-    pub bridge: bool,
+    pub(crate) bridge: bool,
     /// Lines that exist already and do not change: a traced vessel that meets one of them ends at a point of it.
     pub beside: Vec<usize>,
 }
@@ -54,7 +54,7 @@ pub(crate) struct TraceRequest {
 /// A way to where the pointer is.
 #[derive(Clone, Debug, Deserialize)]
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename = "PathRequest"))]
-pub struct PathMessage {
+pub(crate) struct PathMessage {
     /// The last click.
     from: [f64; 3],
     /// Where the pointer is.
@@ -71,7 +71,7 @@ pub(crate) struct HeldLine {
     /// The number of its line.
     pub line: usize,
     /// Why it is doubtful; none where it is not.
-    pub doubt: Option<&'static str>,
+    pub(crate) doubt: Option<&'static str>,
 }
 
 impl From<&StopperMessage> for Stopper {
@@ -110,7 +110,7 @@ impl Study {
     ///
     /// # Errors
     /// `tracing` as [`lumencut_vessels::trace::clicks::tracer::Tracer::check_click`], `volume` where none is open.
-    pub fn check_click(&self, click: [f64; 3]) -> Result<()> {
+    pub(crate) fn check_click(&self, click: [f64; 3]) -> Result<()> {
         let volume = self.content.held.as_ref().ok_or_else(no_volume)?.volume()?;
         Ok(self.tracer.check_click(&volume, DVec3::from_array(click))?)
     }
@@ -119,7 +119,7 @@ impl Study {
     ///
     /// # Errors
     /// `volume` where none is open.
-    pub fn path(&mut self, message: &PathMessage, stop: Stop) -> Result<Option<Vec<[f64; 3]>>> {
+    pub(crate) fn path(&mut self, message: &PathMessage, stop: Stop) -> Result<Option<Vec<[f64; 3]>>> {
         let volume = self.content.held.as_ref().ok_or_else(no_volume)?.volume()?;
         let stoppers: Vec<Stopper> = message.stoppers.iter().map(Stopper::from).collect();
         let between = [message.from, message.to].map(DVec3::from_array);
@@ -188,7 +188,7 @@ impl Study {
     ///
     /// # Errors
     /// `vessel tree` for a line that there is not.
-    pub fn line(&self, line: usize) -> Result<LineContent> {
+    pub(crate) fn line(&self, line: usize) -> Result<LineContent> {
         Ok(self.lines.get(line)?.content())
     }
 
@@ -196,7 +196,7 @@ impl Study {
     ///
     /// # Errors
     /// `vessel tree` for an invalid tree.
-    pub fn add_line(&mut self, content: LineContent) -> Result<usize> {
+    pub(crate) fn add_line(&mut self, content: LineContent) -> Result<usize> {
         self.lines.add(content.into())
     }
 
@@ -205,7 +205,7 @@ impl Study {
     ///
     /// # Errors
     /// `vessel tree` for a line that there is not; what was shown stays then.
-    pub fn show(&mut self, listed: &[ListedLine]) -> Result<()> {
+    pub(crate) fn show(&mut self, listed: &[ListedLine]) -> Result<()> {
         let vessels = listed.iter().map(|one| self.lines.get(one.line)?.vessel());
         let vessels = vessels.collect::<Result<Vec<_>>>()?;
         let shown: Vec<_> = listed.iter().zip(&vessels).filter(|(one, _)| !one.hidden).collect();
@@ -228,7 +228,7 @@ impl Study {
     ///
     /// # Errors
     /// `format` for another kind and for no lines, `vessel tree` for a line that there is not.
-    pub fn write(&self, lines: &[NamedLine], kind: &str) -> Result<Vec<u8>> {
+    pub(crate) fn write(&self, lines: &[NamedLine], kind: &str) -> Result<Vec<u8>> {
         let write = match kind {
             "vtp" => write_vtp,
             "mrk.json" => write_mrk_json,

@@ -43,7 +43,11 @@ impl CameraMessage {
 ///
 /// # Errors
 /// `camera` for one that defines no view, and for other flights than [`flight`] knows.
-pub fn views_between(from: &CameraMessage, to: &CameraMessage, views: usize) -> Result<Vec<CameraMessage>> {
+pub(crate) fn views_between(
+    from: &CameraMessage,
+    to: &CameraMessage,
+    views: usize,
+) -> Result<Vec<CameraMessage>> {
     Ok(flight(&from.camera()?, &to.camera()?, views)?.iter().map(CameraMessage::from).collect())
 }
 
@@ -64,7 +68,7 @@ pub const METHODS: [[&str; 2]; 4] =
     [["csr", "CSR"], ["csr-paper", "CSR (paper)"], ["cr", "CR"], ["mpcpr", "mpCPR"]];
 
 /// How readers call a method of a view.
-pub fn method_word(name: &str) -> &str {
+pub(crate) fn method_word(name: &str) -> &str {
     METHODS.iter().find(|[known, _]| *known == name).map_or(name, |[_, word]| word)
 }
 

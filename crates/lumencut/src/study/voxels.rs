@@ -35,7 +35,7 @@ impl Stored {
     ///
     /// # Errors
     /// `volume` for another type, and where the browser has not enough memory.
-    pub fn zeros(dtype: &str, count: f64) -> Result<Self> {
+    pub(crate) fn zeros(dtype: &str, count: f64) -> Result<Self> {
         Ok(match dtype {
             "uint8" => Self::U8(room(count)?),
             "int16" => Self::I16(room(count)?),
@@ -52,7 +52,7 @@ impl Stored {
     }
 
     /// The voxels as the bytes that they are in memory (little-endian).
-    pub fn bytes_mut(&mut self) -> &mut [u8] {
+    pub(crate) fn bytes_mut(&mut self) -> &mut [u8] {
         with_stored!(self, voxels => bytemuck::cast_slice_mut(voxels))
     }
 
@@ -60,7 +60,7 @@ impl Stored {
     ///
     /// # Errors
     /// As [`Stored::zeros`].
-    pub fn placed(&self, count: usize, place: impl Iterator<Item = usize>) -> Result<Self> {
+    pub(crate) fn placed(&self, count: usize, place: impl Iterator<Item = usize>) -> Result<Self> {
         Ok(match self {
             Self::U8(voxels) => Self::U8(scattered(voxels, count, place)?),
             Self::I16(voxels) => Self::I16(scattered(voxels, count, place)?),

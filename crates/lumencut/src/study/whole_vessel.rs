@@ -28,7 +28,7 @@ const WIDEST_SHORT: f64 = 25.0;
 /// The whole vessel that a click would add.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct WholeVessel {
+pub(crate) struct WholeVessel {
     /// The points of its line (mm, LPS).
     pub points: Vec<Place>,
     /// How long it is and which vessels it joins, such as `84.2 mm, joins Vessel 2 at 12 mm`.
@@ -127,7 +127,11 @@ impl Study {
     ///
     /// # Errors
     /// `vessel tree` for a line that there is not, `volume` where none is open.
-    pub fn whole_vessel(&self, click: Place, vessels: &[DocumentVessel]) -> Result<Option<WholeVessel>> {
+    pub(crate) fn whole_vessel(
+        &self,
+        click: Place,
+        vessels: &[DocumentVessel],
+    ) -> Result<Option<WholeVessel>> {
         let line = match self.known_vessel(click, vessels) {
             Err(refused) if refused.kind == "tracing" => return Ok(None),
             known => known?,

@@ -26,7 +26,12 @@ pub(crate) struct Types {
 
 impl Types {
     /// A row of the table.
-    pub(crate) fn question<M: TS + 'static, A: TS + 'static>(&mut self, name: &str, about: &[&str], turn: Turn) {
+    pub(crate) fn question<M: TS + 'static, A: TS + 'static>(
+        &mut self,
+        name: &str,
+        about: &[&str],
+        turn: Turn,
+    ) {
         let message = self.named::<M>();
         let answer = self.named::<A>();
         let about: Vec<&str> = about.iter().map(|line| line.trim()).collect();
