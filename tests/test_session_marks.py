@@ -12,7 +12,7 @@ from scene_files import write_volume_of
 from test_session_file import MARKS, write_session
 
 #: What is missing for ECST.
-ECST = "ECST needs the diameter that the vessel is assumed to have had there."
+ECST = "ECST needs the assumed original diameter at that place."
 
 #: States that the page saves, by name: each is a place at 30 mm that was graded one way and then another.
 STATES = {

@@ -23,7 +23,7 @@ test('by ECST an original diameter is asked for; by area the percentage is that 
   await expect(tube.stenosis()).toHaveText(PYTHON.area);
   await numbers.getByLabel('Method').selectOption('nascet');
   await numbers.getByLabel('Groups').selectOption('carotid');
-  await expect(tube.stenosis()).toContainText('Group of the field: ');
+  await expect(tube.stenosis()).toContainText('Severity group: ');
   await numbers.getByLabel('Groups').selectOption('');
 });
 

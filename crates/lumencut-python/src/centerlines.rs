@@ -52,7 +52,7 @@ impl CenterlineFile {
         self.lines.conventional_unit.unwrap_or(Unit::Millimetre).name()
     }
 
-    /// What is doubtful where a list of points was parted into lines.
+    /// What is doubtful where a list of points was split into lines.
     fn parted_doubts<'py>(&self, py: Python<'py>) -> PyResult<Vec<Doubt<'py>>> {
         told(py, py.detach(|| parted_doubt(&self.lines)).into_iter().collect())
     }

@@ -289,7 +289,7 @@ fn image_set(names: &[String]) -> PyResult<ImageSet> {
 
 /// Warns where a GPU was given up.
 fn say_that_the_cpu_goes_on(py: Python<'_>, given_up: Option<Error>) -> PyResult<()> {
-    given_up.map_or(Ok(()), |error| warn(py, "DeviceWarning", &format!("{error}; the CPU goes on")))
+    given_up.map_or(Ok(()), |error| warn(py, "DeviceWarning", &format!("{error}; the CPU continues")))
 }
 
 /// The buffers that a frame has as arrays, moved and not copied.

@@ -130,7 +130,7 @@ impl Choice {
             return None;
         }
         let told = |(place, count): &(Place, LumenCount)| {
-            format!("{} of {} points looked at look like lumen in {place}", count.like_lumen, count.of)
+            format!("{} of {} sampled points look like lumen in {place}", count.like_lumen, count.of)
         };
         let others: Vec<String> = others.map(told).collect();
         let words = format!(
@@ -154,7 +154,7 @@ impl Choice {
             return None;
         };
         let by_values = format!(
-            "both {} ({} of {} points inside) and {} ({}) fit the volume; of {} points looked at, {} look like lumen in {} and \
+            "both {} ({} of {} points inside) and {} ({}) fit the volume; of {} sampled points, {} look like lumen in {} and \
              {} in {}: read in {}",
             best.place,
             best.inside,
@@ -190,7 +190,7 @@ impl Choice {
         } else {
             Mend::Unit(units)
         };
-        let found = "neither stated nor to be told by the volume what its coordinates are";
+        let found = "coordinates that are not stated and that the volume does not decide";
         Error::new("", format!("{found}: {}", self.several(fitting)), "one that fits").mended_by(mend)
     }
 

@@ -14,7 +14,8 @@ pub(crate) const AUTO: &str = "LUMENCUT_AUTO_DEVICE";
 static IS_BARE: AtomicBool = AtomicBool::new(false);
 
 /// What mends it where a forked process cannot open the GPU that its parent has: some drivers serve the parent alone.
-const SPAWN: &str = "start processes by 'spawn' instead of 'fork': this driver serves no forked process";
+const SPAWN: &str =
+    "start processes by 'spawn' instead of 'fork': this driver does not support forked processes";
 
 /// What a scene is to be computed on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -25,7 +25,7 @@ pub fn doubted_size(size: [usize; 3], world_from_index: DAffine3) -> Option<Stri
     let likelier = FACTORS.map(|factor| longest * factor);
     let likelier = likelier.iter().find(|length| (10.0 * SHORTEST..=LARGEST).contains(*length));
     let likelier = likelier.map(|length| format!("; perhaps it is {} mm long", mm(*length)));
-    let found = format!("the scan is {} mm long by the lengths in its header", mm(longest));
+    let found = format!("the scan is {} mm long by its header", mm(longest));
     Some(format!("{found}{}: check the unit of length", likelier.unwrap_or_default()))
 }
 
@@ -42,7 +42,7 @@ mod tests {
         for (size, spacing) in [(512, 0.7), (40, 0.03), (2000, 1.0)] {
             assert_eq!(doubt(size, spacing), None, "{size} times {spacing}");
         }
-        let large = "the scan is 20000 mm long by the lengths in its header; perhaps it is 20 mm long: check the unit of length";
+        let large = "the scan is 20000 mm long by its header; perhaps it is 20 mm long: check the unit of length";
         assert_eq!(doubt(20, 1000.0).as_deref(), Some(large));
         let small = doubt(400, 5e-4).expect("0.2 mm");
         assert!(small.contains("0.2 mm long by") && small.contains("perhaps it is 200 mm long"), "{small}");

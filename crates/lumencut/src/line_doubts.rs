@@ -104,7 +104,7 @@ fn order_doubt((vessel, called): (usize, &str), doubt: &OrderDoubt, line: &Doubt
         }
         OrderDoubt::Gap(step) => {
             let found = format!("{called}: a gap of {}: perhaps a part is missing", long(step));
-            ("gap", found, "look whether it is one vessel", None)
+            ("gap", found, "check whether it is one vessel", None)
         }
         OrderDoubt::Stray(points, distance) => {
             let advice = "remove what does not belong to the vessel";
@@ -119,10 +119,10 @@ fn disordered(called: &str, disorder: &Disorder) -> String {
     let is_too_long = disorder.lengths[0] > 2.0 * disorder.lengths[1];
     match &disorder.step {
         Some(step) if !is_too_long => {
-            format!("{called}: a step of {}: perhaps its points are in another order", long(step))
+            format!("{called}: a step of {}: perhaps its points are in the wrong order", long(step))
         }
         _ => format!(
-            "{called} is {length} mm long, a path through its points {short} mm: perhaps they are in another order"
+            "{called} is {length} mm long, but a path through its points only {short} mm: perhaps they are in the wrong order"
         ),
     }
 }

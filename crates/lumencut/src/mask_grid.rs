@@ -100,14 +100,14 @@ pub fn place_within(mask: &Grid, volume: &Grid) -> Result<MaskPlace> {
     let step = volume.world_from_index.inverse() * mask.world_from_index;
     let columns = [step.matrix3.x_axis, step.matrix3.y_axis, step.matrix3.z_axis];
     let axes = axes_of(mask, &columns).ok_or_else(|| {
-        let found = format!("a mask whose voxels of {} mm are none of the volume", mask.millimetres());
-        refused(found, format!("voxels of the volume, {} mm", volume.millimetres()))
+        let found = format!("a mask with voxels of {} mm", mask.millimetres());
+        refused(found, format!("the voxels of the volume, {} mm", volume.millimetres()))
     })?;
     let beside = step.translation - step.translation.round();
     if beside.abs().max_element() > OFF_GRID {
         let apart = volume.world_from_index.transform_vector3(beside).length();
-        let found = format!("a mask whose voxels lie {} mm beside those of the volume", rounded(apart, 3));
-        return Err(refused(found, format!("the same places, to {OFF_GRID} of a voxel")));
+        let found = format!("a mask whose voxels lie {} mm away from those of the volume", rounded(apart, 3));
+        return Err(refused(found, format!("the same positions, to {OFF_GRID} of a voxel")));
     }
     let (first, mut forward, mut low) = (step.translation.round().to_array(), [true; 3], [0; 3]);
     for (axis, column) in columns.iter().enumerate() {
@@ -116,7 +116,7 @@ pub fn place_within(mask: &Grid, volume: &Grid) -> Result<MaskPlace> {
         let length = mask.size[axis] as f64;
         let least = if forward[own] { first[own] } else { first[own] - length + 1.0 };
         if least < 0.0 || least + length > volume.size[own] as f64 {
-            let found = format!("a mask of {} voxels that reaches beyond the volume", mask.times());
+            let found = format!("a mask of {} voxels that extends beyond the volume", mask.times());
             return Err(refused(found, format!("voxels among the {} of the volume", volume.times())));
         }
         low[own] = least as usize;
@@ -142,7 +142,7 @@ fn axes_of(mask: &Grid, columns: &[DVec3; 3]) -> Option<[usize; 3]> {
 /// What is told of a mask that holds a part of the voxels of its volume.
 pub fn placed_note(mask: [usize; 3], volume: [usize; 3]) -> String {
     let [own, every] = [mask, volume].map(|size| size.map(|n| n.to_string()).join(" × "));
-    format!("the mask has {own} of the {every} voxels of the volume: placed by its own grid, 0 elsewhere")
+    format!("the mask covers {own} of the {every} voxels of the volume: placed by its own grid, 0 elsewhere")
 }
 
 fn refused(found: String, expected: String) -> Error {
@@ -183,11 +183,11 @@ mod tests {
         let moved = |x: f64, y: f64, z: f64| spaced() * DAffine3::from_translation(DVec3::new(x, y, z));
         let found = |mask: Grid| place_of(&mask, &volume).expect_err("elsewhere").to_string();
         let half = found(grid([10, 8, 6], moved(5.5, 6.0, 7.0)));
-        assert!(half.contains("lie 0.25 mm beside") && half.contains("resample"), "{half}");
+        assert!(half.contains("lie 0.25 mm away from") && half.contains("resample"), "{half}");
         let beyond = found(grid([10, 8, 6], moved(-1.0, 6.0, 7.0)));
-        assert!(beyond.contains("10 × 8 × 6 voxels that reaches beyond the volume"), "{beyond}");
+        assert!(beyond.contains("10 × 8 × 6 voxels that extends beyond the volume"), "{beyond}");
         let finer = found(grid([10, 8, 6], DAffine3::from_scale(DVec3::new(0.25, 0.5, 2.0))));
-        assert!(finer.contains("voxels of 0.25 × 0.5 × 2 mm are none of the volume"), "{finer}");
+        assert!(finer.contains("voxels of 0.25 × 0.5 × 2 mm; expected the voxels of the volume"), "{finer}");
         let same = found(grid([40, 30, 20], moved(1.0, 0.0, 0.0)));
         assert!(same.contains("corners lie up to 0.5 mm"), "{same}");
     }

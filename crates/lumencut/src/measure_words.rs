@@ -10,8 +10,7 @@ use crate::flag_table::set_in;
 use crate::text::fixed;
 
 /// What is told wherever lengths are in mm because a reader took voxels for 1 mm apart.
-pub(crate) const MILLIMETRE_ASSUMED: &str =
-    "1 mm is assumed between voxels: the scan does not say how far they lie apart.";
+pub(crate) const MILLIMETRE_ASSUMED: &str = "The scan has no voxel spacing: 1 mm is assumed.";
 
 /// How readers call a method: `NASCET`, `ECST` or `area`.
 pub fn of_method(method: Method) -> String {
@@ -100,17 +99,17 @@ pub fn of_wall(source: &WallSource) -> String {
             let others = if count == 1 { "vessel" } else { "vessels" };
             format!("{before}; {pooled} pooled with {count} other {others} of the tree")
         }
-        WallSource::NotAsked => "not told apart, as asked".to_owned(),
-        WallSource::DarkLumen => "not told apart: the lumen is dark".to_owned(),
-        WallSource::AsBright => "not told apart: the surroundings are as bright".to_owned(),
-        WallSource::OtherUnit => "not told apart: nothing says that the values are HU".to_owned(),
+        WallSource::NotAsked => "not separated, as requested".to_owned(),
+        WallSource::DarkLumen => "not separated: the lumen is dark".to_owned(),
+        WallSource::AsBright => "not separated: the surroundings are as bright".to_owned(),
+        WallSource::OtherUnit => "not separated: nothing says that the values are HU".to_owned(),
     }
 }
 
 /// What the calcium or metal beside a lumen leaves open, by the bounds of its diameter (mm); None where nothing is brighter than it.
 pub(crate) fn of_bounds([excluded, included]: [f64; 2]) -> Option<String> {
     let [excluded, included] = [excluded, included].map(|mm| mm.is_finite().then(|| fixed(mm, 2)));
-    Some(format!("{} mm if nothing brighter is lumen, {} mm if all of it is", excluded?, included?))
+    Some(format!("{} mm if brighter material is excluded, {} mm if it is included", excluded?, included?))
 }
 
 /// The flags that are set, each as words such as `no clear wall`.

@@ -15,8 +15,8 @@ use lumencut_gpu::renderer::GpuRenderer;
 /// [`ErrorKind::Settings`] for settings that have one.
 pub fn refuse_focus(settings: &Settings) -> Result<()> {
     let Some((setting, what)) = settings.focused() else { return Ok(()) };
-    let found = format!("{what} for another picture than a cut surface");
-    Err(Error::new(ErrorKind::Settings, setting, found, "none: CPR, mpCPR and CR show all of their surface")
+    let found = format!("{what} for a picture that is not a cut surface");
+    Err(Error::new(ErrorKind::Settings, setting, found, "none: CPR, mpCPR and CR show their whole surface")
         .mend(format!("leave the {setting} out")))
 }
 

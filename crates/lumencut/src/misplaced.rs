@@ -63,7 +63,7 @@ fn mirrored_by_values(points: &[DVec3], volume: &Judge) -> Option<Misplaced> {
     count.is_evident_beside(few).then(|| {
         let how = mirrored.place.mistaken();
         let found = format!(
-            "of {} points looked at, {} look like lumen as read, but {} {how}",
+            "of {} sampled points, {} look like lumen as read, but {} {how}",
             count.of, few.like_lumen, count.like_lumen,
         );
         Misplaced { found, meant: mirrored.place }

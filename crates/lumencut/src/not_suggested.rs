@@ -47,20 +47,20 @@ fn none_safe(profile: &Profile) -> String {
     }
     let words: Vec<&str> = found.iter().map(|(_, word)| *word).collect();
     let why = if words.is_empty() { String::new() } else { format!(" ({})", words.join(", ")) };
-    format!("No narrowest place is suggested: no section is safe{why}. Mark it yourself.")
+    format!("No narrowest place is suggested: no section is reliable{why}. Mark it yourself.")
 }
 
 fn only_thinner(end: Spot) -> String {
     format!(
-        "No narrowest place is suggested: the vessel gets thinner towards its end by itself, to {:.2} mm at {:.1} mm. Mark it yourself.",
+        "No narrowest place is suggested: the vessel tapers towards its end, to {:.2} mm at {:.1} mm. Mark it yourself.",
         end.diameter, end.at
     )
 }
 
 fn no_reference(at: f64) -> String {
     format!(
-        "No reference is suggested for {at:.1} mm: no place within 50 mm has parallel walls, is at least as wide, lies one diameter \
-         away, and is safe. Mark it yourself where the vessel is normal."
+        "No reference is suggested for {at:.1} mm: no place within 50 mm is reliable, at least as wide, one \
+         diameter away and between parallel walls. Mark it yourself where the vessel is normal."
     )
 }
 

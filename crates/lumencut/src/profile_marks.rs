@@ -72,7 +72,7 @@ impl Grade {
         match self {
             Self::NotGraded(reason) => vec![format!("no percentage: {reason}")],
             Self::Graded { stenosis, group } => {
-                let group = group.iter().map(|group| format!("group of the field: {group}"));
+                let group = group.iter().map(|group| format!("severity group: {group}"));
                 [of_stenosis(stenosis)].into_iter().chain(of_doubts(&stenosis.doubts)).chain(group).collect()
             }
         }
@@ -107,7 +107,7 @@ impl Marked {
                 .compared
                 .original
                 .is_none()
-                .then_some("ECST needs the diameter that the vessel is assumed to have had there."),
+                .then_some("ECST needs the assumed original diameter at that place."),
             Method::Nascet | Method::Area => {
                 self.compared.reference.is_empty().then_some("Mark a reference: where the vessel is normal.")
             }

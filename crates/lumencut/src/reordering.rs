@@ -7,7 +7,7 @@ use crate::line_doubts::{DoubtedLine, LineDoubt, found_order, order_doubts_of};
 use crate::mends::OfCenterlines;
 
 /// How the note ends that says of a line that its points were moved.
-pub const REORDERED: &str = "points were put in another order";
+pub const REORDERED: &str = "points were reordered";
 
 /// The lines of a file with their points in the order along the vessel; radii keep to their points, and each line keeps the
 /// direction that is nearest to the given order. A note says how many points were moved.
@@ -49,7 +49,7 @@ pub fn parted_doubt(lines: &Centerlines) -> Option<LineDoubt> {
         other: None,
         kind: "order",
         found: format!(
-            "a list of points was parted into {parts} lines at long steps: perhaps it is one line in another order"
+            "a list of points was split into {parts} lines at long steps: perhaps it is one line in the wrong order"
         ),
         advice: "sort its points along the vessel",
         mend: Some(OfCenterlines::Reorder.into()),
@@ -120,8 +120,8 @@ fn refuse_doubtful(number: usize, line: &Line) -> Result<()> {
     let Some(doubt) = doubt else { return Ok(()) };
     let subject =
         if name.is_empty() { format!("points of line {number}") } else { format!("points of {name}") };
-    let expected = "points of which each is nearest to its neighbours along one line";
-    let error = Error::new(subject, format!("no order without doubt: {}", doubt.found), expected);
+    let expected = "points along one line, each nearest to its neighbours";
+    let error = Error::new(subject, format!("no unambiguous order: {}", doubt.found), expected);
     Err(error.mend(doubt.advice))
 }
 

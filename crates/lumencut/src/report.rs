@@ -153,7 +153,7 @@ fn head(shown: &Shown, vessel: &VesselPage) -> String {
 fn top(shown: &Shown, vessel: &VesselPage) -> Result<String> {
     let found = findings(shown, vessel);
     let Some(view) = &vessel.view else { return Ok(found) };
-    let words = format!("{} of the vessels, as it was shown", method_word(&view.method));
+    let words = format!("{} of the vessels, as shown", method_word(&view.method));
     Ok(format!("<div class=\"top\">\n{}<div>\n{found}</div>\n</div>\n", figure(&view.picture, &words)?))
 }
 
@@ -168,7 +168,10 @@ fn tables(shown: &Shown, vessel: &VesselPage, places: &[Place]) -> Result<String
     offered.extend(profile.offered_widest().map(|spot| widest_row(profile, spot.at, shown)));
     let mut text = "<h2>Places</h2>\n".to_owned();
     if marked.is_empty() && offered.is_empty() {
-        text += &paragraph("", "No place is marked, and no section is safe to suggest: see the flags.");
+        text += &paragraph(
+            "",
+            "No place is marked, and no section is reliable enough to suggest: see the flags.",
+        );
         return Ok(text);
     }
     text += &if marked.is_empty() {
@@ -178,7 +181,7 @@ fn tables(shown: &Shown, vessel: &VesselPage, places: &[Place]) -> Result<String
     };
     text += &sections(shown, vessel, places, false)?;
     if !offered.is_empty() {
-        text += "<h2>Suggestions, not looked at</h2>\n";
+        text += "<h2>Suggestions, not confirmed</h2>\n";
         text += &table(&offered, shown.stated.has_units);
         text += &sections(shown, vessel, places, true)?;
     }

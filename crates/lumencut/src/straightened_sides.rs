@@ -85,21 +85,20 @@ impl StraightenedSides {
     pub fn notes(&self) -> Vec<String> {
         let mut notes = Vec::new();
         if !self.is_stated {
-            let words =
-                "the scan states no orientation: sides of the straightened vessel are those of a scan in LPS";
+            let words = "the scan states no orientation: the sides of the straightened vessel assume LPS";
             notes.push(words.to_owned());
         }
         let along = self.letters.chars().nth(2).unwrap_or_default();
         if !matches!(along, 'I' | 'S') {
             let side = word(along).unwrap_or_default();
             notes.push(format!(
-                "the vessel runs across the body at its middle: its sections follow each other to the patient's {side}"
+                "the vessel runs across the body at its middle: its sections progress to the patient's {side}"
             ));
         }
         if self.degrees() > MOST_TURN {
             let off = self.degrees();
             notes.push(format!(
-                "sides of the straightened vessel are true at its middle; along the vessel they are up to {off:.1}° off"
+                "the sides of the straightened vessel hold at its middle; along the vessel they are up to {off:.1}° off"
             ));
         }
         notes

@@ -4,7 +4,7 @@ import { engine } from '../client/shared';
 import { Failure } from '../core/failure';
 import * as store from './store';
 
-/** A GPU that fails again within this time is given up, and the CPU goes on (ms). */
+/** A GPU that fails again within this time is given up, and the CPU continues (ms). */
 const SOON = 20_000;
 let lastLoss = Number.NEGATIVE_INFINITY;
 let isChanging = false;
@@ -47,7 +47,7 @@ async function change(device: string, failure: Failure): Promise<void> {
   try {
     const changed = await engine.changeDevice(device);
     const before = store.started.value;
-    const outcome = changed.isGpu ? 'it came back' : 'the CPU goes on';
+    const outcome = changed.isGpu ? 'it came back' : 'the CPU continues';
     batch(() => {
       store.started.value = before && { ...before, ...changed };
       store.epoch.value += 1;

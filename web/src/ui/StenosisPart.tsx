@@ -80,7 +80,7 @@ function Result({ marks }: { readonly marks: VesselMarks }) {
     return (
       <div role="status" data-testid="stenosis">
         <p class="graded">{stenosisWords(stenosis)}</p>
-        {stenosis.group && <p>{`Group of the field: ${told(stenosis.group)}`}</p>}
+        {stenosis.group && <p>{`Severity group: ${told(stenosis.group)}`}</p>}
       </div>
     );
   }

@@ -42,7 +42,7 @@ pub(crate) fn sentences(stated: Stated, measured: &Measured, lengths: &Lengths) 
         Some(Grade::NotGraded(reason)) => vec![told(Kind::Finding, &format!("No percentage: {reason}"))],
         Some(Grade::Graded { stenosis, group }) => {
             let doubts = of_doubts(&stenosis.doubts).into_iter().map(|words| told(Kind::Doubt, &words));
-            let group = group.iter().map(|group| told(Kind::Remark, &format!("Group of the field: {group}")));
+            let group = group.iter().map(|group| told(Kind::Remark, &format!("Severity group: {group}")));
             [told(Kind::Finding, &of_stenosis(stenosis))].into_iter().chain(doubts).chain(group).collect()
         }
         None if !lengths.diameters.is_empty() => Vec::new(),

@@ -304,7 +304,7 @@ fn push_legend(svg: &mut String) {
              <rect x=\"404\" y=\"-8\" width=\"18\" height=\"9\" fill=\"{CURVE}\" fill-opacity=\"0.16\"/>\
              <text x=\"427\">shortest to longest</text>\
              <circle cx=\"549\" cy=\"-4\" r=\"2.5\" fill=\"none\" stroke=\"{LEFT_OUT}\"/>\
-             <text x=\"556\">left out: see the flags</text></g>\n"
+             <text x=\"556\">excluded: see the flags</text></g>\n"
         ),
     );
 }

@@ -11,14 +11,14 @@ use crate::measure_words::{of_method, of_source, of_wall};
 use crate::text::{fixed, rounded, shortest};
 
 /// How to read the numbers.
-pub(super) const EXPLAINED: &str = "Diameters are those of the lumen: thrombus and plaque are not lumen, so that an aneurysm may be \
-    wider. Diameter means that of a circle of the same area; ± is one standard deviation: noise, blur, wall, levels and \
-    surroundings. A stenosis is compared with the median within 1.5 mm of each reference. Suggested places are no findings: a reader must look at them. \
-    The contour of a section is cyan where it counts for what is narrowest or widest, and orange where its flags leave it out.";
+pub(super) const EXPLAINED: &str = "All diameters are of the lumen: thrombus and plaque are not lumen, so an aneurysm may be wider. \
+    Diameter means the diameter of a circle of the same area. ± is one standard deviation from noise, blur, wall, levels and \
+    surroundings. A stenosis is compared with the median diameter within 1.5 mm of each reference. Suggested places are not \
+    findings: a reader must check them. A cyan contour counts for the narrowest and the widest place; an orange one is excluded \
+    by its flags.";
 
 /// Why lengths have no unit.
-pub(super) const UNITLESS: &str =
-    "The scan does not say how far its voxels lie apart: 1 mm is assumed, and lengths have no unit.";
+pub(super) const UNITLESS: &str = "The scan has no voxel spacing: 1 mm is assumed, and lengths have no unit.";
 
 /// What a file states of its grid, or a reader assumed.
 #[derive(Clone, Copy, Debug, Deserialize)]

@@ -46,7 +46,7 @@ pub fn brightest_on_ray(
     }
     best.map(|(place, _)| place).ok_or_else(|| {
         let found = "a ray that meets no voxel";
-        let error = Error::new(ErrorKind::Tracing, "place in the projection", found, "one over the scan");
+        let error = Error::new(ErrorKind::Tracing, "place in the projection", found, "a place over the scan");
         error.mend("click where the scan is shown")
     })
 }

@@ -84,7 +84,7 @@ impl HeldVolume {
     /// `volume` where it ends before, and where there is none.
     pub fn bytes(held: Option<&mut Self>, offset: usize, count: usize) -> Result<&mut [u8]> {
         let bytes = held.map_or(&mut [][..], |held| held.stored.bytes_mut());
-        let expected = format!("no more than the {} that the header tells of", bytes.len());
+        let expected = format!("at most the {} that the header states", bytes.len());
         let end = offset.saturating_add(count);
         bytes.get_mut(offset..end).ok_or_else(|| Failure {
             kind: "volume",
@@ -121,5 +121,5 @@ pub(crate) struct HeldMask {
 
 /// The error for a question that only a volume answers.
 pub(crate) fn no_volume() -> Failure {
-    Failure { kind: "volume", ..Failure::of_message("volume", &"none", "one that is open") }
+    Failure { kind: "volume", ..Failure::of_message("volume", &"none", "an open volume") }
 }

@@ -94,8 +94,6 @@ fn stretch(line: &[Knot], from: usize, to: usize) -> Vec<Knot> {
 
 fn gap([one, other]: [&String; 2], apart: f64) -> Error {
     let found = format!("a gap of {} mm between {one} and {other}", rounded(apart, 4));
-    let expected = format!(
-        "vessels in their order along the path, of which an end of one is at most {MEETING} mm from the other"
-    );
+    let expected = format!("vessels in order along the path, each at most {MEETING} mm from the next");
     Error::new(ErrorKind::VesselTree, "path through the tree", found, expected)
 }

@@ -191,7 +191,7 @@ impl Lines {
     pub(crate) fn get(&self, number: usize) -> Result<Arc<Line>> {
         let line = number.checked_sub(self.before).and_then(|place| self.held.get(place));
         line.cloned().ok_or_else(|| {
-            let error = wrong("number", number.to_string(), "the number of a line of the scan that is open");
+            let error = wrong("number", number.to_string(), "the number of a line of the open scan");
             error.mend("open the scan again").into()
         })
     }

@@ -143,7 +143,7 @@ fn check_labels(stored: &Stored) -> Result<()> {
     };
     if is_scan {
         let expected = format!("a mask with at most {MOST_LABELS} labels");
-        let error = Error::new(ErrorKind::Volume, "mask", "more different values, as a scan has", expected);
+        let error = Error::new(ErrorKind::Volume, "mask", "more distinct values, as in a scan", expected);
         return Err(error.mend("open the segmentation of the vessels, or open the file as a scan").into());
     }
     Ok(())
@@ -166,5 +166,5 @@ fn has_many(values: impl Iterator<Item = u32>) -> bool {
 }
 
 fn no_mask() -> Failure {
-    Failure { kind: "volume", ..Failure::of_message("mask", &"none", "one that was read") }
+    Failure { kind: "volume", ..Failure::of_message("mask", &"none", "a mask that was read") }
 }

@@ -26,7 +26,7 @@ const REGIONS: [Region; 5] = [
     Region {
         name: "aorta",
         words: "Aorta",
-        sentence: "the cut around the vessels amid the shaded body, in the window for CT angiography",
+        sentence: "the cut around the vessels within the shaded body, in the CT angiography window",
         look: "focus",
         slab: None,
         presets: ["cta", "mra"],
@@ -34,7 +34,7 @@ const REGIONS: [Region; 5] = [
     Region {
         name: "carotid",
         words: "Carotid",
-        sentence: "the cut through the middle of every vessel, in the window for CT angiography",
+        sentence: "the cut through the middle of every vessel, in the CT angiography window",
         look: "lumen",
         slab: None,
         presets: ["cta", "mra"],
@@ -42,7 +42,7 @@ const REGIONS: [Region; 5] = [
     Region {
         name: "runoff",
         words: "Run-off",
-        sentence: "the largest value of 10 mm around the cut, in a wide window, so that calcium does not cover the lumen",
+        sentence: "the largest value within 10 mm around the cut, in a wide window: calcium does not hide the lumen",
         look: "slab",
         slab: None,
         presets: ["stent", "mra"],
@@ -50,7 +50,7 @@ const REGIONS: [Region; 5] = [
     Region {
         name: "coronary",
         words: "Coronary",
-        sentence: "the largest value of 5 mm around the cut, in the window for CT angiography",
+        sentence: "the largest value within 5 mm around the cut, in the CT angiography window",
         look: "slab",
         slab: Some(5.0),
         presets: ["cta", "mra"],
@@ -58,7 +58,7 @@ const REGIONS: [Region; 5] = [
     Region {
         name: "tof",
         words: "TOF",
-        sentence: "the largest value along each ray, in the window for MR angiography",
+        sentence: "for time-of-flight MR: the largest value along each ray, in the MR angiography window",
         look: "mip",
         slab: None,
         presets: ["mra", "mra"],

@@ -59,7 +59,7 @@ fn session_of(mut said: Value, counts: (usize, usize)) -> Result<Session> {
     let wrong = |found: &str| Failure::of_message("session", &found, "a session as JSON");
     let count = |list: &str| said.get(list).and_then(Value::as_array).map(Vec::len);
     if (count("vessels"), count("doubtful")) != (Some(counts.0), Some(counts.1)) {
-        return Err(wrong("other vessels than lines"));
+        return Err(wrong("different numbers of vessels and lines"));
     }
     let add = |to: &mut Value, fields: Value| {
         if let (Some(to), Value::Object(fields)) = (to.as_object_mut(), fields) {
@@ -94,7 +94,7 @@ impl Study {
         if let Some(scan) = file.session.scan.as_ref().filter(|scan| !is_of(scan, held)) {
             let [ni, nj, nk] = scan.size;
             let found = format!("a session of a scan of {ni} × {nj} × {nk} voxels in another place");
-            return Err(not_of_scan(name, &found, "a session of the scan that is open"));
+            return Err(not_of_scan(name, &found, "a session of the open scan"));
         }
         taken(file, &mut self.lines)
     }
@@ -108,7 +108,7 @@ fn is_of(saved: &Scan, held: &HeldVolume) -> bool {
 }
 
 fn not_of_scan(name: &str, found: &str, expected: &str) -> Failure {
-    let mend = "open the scan that the session was made of, then the session".to_owned();
+    let mend = "open the session's own scan, then the session".to_owned();
     Failure { kind: "session", mend, ..Failure::of_message(name, &found, expected) }
 }
 
@@ -213,7 +213,7 @@ mod tests {
         let content_of = |session, lines: &mut Lines| content(lines, session);
         let refused = |content, lines: &Lines| written(content, lines).expect_err("no session").found;
         let few = content_of(fewer, &mut lines);
-        assert_eq!(refused(few, &lines), "other vessels than lines");
+        assert_eq!(refused(few, &lines), "different numbers of vessels and lines");
         let mut odd = said();
         odd["bridge"] = json!("yes");
         let odd = content_of(odd, &mut lines);

@@ -82,14 +82,14 @@ impl Study {
         let voxels = &Voxels::new(&volume);
         let ends = clicks.and_then(|clicks| Some([*clicks.first()?, *clicks.last()?].map(DVec3::from_array)));
         if ends.is_some_and(|ends| runs_across(voxels, ends)) {
-            let words = "The way runs across the lumen, not along it: click in another slice.".to_owned();
+            let words = "The path runs across the lumen, not along it: click in another slice.".to_owned();
             return Ok(vec![DoubtfulPlace { words, at: None }]);
         }
         let lengths = arc_lengths(&line.points);
         let change = level_change(voxels, line).map(|n| {
             let at = lengths[n];
             let words =
-                format!("Doubtful from {} mm on: the lumen changes its brightness there.", fixed(at, 0));
+                format!("Doubtful from {} mm on: the brightness of the lumen changes there.", fixed(at, 0));
             DoubtfulPlace { words, at: Some(at) }
         });
         let wander = wandering_from(line).map(|(from, to)| wanders(lengths[from], lengths[to]));
@@ -109,7 +109,7 @@ fn wandering_from(line: &Centerline) -> Option<(usize, usize)> {
 
 /// What is told of a stretch on which a line wanders, from one arc length to another (mm).
 fn wanders(from: f64, to: f64) -> DoubtfulPlace {
-    let why = "the line turns more tightly there than the vessel is wide";
+    let why = "the line turns in less than the width of the vessel there";
     let (words, at) = if from > 0.0 {
         (format!("Doubtful from {} mm on: {why}.", fixed(from, 0)), from)
     } else {

@@ -74,7 +74,7 @@ impl Study {
             let line = self.lines.add(line)?;
             let name = draft.add_named(line, "", "Vessel").called();
             notes.push(format!(
-                "{name} was traced from the click alone, as no vessel was found there: is it one?"
+                "{name} was traced from the click alone, because no vessel was found there: check it."
             ));
         } else if let Some(line) = known? {
             let line = self.lines.add(line.into())?;

@@ -120,7 +120,10 @@ fn points_in_another_order_are_doubted() {
         assert_eq!(kinds(&turned), ["order"], "{count} points, the middle third turned round");
     }
     let words = doubts(&shuffled(&wavy(70), 3))[0].words();
-    assert!(words.contains("a path through its points 72.4") && words.contains("another order"), "{words}");
+    assert!(
+        words.contains("a path through its points only 72.4") && words.contains("wrong order"),
+        "{words}"
+    );
 }
 
 #[test]

@@ -17,7 +17,7 @@ fn graded(method: Method, references: Vec<[f64; 2]>) -> Stenosis {
 
 #[test]
 fn bounds_are_told_where_there_are_some() {
-    let words = "2.10 mm if nothing brighter is lumen, 3.46 mm if all of it is";
+    let words = "2.10 mm if brighter material is excluded, 3.46 mm if it is included";
     assert_eq!(of_bounds([2.1, 3.456]).as_deref(), Some(words));
     assert_eq!(of_bounds([f64::NAN; 2]), None);
 }

@@ -94,7 +94,7 @@ fn spaces_that_fit_alike_are_left_to_the_caller() {
     let around = Extent::new([101; 3], DAffine3::from_translation(DVec3::splat(-50.0)));
     let points: Vec<DVec3> = (0..20).map(|n| DVec3::splat(f64::from(n) - 10.0)).collect();
     let error = placement(&nothing(), &points, Some(&silent(around))).unwrap_err().in_file("lines.csv");
-    let found = "neither stated nor to be told by the volume what its coordinates are: lps in mm (20 of 20 points \
+    let found = "coordinates that are not stated and that the volume does not decide: lps in mm (20 of 20 points \
                  inside), ras in mm (20 of 20 points inside)";
     let mend = "state the space, lps or ras";
     assert_eq!(error.to_string(), format!("lines.csv: found {found}; expected one that fits; {mend}"));
@@ -179,7 +179,7 @@ fn between_spaces_that_fit_alike_the_values_decide_where_they_are_evident() {
         let (best, other) = if space == Space::Lps { ("lps", "ras") } else { ("ras", "lps") };
         let expected = format!(
             "the file states no space and no unit; both {best} in mm (20 of 20 points inside) and {other} in mm (20) fit the \
-             volume; of 100 points looked at, {} look like lumen in {best} and {} in {other}: read in {best}",
+             volume; of 100 sampled points, {} look like lumen in {best} and {} in {other}: read in {best}",
             lps.max(ras),
             lps.min(ras),
         );
@@ -209,7 +209,7 @@ fn fewer_than_twenty_points_decide_nothing() {
 fn values_that_speak_for_the_mirrored_lines_are_told() {
     let (extent, points) = around_the_origin();
     let told = |lps, ras| better_place(&points, &Judge { extent, lumen: &counts(lps, ras) });
-    let found = "of 100 points looked at, 20 look like lumen as read, but 80 with x and y negated (LPS and RAS mixed up?)";
+    let found = "of 100 sampled points, 20 look like lumen as read, but 80 with x and y negated (LPS and RAS mixed up?)";
     let meant = Place { space: Space::Ras, unit: Unit::Millimetre };
     assert_eq!(told(20, 80), Some(Misplaced { found: found.into(), meant }));
     assert_eq!((told(80, 20), told(30, 80), told(0, 49)), (None, None, None));
@@ -325,8 +325,8 @@ fn values_tell_the_unit_where_they_are_evident() {
     let known = Known { stated_space: Some(Space::Lps), ..nothing() };
     let found = placement(&known, &line_of(600.0, middle, truth), Some(&judge)).expect("told");
     let told = "the file states no unit; lps in mm (50 of 50 points inside, 60 mm across), lps in cm (50 of 50 points \
-                inside, 600 mm across) fit the volume; 20 of 100 points looked at look like lumen in lps in mm, but 90 of \
-                100 points looked at look like lumen in lps in cm: read in cm";
+                inside, 600 mm across) fit the volume; 20 of 100 sampled points look like lumen in lps in mm, but 90 of \
+                100 sampled points look like lumen in lps in cm: read in cm";
     assert_eq!((found.decision.as_str(), found.unit_from), (told, Origin::Values));
     assert_eq!(found.confirmed_by, Statement { space: None, unit: Some(Unit::Centimetre) });
 }

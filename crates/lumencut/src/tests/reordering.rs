@@ -65,7 +65,7 @@ fn an_order_in_doubt_is_refused_with_its_reason() {
     let mut ring: Vec<DVec3> = (0..70).map(|n| 9.0 * DVec3::new(turn(n).cos(), turn(n).sin(), 0.0)).collect();
     ring.sort_by(|a, b| a.x.total_cmp(&b.x));
     let error = in_order(of(vec![line(wavy(70)), line(ring)])).expect_err("a ring").to_string();
-    assert!(error.contains("points of line 1: found no order without doubt"), "{error}");
+    assert!(error.contains("points of line 1: found no unambiguous order"), "{error}");
 }
 
 #[test]

@@ -101,20 +101,19 @@ fn a_place_that_is_not_graded_keeps_its_rows_and_says_why() {
 
 #[test]
 fn beside_calcium_a_diameter_is_told_from_both_sides() {
-    let row =
-        "<td class=\"words\">calcium, 7.00 mm if nothing brighter is lumen, 9.00 mm if all of it is</td>";
+    let row = "<td class=\"words\">calcium, 7.00 mm if brighter material is excluded, 9.00 mm if it is included</td>";
     assert_eq!(html_of(&shown(), &marked(Some(30.0), &[20.0])).matches(row).count(), 1);
     let without = html_of(
         &Shown { stated: Stated { has_units: false, has_orientation: true }, ..shown() },
         &marked(Some(30.0), &[20.0]),
     );
-    assert!(without.contains("calcium, 7.00 if nothing brighter is lumen, 9.00 if all of it is"));
+    assert!(without.contains("calcium, 7.00 if brighter material is excluded, 9.00 if it is included"));
 }
 
 #[test]
 fn what_nobody_confirmed_stands_apart() {
     let text = html_of(&shown(), &marked(Some(30.0), &[]));
-    let (looked, offered) = text.split_once("<h2>Suggestions, not looked at</h2>").expect("suggestions");
+    let (looked, offered) = text.split_once("<h2>Suggestions, not confirmed</h2>").expect("suggestions");
     assert!(looked.contains("marked place at 30.0 mm</figcaption>") && !looked.contains("(suggestion)</td>"));
     assert!(offered.contains("reference before (suggestion)</td>"));
     assert!(offered.contains("longest diameter (suggestion)</td>"));
@@ -215,7 +214,7 @@ fn how_it_was_measured_is_told() {
     let settings = vec![["view".to_owned(), "CSR".to_owned()]];
     let text = html_of(&Shown { asked, settings, ..shown() }, &marked(None, &[]));
     let words = "Settings: step 0.5 mm; FWHM 1.2 mm; window W 700 L 300; reference 10.0 mm and 50.0 mm; view CSR. \
-                 FWHM of the point spread 1.20 mm, given. Walls: not told apart, as asked. 121 sections, of which 101 count; flags: branch 20, calcium 1. \
+                 FWHM of the point spread 1.20 mm, given. Walls: not separated, as requested. 121 sections, of which 101 count; flags: branch 20, calcium 1. \
                  Contrast to noise 25, contrast 250 in the unit of the volume.";
     assert!(text.contains(words), "{text}");
     assert!(text.contains(". Imaging: series, phase, slice thickness, kernel not stated. Settings"));
@@ -227,6 +226,8 @@ fn a_vessel_of_which_nothing_counts_says_so() {
     let mut profile = tube();
     profile.flags.fill(BRANCH);
     let text = html(&shown(), &[page_of(&profile, "LAD", &marked(None, &[]), None)]).expect("a report");
-    assert!(text.contains("No place is marked, and no section is safe to suggest: see the flags."));
+    assert!(
+        text.contains("No place is marked, and no section is reliable enough to suggest: see the flags.")
+    );
     assert!(!text.contains("Sections at these places"));
 }

@@ -134,11 +134,11 @@ fn masks_that_are_none_are_refused() {
     let larger = [size[0] + 1, size[1], size[2]];
     let zeros = vec![0u8; larger.iter().product()];
     let failure = traced(&mut study, &header((larger, affine), "uint8"), &zeros).expect_err("more");
-    assert!(failure.found.contains("reaches beyond the volume") && failure.mend.contains("resample"));
+    assert!(failure.found.contains("extends beyond the volume") && failure.mend.contains("resample"));
     assert_eq!(traced(&mut study, &own, &empty).expect_err("nothing").kind, "volume");
     let many: Vec<u8> = (0..count).flat_map(|n| ((n % 3000) as i16).to_le_bytes()).collect();
     let failure = traced(&mut study, &header((size, affine), "int16"), &many).expect_err("a scan");
-    assert!(failure.found.contains("more different values, as a scan has"));
+    assert!(failure.found.contains("more distinct values, as in a scan"));
     let half: Vec<u8> = (0..count).flat_map(|_| 0.5f32.to_le_bytes()).collect();
     let failure = traced(&mut study, &header((size, affine), "float32"), &half).expect_err("shares");
     assert_eq!(failure.found, "a voxel of 0.5");

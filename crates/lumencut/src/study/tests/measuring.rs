@@ -155,7 +155,7 @@ fn a_place_that_is_not_graded_has_the_reason() {
         ),
         (
             json!({"at": 18.0, "references": [5.0], "method": "ecst"}),
-            "ECST needs the diameter that the vessel is assumed to have had there.",
+            "ECST needs the assumed original diameter at that place.",
         ),
         (
             json!({"at": 18.0, "references": [99.0]}),

@@ -61,7 +61,7 @@ fn one_click_takes_a_vessel_that_is_hardly_longer_than_wide_in_the_scan_and_says
     assert!(off < 0.6, "{off}");
     assert!(line[0].distance(line[line.len() - 1]) > 16.0, "{line:?}");
     let told = begun.told.expect("words");
-    let words = "Vessel 1 was traced from the click alone, as no vessel was found there: is it one?";
+    let words = "Vessel 1 was traced from the click alone, because no vessel was found there: check it.";
     assert_eq!(told.doubts.iter().map(|doubt| doubt.words.as_str()).collect::<Vec<_>>(), [words]);
 }
 
@@ -85,7 +85,7 @@ fn a_lumen_that_changes_its_brightness_at_a_place_is_told_with_the_place() {
     let (line, lengths) = (points(&study, vessel.line), arc_lengths(&points(&study, vessel.line)));
     let place = line[lengths.partition_point(|length| *length < at)];
     assert!((place.z - 48.0).abs() < 3.0, "{at} {place}");
-    let words = format!("Doubtful from {at:.0} mm on: the lumen changes its brightness there.");
+    let words = format!("Doubtful from {at:.0} mm on: the brightness of the lumen changes there.");
     assert_eq!(doubt.words, words);
 }
 
@@ -101,7 +101,7 @@ fn a_way_across_the_lumen_is_told_and_one_along_it_is_none() {
     let mut study = tube(|_| 400.0);
     let across = told(&mut study, [[-6.0, 0.3, 48.0], [6.0, 0.1, 48.5]]);
     let [doubt] = &across.doubts[..] else { panic!("{:?}", across.doubts) };
-    assert_eq!(doubt.words, "The way runs across the lumen, not along it: click in another slice.");
+    assert_eq!(doubt.words, "The path runs across the lumen, not along it: click in another slice.");
     assert_eq!(doubt.at, None);
     assert_eq!(told(&mut study, [[-6.0, 0.3, 36.0], [6.0, 0.1, 58.0]]).doubts, Vec::new());
 }
