@@ -1,24 +1,24 @@
-//! What rows and columns of a reformation are, in words that stand at its picture.
+//! Captions that explain the rows and columns of a reformation.
 
 use crate::text::{fixed, rounded};
 
-/// A reformation whose axes are told.
+/// A reformation whose axes are explained.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Axes {
     /// The untangled CPR.
     Untangled,
-    /// A vessel that is straightened by an amount from 0 to 1.
+    /// A vessel straightened by an amount from 0 to 1.
     Uncurled(f64),
-    /// The spiral CPR with samples at even arc lengths, by its pitch (mm).
+    /// The spiral CPR sampled at even arc lengths; its pitch (mm).
     SpiralByArc(f64),
-    /// The spiral CPR with samples at even angles.
+    /// The spiral CPR sampled at even angles.
     SpiralByAngle,
-    /// The lumen map, by the radius at which its columns are true (mm).
+    /// The lumen map; the radius at which its columns are true to scale (mm).
     Map(f64),
 }
 
 impl Axes {
-    /// Sentences for readers.
+    /// The caption.
     pub fn words(self) -> String {
         match self {
             Self::Untangled => {

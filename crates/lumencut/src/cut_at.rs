@@ -11,26 +11,23 @@ use lumencut_core::stages::{Image, ImageSet};
 use crate::method::Method;
 use crate::positions::world_from_pixel;
 
-/// How many pixels around one decide what it shows: as far as the depth filter and the leaps look.
+/// Pixels around one that affect it: the reach of the depth filter and of jump detection.
 const AROUND: usize = 8;
-/// The share of the cut surface from which a pixel shows it rather than what lies around it.
+/// A pixel shows the cut surface if its opacity is at least this.
 const SHOWN: f32 = 0.5;
 
 /// The cut surface in a pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CutAt {
-    /// The world point.
+    /// The world point (LPS, mm).
     pub point: DVec3,
-    /// The vessel to whose zone it belongs.
+    /// The vessel whose zone contains it.
     pub vessel: Option<usize>,
-    /// Whether the pixel shows it: a focus shows what lies around the vessels instead.
+    /// False if a focus shows the surroundings instead.
     pub is_shown: bool,
 }
 
-/// The cut surface in the pixel (column, row) of a view.
-///
-/// # Errors
-/// Those of the view.
+/// The cut surface at a pixel (column, row) of a view.
 pub fn cut_at(
     (cpu, method): (&mut CpuRenderer, Method),
     scene: &Scene,

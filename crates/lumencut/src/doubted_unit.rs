@@ -1,4 +1,4 @@
-//! Doubts of the unit of lines: a size that vessels of a body do not have, or another unit that fits the volume better.
+//! Detects centerlines in the wrong unit: an implausible size, or another unit that fits the volume better.
 
 use std::cmp::Reverse;
 
@@ -11,13 +11,13 @@ use crate::places::{LARGEST, Place, Reading, SMALLEST, across, mm, places, readi
 /// A unit that may be wrong.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Doubt {
-    /// What was found, in words.
+    /// The finding, in words.
     pub found: String,
-    /// The units that fit instead, the likeliest first; none where no other fits.
+    /// Units that fit better, the likeliest first; may be empty.
     pub units: Vec<Unit>,
 }
 
-/// What speaks against the unit of the points of a file, as they stand in it, that are read in a place.
+/// Describes evidence against the unit in which the points of a file are read.
 pub(crate) fn doubted_unit(points: &[DVec3], place: Place, volume: Option<&Judge>) -> Option<Doubt> {
     match volume {
         Some(volume) => doubted_by_volume(points, place, volume),
@@ -63,7 +63,7 @@ fn doubted_by_volume(points: &[DVec3], place: Place, volume: &Judge) -> Option<D
     Some(Doubt { found, units: others.iter().map(|other| other.place.unit).collect() })
 }
 
-/// Whether lines are likelier meant in another unit than in the one in which they are read.
+/// Whether another unit is likelier than the one read.
 fn is_likelier(other: &Reading, as_read: &Reading, total: usize, volume: &Judge) -> bool {
     if other.is_clearly_better_than(as_read.fits(), total) {
         return true;

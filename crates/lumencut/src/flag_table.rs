@@ -1,4 +1,4 @@
-//! The flags of sections as readers meet them: one table of names, words, meanings and colours for every host.
+//! The table of section flags for all hosts: names, words, meanings and colours.
 
 use lumencut_vessels::measure::flags::{
     AT_LIMIT, BRANCH, CALCIUM, IRREGULAR, METAL, NEIGHBOR, NO_EDGE, OUTSIDE, RECENTERED, RESTLESS_LINE,
@@ -9,15 +9,15 @@ use serde::Serialize;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub struct FlagLook {
-    /// Its name in code, such as `NO_EDGE`.
+    /// Its constant, such as `NO_EDGE`.
     #[serde(skip)]
     pub name: &'static str,
     /// Its bit.
     #[serde(skip)]
     pub bit: u32,
-    /// What tables and reports call it, such as `no clear wall`.
+    /// Its word in tables and reports, such as `no clear wall`; part of the file formats.
     pub word: &'static str,
-    /// What it means, as a part of a sentence.
+    /// Its meaning, as part of a sentence.
     pub meaning: &'static str,
     /// Its colour on paper, `#rrggbb`.
     #[serde(skip)]
@@ -34,7 +34,7 @@ const fn look(
     FlagLook { name, bit, word, meaning, paper, screen }
 }
 
-/// Every flag, in the order in which plots and tables have them.
+/// All flags, in the order of plots and tables.
 pub const FLAGS: [FlagLook; 10] = [
     look(
         ("AT_LIMIT", AT_LIMIT),
@@ -87,7 +87,6 @@ pub const FLAGS: [FlagLook; 10] = [
     ),
 ];
 
-/// The flags that are set among these bits, in their order.
 pub(crate) fn set_in(bits: u32) -> impl Iterator<Item = &'static FlagLook> {
     FLAGS.iter().filter(move |flag| bits & flag.bit > 0)
 }

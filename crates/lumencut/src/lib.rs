@@ -1,8 +1,7 @@
-//! What every host of Lumencut shares, whether Python, a browser or a program in Rust: which device computes and
-//! what takes over where it fails, views fitted to a scene, windows from the data, the space and unit of centerlines,
-//! the way from pixels to the world and back, and what measured vessels leave behind: words, tables and JSON.
+//! Shared by all hosts of Lumencut (Python, browser, Rust): devices, fitted views, windows, centerline placement, picking, and
+//! the words, tables and JSON of measurements.
 //!
-//! Points are in world space (LPS, mm) unless their documentation says otherwise.
+//! Points are in world space (LPS, mm) unless stated otherwise.
 
 pub mod axes_words;
 pub mod backend;

@@ -1,11 +1,11 @@
-//! What is to be told of the lines of a mask.
+//! Notes about the lines of a mask.
 
 use lumencut_core::volume::Volume;
 use lumencut_vessels::trace::mask::TracedMask;
 
 use crate::text::rounded;
 
-/// What is to be told of the lines of a mask, one sentence each; whether they were refined by a volume.
+/// The notes, one sentence each; `has_volume` says whether a volume refined the lines.
 pub fn notes(traced: &TracedMask, mask: &Volume, has_volume: bool) -> Vec<String> {
     let mut notes = Vec::new();
     let [cavities, voxels] = traced.filled;
@@ -35,7 +35,6 @@ pub fn notes(traced: &TracedMask, mask: &Volume, has_volume: bool) -> Vec<String
     notes
 }
 
-/// A number of things, such as `1 voxel` or `5 voxels`.
 fn counted(count: usize, what: &str) -> String {
     if count == 1 { format!("1 {what}") } else { format!("{count} {what}s") }
 }

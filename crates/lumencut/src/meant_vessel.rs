@@ -1,4 +1,4 @@
-//! Whether a click at a point means a vessel, and the place on it.
+//! Whether a click selects a vessel, and where on it.
 
 use glam::{DVec2, DVec3};
 use lumencut_core::math::arc_length::point_at;
@@ -6,18 +6,18 @@ use lumencut_core::vessel_tree::Vessel;
 
 use crate::vessel_views::radius_at;
 
-/// How far beside its wall a vessel is still meant by a click (mm), and how many pixels in a view from far away.
+/// How far outside its wall a vessel is still selected (mm), and in pixels of a distant view.
 const BESIDE: f64 = 2.0;
 const PIXELS_BESIDE: f64 = 4.0;
 
-/// Whether a click at a point of a view with pixels of this side (mm) means the vessel: in its lumen, or a little beside it.
+/// Whether a click selects the vessel: in its lumen or just outside. `pixel_spacing` is the pixel side (mm).
 pub fn is_meant(vessel: &Vessel, point: DVec3, pixel_spacing: f64) -> bool {
     let at = nearest_arc_length(vessel, point);
     let reach = BESIDE.max(PIXELS_BESIDE * pixel_spacing);
     point.distance(point_at(vessel.points(), vessel.arc_length(), at)) <= radius_at(vessel, at) + reach
 }
 
-/// The arc length (mm) on a vessel that is nearest to a point.
+/// The arc length (mm) nearest to a point.
 pub fn nearest_arc_length(vessel: &Vessel, point: DVec3) -> f64 {
     let (points, along) = (vessel.points(), vessel.arc_length());
     let mut best = DVec2::new(f64::MAX, 0.0);

@@ -1,4 +1,4 @@
-//! Why no place is suggested on a vessel, in words that every host tells.
+//! Why no place is suggested on a vessel, in words for every host.
 
 use lumencut_vessels::measure::hindrances::{CHANGE_OF_LUMEN, FLAP, UNSURE};
 use lumencut_vessels::measure::profile::Profile;
@@ -7,12 +7,10 @@ use lumencut_vessels::measure::suggestions::Spot;
 use crate::flag_table::FLAGS;
 use crate::profile_marks::{main_place, offered_references};
 
-/// What hinders a suggestion beside the flags, as words.
 pub(crate) const HINDRANCES: [(u32, &str); 3] =
     [(CHANGE_OF_LUMEN, "change of lumen"), (FLAP, "flap"), (UNSURE, "unsure diameter")];
 
-/// Why the narrowest place, or any reference, is not suggested beside what a reader marked (arc lengths, mm): a sentence each,
-/// none where they are suggested or marked.
+/// Why the narrowest place or a reference is not suggested, given the marked places (arc lengths, mm): one sentence each.
 pub fn not_suggested(profile: &Profile, at: Option<f64>, references: &[f64]) -> Vec<String> {
     match main_place(profile, at) {
         None => {
@@ -28,14 +26,14 @@ pub fn not_suggested(profile: &Profile, at: Option<f64>, references: &[f64]) -> 
     }
 }
 
-/// So many reasons are told: those of the most sections.
+/// The number of reported reasons: those of the most sections.
 const MOST_REASONS: usize = 3;
 
 fn none_safe(profile: &Profile) -> String {
     let hindrances = profile.hindrances();
     let counted = |bit: u32| hindrances.iter().filter(|found| *found & bit != 0).count();
     let bits = FLAGS.iter().map(|flag| (flag.bit, flag.word)).chain(HINDRANCES);
-    // The reasons so far, from the most sections on: a few, for which a sort would be more code than they are worth.
+    // An insertion into a short list: less code than a sort.
     let mut found: Vec<(usize, &str)> = Vec::new();
     for (bit, word) in bits {
         let count = counted(bit);

@@ -1,4 +1,4 @@
-//! The places that coordinates can be meant in, and how many points each of them brings into a volume.
+//! Candidate spaces and units of coordinates, and how many points each brings into a volume.
 
 use std::fmt;
 
@@ -9,17 +9,16 @@ use crate::extent::Extent;
 use crate::fused;
 use crate::text::rounded;
 
-/// Extents between these (mm) pass for vessels of a body.
+/// Plausible extents of vessels lie between these (mm).
 pub const SMALLEST: f64 = 8.0;
 /// See [`SMALLEST`].
 pub const LARGEST: f64 = 2500.0;
-/// A line that is shorter than this many voxels shows nothing, where it is shorter than [`SHORTEST`] too.
+/// A line shorter than this many voxels and than [`SHORTEST`] carries no information.
 const FEW_VOXELS: f64 = 3.0;
-/// A line of this length (mm) is one, however large the voxels are.
+/// A line at least this long (mm) counts for any voxel size.
 const SHORTEST: f64 = 1.0;
-/// Digits of a length in words.
 const DIGITS: usize = 3;
-/// A place is as good as another if it brings at least this part of the other's points into the volume.
+/// A place is as good as another with at least this fraction of its points inside.
 const AS_GOOD: f64 = 0.8;
 
 /// A space and a unit.
@@ -27,17 +26,17 @@ const AS_GOOD: f64 = 0.8;
 pub struct Place {
     /// Patient coordinates, LPS or RAS.
     pub space: Space,
-    /// Their unit.
+    /// The unit.
     pub unit: Unit,
 }
 
 impl Place {
-    /// What brings coordinates of the place to LPS in mm, axis by axis.
+    /// Factors from this place to LPS in mm, per axis.
     pub fn scale(self) -> DVec3 {
         signs(self.space) * self.unit.in_mm()
     }
 
-    /// How coordinates of this place that were read as LPS in mm would have to be changed.
+    /// The correction for coordinates of this place that were read as LPS in mm.
     pub(crate) fn mistaken(self) -> String {
         let mut how = Vec::new();
         if self.space == Space::Ras {
@@ -56,16 +55,16 @@ impl fmt::Display for Place {
     }
 }
 
-/// What a caller can state of coordinates.
+/// What a caller can state about coordinates.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Statement {
-    /// Their space.
+    /// The space.
     pub space: Option<Space>,
-    /// Their unit.
+    /// The unit.
     pub unit: Option<Unit>,
 }
 
-/// What brings coordinates of the space to LPS, axis by axis.
+/// The signs from a space to LPS, per axis.
 pub fn signs(space: Space) -> DVec3 {
     match space {
         Space::Lps => DVec3::ONE,
@@ -73,48 +72,42 @@ pub fn signs(space: Space) -> DVec3 {
     }
 }
 
-/// All places of these spaces and units, the spaces one after the other.
+/// All combinations, grouped by space.
 pub fn places(spaces: &[Space], units: &[Unit]) -> Vec<Place> {
     spaces.iter().flat_map(|space| units.iter().map(|unit| Place { space: *space, unit: *unit })).collect()
 }
 
-/// How many points lie inside a volume where their coordinates are read in a place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Reading {
-    /// The place.
     pub place: Place,
-    /// How many points lie inside.
     pub inside: usize,
-    /// The size of the vessels, from corner to corner (mm).
+    /// The extent of the vessels, corner to corner (mm).
     pub across: f64,
-    /// Whether vessels can have that size: in mm they may be short pieces, of a few voxels at least; in another unit they have a
-    /// size of a body's.
+    /// Whether vessels can have that size: in mm also short pieces of a few voxels; in other units a body-sized extent.
     pub(crate) is_plausible: bool,
 }
 
 impl Reading {
-    /// How many points lie inside; none of vessels without a plausible size.
+    /// The points inside; 0 if the size is implausible.
     pub(crate) fn fits(&self) -> usize {
         if self.is_plausible { self.inside } else { 0 }
     }
 
-    /// Whether the vessels are shorter than most, so that another unit is as likely where it fits.
+    /// Whether the vessels are so short that another fitting unit is as likely.
     pub(crate) fn is_short(&self) -> bool {
         self.across < SMALLEST
     }
 
-    /// Whether it brings about as many points into the volume as a place that brings this many.
     pub(crate) fn is_as_good_as(&self, inside: usize) -> bool {
         self.fits() as f64 >= AS_GOOD * inside as f64
     }
 
-    /// Whether it brings twice as many points into the volume, and a tenth of all more.
+    /// Whether it brings twice as many points inside, and a tenth of all more.
     pub(crate) fn is_clearly_better_than(&self, inside: usize, total: usize) -> bool {
         self.fits() >= 2 * inside && self.fits() >= inside + (total / 10).max(1)
     }
 }
 
-/// What each place makes of the points.
 pub(crate) fn readings(points: &[DVec3], candidates: &[Place], volume: &Extent) -> Vec<Reading> {
     let bare = across(points);
     let reading = |place: &Place| {
@@ -128,12 +121,12 @@ pub(crate) fn readings(points: &[DVec3], candidates: &[Place], volume: &Extent) 
     candidates.iter().map(reading).collect()
 }
 
-/// A length in words.
+/// A length for messages.
 pub fn mm(length: f64) -> String {
     format!("{} mm", rounded(length, DIGITS))
 }
 
-/// The diagonal of the box around the points, 0 of no points.
+/// The diagonal of the points' bounding box; 0 without points.
 pub fn across(points: &[DVec3]) -> f64 {
     let (low, high) =
         points.iter().fold((DVec3::MAX, DVec3::MIN), |(low, high), p| (low.min(*p), high.max(*p)));
@@ -171,7 +164,7 @@ mod tests {
                 .map(Reading::fits)
                 .collect::<Vec<_>>()
         };
-        // 4 units: a short piece in mm, 40 mm in cm, 400 mm in dm, of which one end leaves the volume; 4 m.
+        // 4 units: a short piece in mm, 40 mm in cm, 400 mm in dm with one end outside; 4 m.
         assert_eq!(counted(&[DVec3::ZERO, DVec3::X * 4.0]), [0, 2, 2, 1, 0]);
         // Shorter than three voxels and than 1 mm.
         assert_eq!(counted(&[DVec3::ZERO, DVec3::X * 0.9]), [0, 0, 2, 2, 1]);

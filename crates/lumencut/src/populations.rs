@@ -1,62 +1,59 @@
-//! What the distribution of a volume's voxels says of its padding, its tissue and its lumen.
+//! Estimates padding, tissue and lumen from the distribution of a volume's voxels.
 
 use lumencut_core::volume::Volume;
 use lumencut_core::with_voxels;
 
 use lumencut_core::math::statistics::{median, quantile, two_groups};
 
-/// The side of the cubes whose largest values tell lumen from tissue (voxels), and how many of them are looked at.
+/// The cube side (voxels) whose maxima separate lumen from tissue, and the number of cubes.
 const SIDE: usize = 4;
 const MOST_CUBES: f64 = 32768.0;
 
-/// Which part of all voxels has the same dark value where that is padding, and which part is darker at most.
+/// A dark value is padding if this fraction of voxels has it, and at most this fraction is darker.
 const PADDING: f64 = 0.05;
 const DARKEST: f64 = 0.01;
 
-/// Which part of the voxels is at most as bright as the peak.
+/// The quantile of the peak.
 const PEAK: f64 = 0.999;
 
-/// Voxels brighter than air are farther from the darkest than this part of the way to the brightest.
+/// Voxels within this fraction of the range above the darkest are air.
 const AIR: f64 = 0.25;
 
-/// Padding is air where the darkest other voxel is nearer to it than this part of the way to the brightest.
+/// Padding is air if the next voxel value is within this fraction of the range.
 const GAP: f64 = 0.05;
 
-/// Where fewer voxels than this part are left, they are vessels alone.
+/// If less than this fraction remains, the volume shows vessels only.
 const VESSELS_ALONE: f64 = 0.08;
 
-/// Which part of what is brighter than air is darker than what stands for the darkest tissue.
+/// The quantile, among voxels brighter than air, of the darkest tissue.
 const DARKEST_TISSUE: f64 = 0.1;
 
-/// Which part of all cubes is brighter than tissue at most, and how often the brighter ones are parted for it.
+/// The largest fraction of cubes brighter than tissue, and the number of splits to get there.
 const BRIGHTER: f64 = 1.0 / 3.0;
 const PARTINGS: usize = 8;
 
-/// Cubes of tissue alone: up to here it counts as dark. Brighter cubes: up to here are edges, from here on lumen.
+/// Quantiles of cubes: the end of dark tissue; of the brighter cubes the end of edges and the lumen.
 const BRIGHTEST_TISSUE: f64 = 0.95;
 const EDGES: f64 = 0.2;
 
-/// Vessels alone: which part of them are edges, and where their lumen is.
+/// Vessels only: the quantiles of edges and of lumen.
 const ALONE_EDGES: f64 = 0.05;
 const ALONE_LUMEN: f64 = 0.75;
-/// The least difference of the two, as a part of the way from the darkest voxel to the lumen.
+/// The least difference of the two, as a fraction of the range from darkest voxel to lumen.
 const ALONE_DIFFERENCE: f64 = 0.25;
-/// How much darker than the lumen edges are at least, as a part of the same.
+/// How much darker edges must be than the lumen, in the same fraction.
 const EDGE: f64 = 0.1;
 
-/// Voxels of cubes that are evenly spread over a volume, at most about two million.
 pub(crate) struct Looked {
-    /// All finite ones.
+    /// All finite voxels.
     pub voxels: Vec<f64>,
-    /// The largest of each cube.
+    /// The maximum of each cube.
     pub largest: Vec<f64>,
-    /// How many there are, with those that are not finite.
+    /// The number of voxels, including non-finite ones.
     pub count: usize,
 }
 
 impl Looked {
-    /// Looks at a volume.
-    // Of the ten types of voxels some fit into f64 as they are, others only by a cast.
     #[allow(clippy::cast_lossless, clippy::unnecessary_cast)]
     pub(crate) fn at(volume: &Volume) -> Self {
         let (size, strides) = (volume.size(), volume.strides());
@@ -83,7 +80,7 @@ impl Looked {
     }
 }
 
-/// The smallest and the largest finite voxel; the first is the larger one where there is none.
+/// The smallest and largest finite voxel; reversed if there is none.
 #[allow(clippy::cast_lossless, clippy::unnecessary_cast)]
 pub(crate) fn range(volume: &Volume) -> [f64; 2] {
     let (size, strides) = (volume.size(), volume.strides());
@@ -99,7 +96,7 @@ pub(crate) fn range(volume: &Volume) -> [f64; 2] {
     ends
 }
 
-/// The padding: a dark value that many voxels have, where not all have it. Sorts the voxels.
+/// The padding: a dark value shared by many but not all voxels. Sorts the voxels.
 pub(crate) fn padding(voxels: &mut [f64]) -> Option<f64> {
     voxels.sort_unstable_by(f64::total_cmp);
     let darkest = *voxels.get((voxels.len() as f64 * DARKEST) as usize)?;
@@ -109,44 +106,40 @@ pub(crate) fn padding(voxels: &mut [f64]) -> Option<f64> {
     is_padding.then_some(darkest)
 }
 
-/// The voxels that are brighter than the padding, all where there is none; sorted.
 pub(crate) fn without_padding(voxels: &mut [f64]) -> &mut [f64] {
     let start = padding(voxels).map_or(0, |padding| voxels.partition_point(|value| *value <= padding));
     &mut voxels[start..]
 }
 
-/// What stands for tissue and lumen in a volume without centerlines.
+/// Levels of tissue and lumen of a volume without centerlines.
 ///
-/// Padding, a dark value that a twentieth of all voxels has, is left out, then air: what is darker than a quarter of the
-/// way from the 1st to the 99th percentile. Where less than 8 % of the volume is left, it is vessels alone: their edges
-/// stand for the tissue, three quarters of them lie below what stands for the lumen.
+/// Excluded are padding (a dark value of at least 5 % of voxels) and air (below a quarter of the range from the 1st to the 99th
+/// percentile). If less than 8 % remains, the volume shows vessels only: their edges stand for the tissue, and three quarters of
+/// them lie below the lumen level.
 ///
-/// Otherwise cubes of 4 × 4 × 4 voxels are told apart by their largest value: noise hardly moves it, and thin vessels
-/// have a larger part in it than of the voxels. Above the median the cubes are parted in two groups, on a scale that
-/// compresses what is far brighter so that bone does not count more than lumen (asinh), and the brighter group again
-/// until it is less than a third of all. The 95th percentile of the darker cubes is the brightest tissue; the lumen is
-/// the 20th percentile of the brighter ones, as bone and metal are the larger part of them.
+/// Otherwise cubes of 4 × 4 × 4 voxels are classified by their maximum: noise hardly changes it, and thin vessels weigh more.
+/// Cubes above the median are split in two groups on an asinh scale, so that bone does not outweigh lumen; the brighter group is
+/// split again until it is below a third of all. The brightest tissue is the 95th percentile of the darker cubes. The lumen is
+/// the 20th percentile of the brighter ones, because bone and metal make up most of these.
 pub(crate) struct Populations {
-    /// The smallest voxel that was looked at.
+    /// The smallest sampled voxel.
     pub smallest: f64,
-    /// The darkest voxels (1st percentile).
+    /// The 1st percentile.
     pub(crate) darkest: f64,
-    /// The median of the tissue.
     pub(crate) tissue: f64,
-    /// What hardly a ray through tissue exceeds.
+    /// A level that rays through tissue rarely exceed.
     pub(crate) brightest_tissue: f64,
-    /// The lumen.
     pub lumen: f64,
-    /// The brightest voxels (99th percentile of what is no padding).
+    /// The 99th percentile without padding.
     pub brightest: f64,
-    /// What is brighter than nearly all of them (99.9th percentile of the same).
+    /// The 99.9th percentile without padding.
     pub(crate) peak: f64,
-    /// Whether vessels alone are shown, and their edges are darker than their lumen.
+    /// Whether the volume shows vessels only, with edges darker than the lumen.
     pub(crate) has_edges: bool,
 }
 
 impl Populations {
-    /// What the voxels are; None of no voxels.
+    /// None without voxels.
     pub(crate) fn of(looked: &mut Looked) -> Option<Self> {
         let Air { smallest, darkest, ends, at: air, .. } = Air::of(looked)?;
         let enough = VESSELS_ALONE * looked.count as f64;
@@ -154,7 +147,7 @@ impl Populations {
         let peak = quantile(shown, PEAK)?;
         let mut body: Vec<f64> = shown.iter().copied().filter(|value| *value > air).collect();
         let is_body = body.len() as f64 >= enough && !body.is_empty();
-        // Of one value alone, or of few voxels beside padding, all count.
+        // A constant volume, or few voxels besides padding: all count.
         let is_few = (shown.len() as f64) < enough || body.is_empty();
         let vessels = if is_few { shown } else { &mut body };
         let [edges, bright] = [quantile(vessels, ALONE_EDGES)?, quantile(vessels, ALONE_LUMEN)?];
@@ -170,17 +163,13 @@ impl Populations {
     }
 }
 
-/// Where air ends, and how dark the voxels are.
 struct Air {
-    /// The smallest voxel that was looked at.
     smallest: f64,
-    /// The darkest voxels (1st percentile).
     darkest: f64,
-    /// The 1st and the 99th percentile of what is no padding.
+    /// The 1st and 99th percentile without padding.
     ends: [f64; 2],
-    /// What is darker is air.
     at: f64,
-    /// Whether air was cut off: many voxels have the darkest value, and the others follow it without a gap.
+    /// Whether air was clipped: many voxels share the darkest value, and the others follow without a gap.
     is_cut_off: bool,
 }
 
@@ -192,7 +181,7 @@ impl Air {
         let shown = without_padding(&mut looked.voxels);
         let first = *shown.first()?;
         let ends = [quantile(shown, DARKEST)?, quantile(shown, 1.0 - DARKEST)?];
-        // Padding that the other values follow without a gap is air that was cut off.
+        // Padding followed by other values without a gap is clipped air.
         let is_air = first - darkest < GAP * (ends[1] - darkest);
         let low = if is_air { darkest } else { ends[0] };
         let at = low + AIR * (ends[1] - low);
@@ -200,9 +189,8 @@ impl Air {
     }
 }
 
-/// The darkest tissue of a volume, which is fat in a CT: the 10th percentile of what is brighter than air. Where air was cut
-/// off at a value that is at least `cut_off`, that value, as tissue may be darker than what counts as air then. None where
-/// little but vessels is shown.
+/// The darkest tissue (fat in CT): the 10th percentile of voxels above air. If air was clipped at a value of at least `cut_off`,
+/// that value, because tissue may be darker than the air limit. None if the volume shows hardly anything but vessels.
 pub(crate) fn darkest_tissue(looked: &mut Looked, cut_off: f64) -> Option<f64> {
     let air = Air::of(looked)?;
     if air.is_cut_off && air.darkest >= cut_off {
@@ -213,7 +201,7 @@ pub(crate) fn darkest_tissue(looked: &mut Looked, cut_off: f64) -> Option<f64> {
     if (body.len() as f64) < enough { None } else { quantile(&mut body, DARKEST_TISSUE) }
 }
 
-/// The tissue, the brightest tissue and the lumen of vessels among tissue and bone, by the largest values of cubes.
+/// Tissue, brightest tissue and lumen among tissue and bone, by the maxima of cubes.
 fn of_body(tissue: f64, mut cubes: Vec<f64>) -> Option<[f64; 3]> {
     let middle = median(&mut cubes)?;
     let scale = quantile(&mut cubes, 0.75)? - quantile(&mut cubes, 0.25)?;

@@ -1,4 +1,4 @@
-//! Profiles as JSON for programs. Numbers have all their digits, and what could not be measured is null.
+//! Profiles as JSON for programs: full precision; null for what was not measured.
 
 use lumencut_core::named::Named;
 use lumencut_vessels::measure::profile::Profile;
@@ -13,27 +13,27 @@ use crate::profile_marks::{Grade, Mark, Measured, marks};
 use crate::profile_table::columns;
 use crate::scan_details::ScanDetails;
 
-/// What every file says of itself.
+/// The notice in every file.
 pub const NOTICE: &str = "Lumencut is not a medical device.";
 
-/// What was asked for; places are those of the one vessel that was marked.
+/// The request of a measurement; places are those of the one marked vessel.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct Asked {
-    /// The distance of sections (mm).
+    /// Distance of sections (mm).
     pub step_mm: f64,
-    /// The width of the point spread (mm), where it was given.
+    /// Point-spread width (mm), if given.
     pub fwhm_mm: Option<f64>,
-    /// The place of a stenosis (mm).
+    /// The stenosis (mm).
     pub at_mm: Option<f64>,
-    /// The places of its references (mm).
+    /// Its references (mm).
     pub reference_mm: Option<Vec<f64>>,
-    /// The name of the method.
+    /// The method's name.
     pub method: Option<String>,
     /// The assumed original diameter (mm).
     pub original_mm: Option<f64>,
-    /// The diameter of a vessel like the normal one (mm).
+    /// The diameter of a comparable normal vessel (mm).
     pub comparison_mm: Option<f64>,
-    /// The name of the vessel whose groups of the field were asked for.
+    /// The territory of the severity groups.
     pub group: Option<String>,
 }
 
@@ -42,7 +42,7 @@ pub fn profile_json(profile: &Profile, scan: &ScanDetails) -> String {
     document(&ProfileRecord::of(profile, scan))
 }
 
-/// Measured vessels as JSON, with what was asked for.
+/// Measured vessels as JSON, with the request.
 pub fn vessels_json(asked: &Asked, vessels: &[Measured]) -> String {
     #[derive(Serialize)]
     struct Vessels<'a> {
@@ -52,7 +52,6 @@ pub fn vessels_json(asked: &Asked, vessels: &[Measured]) -> String {
     document(&Vessels { settings: asked, vessels: vessels.iter().map(VesselRecord::of).collect() })
 }
 
-/// A record as JSON, after the version of the software and what it is not.
 fn document<T: Serialize>(content: &T) -> String {
     #[derive(Serialize)]
     struct Document<'a, T> {
@@ -65,7 +64,7 @@ fn document<T: Serialize>(content: &T) -> String {
     let whole = Document { software, notice: NOTICE, content };
     let mut text = Vec::new();
     let mut writer = serde_json::Serializer::with_formatter(&mut text, PrettyFormatter::with_indent(b" "));
-    // Writing to memory does not fail, nor do numbers and texts.
+    // Neither writing to memory nor numbers and texts can fail.
     let written = whole.serialize(&mut writer);
     debug_assert!(written.is_ok(), "{written:?}");
     text.push(b'\n');
@@ -169,7 +168,6 @@ impl Suggestions {
     }
 }
 
-/// A list for each column.
 struct Sections {
     numbers: Vec<(&'static str, Vec<f64>)>,
     counts: Vec<bool>,
@@ -186,7 +184,7 @@ impl Sections {
     }
 }
 
-/// The planes of the sections: their unit vectors to the right and downwards (LPS).
+/// Planes of the sections: unit vectors right and down (LPS).
 fn axes(profile: &Profile) -> impl Iterator<Item = (&'static str, Vec<f64>)> {
     const NAMES: [[&str; 3]; 2] =
         [["right_x_lps", "right_y_lps", "right_z_lps"], ["down_x_lps", "down_y_lps", "down_z_lps"]];

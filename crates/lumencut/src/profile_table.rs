@@ -1,4 +1,4 @@
-//! Profiles as a table: CSV with one line for each section.
+//! Profiles as CSV, one line per section.
 
 use lumencut_io::marked_cell;
 use lumencut_vessels::measure::parts::Part;
@@ -9,13 +9,10 @@ use crate::profile_marks::{Grade, Measured};
 use crate::scan_details::ScanDetails;
 use crate::text::rounded;
 
-/// Significant digits of a number in a table.
 const DIGITS: usize = 7;
 
-/// Names and values of columns that are the same in all lines of a vessel.
 type Same = Vec<(&'static str, String)>;
 
-/// A profile between columns that are the same in all its lines.
 struct Block<'a> {
     before: Same,
     profile: &'a Profile,
@@ -23,7 +20,7 @@ struct Block<'a> {
     behind: Same,
 }
 
-/// The numbers of all sections by their names with units.
+/// The numbers of all sections, by name with unit.
 pub fn columns(profile: &Profile) -> Vec<(&'static str, Vec<f64>)> {
     let centers = |axis: usize| profile.center.iter().map(|point| point[axis]).collect();
     let normals = |axis: usize| profile.normal.iter().map(|normal| normal[axis]).collect();
@@ -61,14 +58,12 @@ pub fn columns(profile: &Profile) -> Vec<(&'static str, Vec<f64>)> {
     ]
 }
 
-/// A profile as a table, a line for each section after the line of the names. Numbers have seven digits, and what could not be
-/// measured is empty.
+/// A profile as CSV with a header line. Seven significant digits; empty for what was not measured.
 pub fn profile_csv(profile: &Profile, scan: &ScanDetails) -> String {
     csv_text(&[Block { before: Same::new(), profile, scan, behind: Same::new() }])
 }
 
-/// Vessels as one table: the columns of [`profile_csv`] between those that say which vessel it is and what is told of the place
-/// that a reader marked on it.
+/// Vessels as one table: the columns of [`profile_csv`] between those of the vessel and those of its marked place.
 pub fn vessels_csv(vessels: &[Measured]) -> String {
     let blocks: Vec<Block> = vessels
         .iter()
@@ -81,7 +76,7 @@ pub fn vessels_csv(vessels: &[Measured]) -> String {
     csv_text(&blocks)
 }
 
-/// What is told of a marked place, empty where none is marked; and what is assumed of lengths, where something is.
+/// Columns of the marked place (empty without one), and of assumed lengths.
 fn told(one: &Measured) -> Same {
     let grade = one.grade;
     let stenosis = grade.and_then(Grade::stenosis);
@@ -116,7 +111,6 @@ fn csv_text(blocks: &[Block]) -> String {
     text
 }
 
-/// What stands behind the numbers of a section.
 fn words(profile: &Profile, n: usize) -> [String; 6] {
     let counts = if profile.counts(n) { "yes" } else { "no" };
     [
@@ -139,7 +133,6 @@ fn write_line(text: &mut String, fields: impl Iterator<Item = String>) {
     text.push('\n');
 }
 
-/// A field that no spreadsheet runs as a formula, in quotes where it would not be read as one without.
 fn cell(text: &str) -> String {
     let field = marked_cell(text);
     if field.contains(['"', ',', '\n', '\r']) {

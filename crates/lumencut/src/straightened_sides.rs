@@ -1,4 +1,4 @@
-//! The sides of the patient that a straightened volume states: the axes nearest to its true frame at the middle of the vessel.
+//! The patient sides of a straightened volume: the axes nearest to its frame at the middle of the vessel.
 
 use glam::DVec3;
 use lumencut_core::math::frames::MovingFrame;
@@ -6,40 +6,37 @@ use lumencut_core::reformations::cpr::Straightened;
 
 use crate::letters::{PREFERRED, nearest_axes, sides};
 
-/// Readers are warned where a true axis turns farther than this from its stated side (degrees).
+/// Readers are warned if a true axis deviates more from its stated side (degrees).
 const MOST_TURN: f64 = 45.0;
 
-/// How far before and after the middle of the vessel its frame is looked at (mm), and at how many places, less one.
+/// Half the length (mm) over which the middle frame is averaged, and the number of samples less one.
 const MIDDLE: f64 = 5.0;
 const PLACES: u32 = 40;
 
-/// The letters of sides with the words for them.
 const SIDES: [(char, &str); 6] =
     [('R', "right"), ('L', "left"), ('A', "front"), ('P', "back"), ('I', "feet"), ('S', "head")];
 
-/// What stands before the letters, and after the angle, of [`StraightenedSides::mark`].
+/// Text before the letters and after the angle of [`StraightenedSides::mark`].
 const MARK: [&str; 2] = ["Lumencut straightened vessel; sides ", " deg off"];
 
-/// So many letters of a text are looked at behind the beginning of a mark.
+/// Letters searched after the start of a mark.
 const LONGEST: usize = 64;
 
-/// What stands between them where the scan does not state its orientation, and where it does.
+/// Text between them for scans without and with a stated orientation.
 const BETWEEN: [&str; 2] = [" if the scan is LPS; up to ", " at its middle; up to "];
 
-/// The sides that the axes of a straightened volume state.
+/// The stated sides of a straightened volume.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StraightenedSides {
-    /// The sides that i (across the section), j (into the picture) and k (along the vessel) run to, as letters.
+    /// The sides towards which i (across), j (into the picture) and k (along) run.
     letters: String,
-    /// How far a true axis turns from its stated side anywhere along the vessel (tenths of a degree).
+    /// The largest deviation of a true axis from its side along the vessel (0.1 degrees).
     turn: u32,
-    /// Whether the scan states its orientation.
     is_stated: bool,
 }
 
 impl StraightenedSides {
-    /// The signed axes of the patient nearest to the frame at the middle of the vessel, with the handedness of the frame. Along
-    /// the vessel the frame is compared with them every `step` mm.
+    /// The patient axes nearest to the frame at the middle, with its handedness; the deviation is sampled every `step` mm.
     pub fn of(space: &Straightened, step: f64, is_stated: bool) -> Self {
         let stated = nearest_axes(middle(space));
         let sections = (space.length() / step).floor() as usize;
@@ -49,7 +46,7 @@ impl StraightenedSides {
         Self { letters: stated.map(sides).concat(), turn, is_stated }
     }
 
-    /// What [`StraightenedSides::mark`] says, where it stands in a text, such as the header of a file.
+    /// Parses a [`StraightenedSides::mark`] found in a text, such as a file header.
     pub fn read(text: &str) -> Option<Self> {
         let (_, rest) = text.split_once(MARK[0])?;
         let rest = rest.get(..LONGEST.min(rest.len())).unwrap_or(rest);
@@ -68,20 +65,20 @@ impl StraightenedSides {
         &self.letters
     }
 
-    /// The directions (LPS) that the sides stand for.
+    /// The directions (LPS) of the sides.
     pub fn axes(&self) -> [DVec3; 3] {
         let axis = |letter: char| PREFERRED.into_iter().find(|axis| sides(*axis).starts_with(letter));
         let mut letters = self.letters.chars();
         [(); 3].map(|()| letters.next().and_then(axis).unwrap_or_default())
     }
 
-    /// A short text that files carry; at most 79 letters of ASCII.
+    /// A short ASCII text for files, at most 79 characters.
     pub fn mark(&self) -> String {
         let ([before, after], between) = (MARK, BETWEEN[usize::from(self.is_stated)]);
         format!("{before}{}{between}{:.1}{after}", self.letters, self.degrees())
     }
 
-    /// What a reader of the volume must know of its sides; nothing where they are true enough along the whole vessel.
+    /// Warnings for readers of the volume; empty if the sides hold along the whole vessel.
     pub fn notes(&self) -> Vec<String> {
         let mut notes = Vec::new();
         if !self.is_stated {
@@ -109,7 +106,7 @@ impl StraightenedSides {
     }
 }
 
-/// The directions of i, j and k at the middle of the vessel, in the mean over a short way: noise of the line does not decide.
+/// The frame at the middle, averaged over a short stretch to suppress noise.
 fn middle(space: &Straightened) -> [DVec3; 3] {
     let half = space.length() / 2.0;
     let reach = MIDDLE.min(half);
@@ -121,7 +118,6 @@ fn middle(space: &Straightened) -> [DVec3; 3] {
     axes(MovingFrame::looking(tangent.normalize_or(space.frame(half).tangent), ahead))
 }
 
-/// The directions of i, j and k.
 fn axes(frame: MovingFrame) -> [DVec3; 3] {
     [frame.across, frame.ahead, frame.tangent]
 }
@@ -130,7 +126,6 @@ fn cosines(one: [DVec3; 3], other: [DVec3; 3]) -> [f64; 3] {
     [0, 1, 2].map(|axis| one[axis].dot(other[axis]))
 }
 
-/// The word for a side.
 fn word(letter: char) -> Option<&'static str> {
     SIDES.iter().find(|(known, _)| *known == letter).map(|(_, word)| *word)
 }

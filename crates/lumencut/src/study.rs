@@ -1,7 +1,7 @@
-//! The study that a viewer has open: a volume, the lines of its vessels and their edits, tracing, picking, what was measured
-//! and marked, and saved sessions. Its functions take and give plain values and JSON, so that every viewer works alike.
+//! The study open in a viewer: volume, vessel lines with edits, tracing, picking, measurements, marks and sessions. It exchanges
+//! plain values and JSON, so that all viewers work alike.
 //!
-//! Points are in world space (LPS, mm) unless their documentation says otherwise.
+//! Points are in world space (LPS, mm) unless stated otherwise.
 
 mod after_edit;
 pub mod asking;

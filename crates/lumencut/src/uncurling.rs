@@ -1,4 +1,4 @@
-//! A view in which a vessel fits at every amount of uncurling.
+//! A view that fits a vessel at every amount of uncurling.
 
 use std::sync::Arc;
 
@@ -10,17 +10,17 @@ use lumencut_core::vessel_tree::Vessel;
 
 use crate::views::{fitted, spacing_for};
 
-/// How much of the image the vessel takes.
+/// The fraction of the image that the vessel fills.
 const FILLED: f64 = 0.9;
 
-/// How many amounts from 0 to 1 the view is fitted to.
+/// Sampled amounts from 0 to 1.
 const STEPS: usize = 17;
 
-/// The camera in the middle of a vessel, with pixels at which it fits at every amount of uncurling; direction, up and size are kept.
+/// The camera centred on a vessel that fits it at every amount of uncurling; direction, up and size are kept.
 ///
 /// # Errors
-/// [`lumencut_core::error::ErrorKind::VesselTree`] for a vessel without length, [`lumencut_core::error::ErrorKind::Settings`] for a
-/// smoothing (mm) out of its range.
+/// [`lumencut_core::error::ErrorKind::VesselTree`] for a vessel without length, [`lumencut_core::error::ErrorKind::Settings`] for
+/// an invalid smoothing (mm).
 pub fn fitted_uncurling(camera: &Camera, vessel: &Vessel, smoothing: f64) -> Result<Camera> {
     let path = Arc::new(CenterlinePath::new(vessel, smoothing)?);
     let middle = fitted(camera, vessel.points())?;

@@ -1,4 +1,4 @@
-//! What the values of a volume may stand for, where its file does not say: Hounsfield units, and metal among them.
+//! Guesses whether a volume has Hounsfield units and contains metal, if its file does not say.
 
 use lumencut_core::math::statistics::quantile;
 use lumencut_core::settings::Window;
@@ -8,23 +8,22 @@ use lumencut_vessels::voxels::Voxels;
 
 use crate::populations::Looked;
 
-/// Which part of the voxels is darker than metal: a stent fills little of a scan.
+/// The quantile of metal: a stent fills little of a scan.
 const BELOW_METAL: f64 = 0.9999;
-/// Metal is so many times as far above the darkest voxels as the white end of the window for the lumen. Ours: in CT with a
-/// stent it was 4, in MR and in scans of the head at most 2.2.
+/// Metal is this many times as far above the darkest voxels as the white end of the lumen's window. Ours: 4 in CT with a stent,
+/// at most 2.2 in MR and head scans.
 const METAL: f64 = 3.0;
 
-/// What the values may stand for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct ValueUnit {
-    /// Whether they are Hounsfield units by what they are.
+    /// The values look like Hounsfield units.
     pub(crate) is_hounsfield: bool,
-    /// Whether some are as far above the lumen as metal is.
+    /// Some values are as far above the lumen as metal.
     pub(crate) has_metal: bool,
 }
 
 impl ValueUnit {
-    /// Looks at a volume; `lumen` is the window that shows its lumen.
+    /// Inspects a volume; `lumen` is the window of its lumen.
     pub(crate) fn of(volume: &Volume, lumen: Window) -> Self {
         let mut voxels = Looked::at(volume).voxels;
         voxels.sort_unstable_by(f64::total_cmp);

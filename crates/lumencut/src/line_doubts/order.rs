@@ -1,4 +1,4 @@
-//! The order of a line's points: whether the given one is doubtful, and the one that is found without doubt.
+//! Checks the order of a line's points, and finds the unambiguous order.
 
 use glam::DVec3;
 use lumencut_core::math::statistics::{median, quantile};
@@ -6,65 +6,55 @@ use lumencut_core::math::statistics::{median, quantile};
 use super::nearby::Nearby;
 use super::shortest_tree::ShortestTree;
 
-/// A step is long at this many times the usual one.
+/// A step is long from this many times the usual step …
 pub(super) const LONG_STEP: f64 = 20.0;
-/// A step is long only beyond this part of the extent of the line.
+/// … and only beyond this fraction of the line's extent.
 const LONG_PART: f64 = 0.05;
-/// A line is too long at this many times the length of a short path through its points.
+/// A line is too long from this many times the length of a short path through its points …
 const TOO_LONG: f64 = 2.0;
-/// Beside an order that is found without doubt a line is too long already by this factor.
+/// … or this many times if an unambiguous order exists.
 const LONGER_THAN_FOUND: f64 = 1.2;
-/// Steps are regular where the longest is at most this many times the usual one, and long ones this many times short ones.
+/// Steps are regular if the longest is at most this many usual steps, and high quantiles this many times low ones.
 const REGULAR: f64 = 3.0;
-/// A point stands out of the line at this many usual steps from both its neighbours.
+/// A point is a spike at this many usual steps from both neighbours.
 const SPIKE: f64 = 5.0;
-/// In an order without doubt no step is this many times the usual one.
+/// An unambiguous order has no step of this many usual steps.
 const LONGEST_FOUND: f64 = 5.0;
-/// Points of another stretch of the line make an order doubtful up to this distance, in longest steps.
+/// Points of another stretch within this many longest steps make an order ambiguous.
 const CLEARANCE: f64 = 1.5;
-/// A stretch is another one where the way to it is this many times the straight distance.
+/// A stretch is another one if the path to it is this many times the straight distance.
 const OTHER_STRETCH: f64 = 4.0;
-/// Where this many points are near one, no order is without doubt.
+/// An order is ambiguous if this many points are near one.
 const MOST_NEAR: usize = 256;
-/// Lines of fewer points do not show what step is usual.
 const FEWEST_POINTS: usize = 5;
-/// Of fewer points none stands out.
 const FEWEST_WITH_SPIKE: usize = 8;
 
-/// What is doubtful about the order of a line.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum OrderDoubt {
-    /// The points seem to stand in another order than along the vessel.
     Disorder(Disorder),
     /// A part seems to be missing at a long step.
     Gap(LongStep),
-    /// Points far from all others, and the distance of the nearest of them.
+    /// Stray points, and their least distance from all others.
     Stray(Vec<usize>, f64),
 }
 
-/// What speaks against the order of a line.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Disorder {
-    /// The longest step, where it is too long.
+    /// The longest step, if it is too long.
     pub step: Option<LongStep>,
-    /// The length of the line and of a short path through its points.
+    /// The lengths of the line and of a short path through its points.
     pub lengths: [f64; 2],
-    /// Whether an order is found without doubt.
     pub(crate) is_found: bool,
 }
 
-/// A step that is far longer than others.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct LongStep {
-    /// The point before it.
+    /// The index of the point before it.
     pub after: usize,
-    /// Its length.
     pub length: f64,
-    /// The length of the usual step.
     pub usual: f64,
 }
 
-/// What is doubtful about the order of points; nothing of a line in order.
 pub(super) fn order_doubts(points: &[DVec3]) -> Vec<OrderDoubt> {
     if points.len() < FEWEST_POINTS || is_regular(points) {
         return Vec::new();
@@ -82,7 +72,7 @@ pub(super) fn order_doubts(points: &[DVec3]) -> Vec<OrderDoubt> {
 }
 
 impl OrderDoubt {
-    /// The same for a line of which only the `kept` points were looked at.
+    /// The same doubt in the numbering of the whole line, when only the `kept` points were checked.
     fn among(self, kept: &[usize]) -> Self {
         let moved = |step: LongStep| LongStep { after: kept[step.after], ..step };
         match self {
@@ -97,8 +87,8 @@ impl OrderDoubt {
     }
 }
 
-/// The numbers of the points in the order along the vessel, where it is without doubt: the shortest path through them, with
-/// steps that are alike, on which every point is nearest to its neighbours, seen from either end.
+/// The unambiguous order along the vessel: the shortest path, with regular steps, on which each point is nearest to its
+/// neighbours from both ends.
 pub(crate) fn found_order(points: &[DVec3]) -> Option<Vec<usize>> {
     if points.len() < FEWEST_POINTS {
         return None;
@@ -130,7 +120,7 @@ fn found(points: &[DVec3], tree: &ShortestTree, nearby: &Nearby) -> Option<Vec<u
     (is_clear && is_even).then_some(order)
 }
 
-/// Whether the neighbours of a point in an order are the nearest points on either side, and no other stretch is near.
+/// Whether a point's neighbours in an order are its nearest points on either side, with no other stretch nearby.
 fn is_clear(
     (points, nearby): (&[DVec3], &Nearby),
     (order, rank): (&[usize], &[usize]),
@@ -154,7 +144,6 @@ fn is_clear(
     is_clear
 }
 
-/// Whether the steps of a line are about alike, as no disorder leaves them.
 fn is_regular(points: &[DVec3]) -> bool {
     let mut steps: Vec<f64> = steps(points).filter(|step| *step > 0.0).collect();
     let longest = steps.iter().copied().fold(0.0, f64::max);
@@ -167,7 +156,6 @@ fn steps(points: &[DVec3]) -> impl Iterator<Item = f64> + '_ {
     points.windows(2).map(|pair| pair[0].distance(pair[1]))
 }
 
-/// The usual distance of neighbours along the vessel, and the length beyond which a step is long.
 fn usual_and_long(points: &[DVec3], tree: &ShortestTree) -> (f64, f64) {
     let mut edges: Vec<f64> = tree.edges.iter().map(|edge| edge.2).filter(|length| *length > 0.0).collect();
     let usual = median(&mut edges).unwrap_or(0.0);
@@ -179,7 +167,6 @@ fn extent(points: &[DVec3]) -> f64 {
     corners.0.distance(corners.1)
 }
 
-/// Points far from all others, and the distance of the nearest of them.
 fn strays(points: &[DVec3], tree: &ShortestTree, nearby: &Nearby) -> (Vec<usize>, f64) {
     let (usual, long) = usual_and_long(points, tree);
     let piece = tree.pieces(long);
@@ -204,7 +191,7 @@ fn strays(points: &[DVec3], tree: &ShortestTree, nearby: &Nearby) -> (Vec<usize>
     (strays, distance)
 }
 
-/// Whether a point stands out of a line that goes on behind it as if it were not there.
+/// Whether a point sticks out of a line that continues without it.
 fn is_spike(points: &[DVec3], nearby: &Nearby, [usual, far]: [f64; 2], n: usize) -> bool {
     if points.len() < FEWEST_WITH_SPIKE || n == 0 || n + 1 == points.len() {
         return false;
@@ -224,7 +211,6 @@ fn is_spike(points: &[DVec3], nearby: &Nearby, [usual, far]: [f64; 2], n: usize)
     is_alone
 }
 
-/// What speaks against the order of a line without strays.
 fn disorder(points: &[DVec3], tree: &ShortestTree, nearby: &Nearby) -> Option<OrderDoubt> {
     let (usual, long) = usual_and_long(points, tree);
     let length: f64 = steps(points).sum();

@@ -1,4 +1,4 @@
-//! The places of a vessel that a report shows: what a reader marked, and apart from it what is only offered.
+//! The places that a report shows: marks, and suggestions separately.
 
 use lumencut_vessels::measure::profile::Profile;
 use serde::Serialize;
@@ -9,23 +9,21 @@ use crate::measure_words::{of_bounds, of_flags};
 use crate::profile_marks::{Mark, NOTED};
 use crate::text::fixed;
 
-/// What the places are called that a stenosis is compared with.
 const REFERENCE: &str = "reference";
 
-/// The colours of the place of a stenosis, of its references and of noted diameters, `#rrggbb`: those of the handles over pictures.
+/// Colours of the stenosis, its references and noted diameters, as the handles in pictures.
 const COLORS: [&str; 3] = ["#ff6b6b", "#7ee787", "#79c0ff"];
 
-/// What stands where there is no number.
 const NOTHING: &str = "–";
 
-/// A marked or suggested place, as [`crate::profile_marks::marks`] gives it.
+/// A place from [`crate::profile_marks::marks`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct ReportMark {
-    /// What it is: `marked place`, `narrowest place`, `reference` or `noted diameter`.
+    /// `marked place`, `narrowest place`, `reference` or `noted diameter`.
     pub name: String,
-    /// Its arc length (mm).
+    /// Arc length (mm).
     pub at: f64,
-    /// Whether it is offered; a reader marked it otherwise.
+    /// Suggested, not marked.
     pub is_suggestion: bool,
 }
 
@@ -41,32 +39,31 @@ impl From<&Mark> for ReportMark {
 pub struct Place {
     /// Such as `marked place` or `reference before (suggestion)`.
     pub name: String,
-    /// Its arc length (mm).
+    /// Arc length (mm).
     pub at: f64,
-    /// Whether it is offered; a reader marked it otherwise.
+    /// Suggested, not marked.
     pub is_suggestion: bool,
-    /// Whether it is compared with the place of a stenosis.
+    /// Whether it is a reference of the stenosis.
     pub(crate) is_reference: bool,
 }
 
 impl Place {
-    /// Its colour, `#rrggbb`.
+    /// `#rrggbb`.
     pub fn color(&self) -> &'static str {
         COLORS[self.rank()]
     }
 
-    /// 0 for the place of a stenosis, 1 for its references, 2 for noted diameters: in this order they are listed.
+    /// Sort key: 0 stenosis, 1 references, 2 noted diameters.
     fn rank(&self) -> usize {
         if self.is_reference { 1 } else { 2 * usize::from(self.name == NOTED) }
     }
 
-    /// Its name and where it is.
     pub(crate) fn caption(&self, unit: &str) -> String {
         format!("{} at {}{unit}", self.name, fixed(self.at, 1))
     }
 }
 
-/// The places of marks: references say on which side of the first place they lie.
+/// The places of marks; references are named by their side of the first place.
 pub(super) fn places(marks: &[ReportMark]) -> Vec<Place> {
     let is_main = |mark: &&ReportMark| mark.name != REFERENCE && mark.name != NOTED;
     let main = marks.iter().find(is_main).map(|mark| mark.at);
@@ -80,7 +77,7 @@ pub(super) fn places(marks: &[ReportMark]) -> Vec<Place> {
         let name = format!("{}{side}{offered}", mark.name);
         Place { name, at: mark.at, is_suggestion: mark.is_suggestion, is_reference }
     };
-    // The place of a stenosis first, then its references along the vessel: a few, for which a sort would be more code than they are worth.
+    // Insertion into a short list: less code than a sort.
     let order = |place: &Place| (place.rank(), place.at);
     let mut found: Vec<Place> = Vec::new();
     for place in marks.iter().map(named) {
@@ -89,13 +86,11 @@ pub(super) fn places(marks: &[ReportMark]) -> Vec<Place> {
     found
 }
 
-/// A line of the table: the numbers of the section that is nearest to a place.
 pub(super) fn row(profile: &Profile, place: &Place, shown: &Shown) -> String {
     let dot = format!("<span style=\"color: {}\">●</span> ", place.color());
     numbers(profile, &format!("{dot}{}", escaped(&place.name)), place.at, shown)
 }
 
-/// The line of the place of the longest diameter, which nobody marked.
 pub(super) fn widest_row(profile: &Profile, at: f64, shown: &Shown) -> String {
     numbers(profile, "longest diameter (suggestion)", at, shown)
 }
@@ -120,7 +115,7 @@ fn numbers(profile: &Profile, name: &str, at: f64, shown: &Shown) -> String {
     format!("<tr><td>{name}</td>{cells}<td class=\"words\">{flags}</td></tr>\n")
 }
 
-/// A table of lines; lengths have no unit where none is known.
+/// A table; lengths without unit if it is unknown.
 pub(super) fn table(rows: &[String], has_units: bool) -> String {
     let [mm, square] = if has_units { [" (mm)", " (mm²)"] } else { [""; 2] };
     let heads = ["arc length", "diameter ± 1 SD", "shortest", "longest"].map(|name| format!("{name}{mm}"));

@@ -1,4 +1,4 @@
-//! The profile of a vessel as an SVG below the straightened vessel, which lies on the same axis.
+//! The profile of a vessel as SVG, below the straightened vessel on the same axis.
 
 use std::f64::consts::PI;
 use std::fmt::Write;
@@ -14,28 +14,27 @@ use super::{Strip, flag_rows};
 use crate::flag_table::FlagLook;
 use crate::text::{fixed, rounded};
 
-/// The width of the plot and the heights of its parts (pixels of its own): the chart, and the straightened vessel at most.
+/// Plot width, and heights of the chart and (at most) of the straightened vessel (plot pixels).
 const WIDTH: f64 = 1000.0;
 const CHART: f64 = 270.0;
 pub(super) const STRIP: f64 = 150.0;
 
-/// Room for the numbers at the left, for words at the right, for the legend above and for the ticks below.
+/// Margins for axis numbers, words, legend and ticks.
 const LEFT: f64 = 56.0;
 const RIGHT: f64 = 104.0;
 const ABOVE: f64 = 38.0;
 const BELOW: f64 = 34.0;
 
-/// The height of a row of flags; all rows take no more than this share of the height.
+/// Height of a flag row, and the largest share of all rows.
 const ROW: f64 = 12.0;
 const MOST_ROWS: f64 = 0.45;
 
-/// The number of standard deviations that the band reaches to both sides.
+/// Half width of the uncertainty band, in standard deviations.
 const DEVIATIONS: f64 = 2.0;
 
-/// The largest diameter takes this share more.
 const ROOM: f64 = 1.12;
 
-/// A diameter below this multiple of the point spread's width is at the limit.
+/// Diameters below this many FWHM are near the resolution limit.
 const LIMIT: f64 = 1.5;
 
 const CURVE: &str = "#1f4e9c";
@@ -43,26 +42,19 @@ const LEFT_OUT: &str = "#808080";
 const QUIET: &str = "#444444";
 const OUTLINE: &str = "#222222";
 
-/// What is drawn.
 pub(super) struct Plot<'a> {
-    /// The sections.
     pub profile: &'a Profile,
-    /// Marked and suggested places.
     pub places: &'a [Place],
-    /// The straightened vessel.
     pub strip: Option<&'a Strip>,
-    /// Whether lengths are known in mm.
+    /// Whether the unit of lengths is known.
     pub has_units: bool,
 }
 
-/// Where things lie.
 struct Layout {
     axes: Axes,
-    /// The flags that are set somewhere.
     flags: Vec<&'static FlagLook>,
-    /// The height of the row of a flag, the first of which begins where the diameter is 0.
+    /// Height of a flag row; the first begins at diameter 0.
     row: f64,
-    /// Where the chart ends below the rows.
     bottom: f64,
 }
 
@@ -83,10 +75,6 @@ impl Layout {
 }
 
 impl Plot<'_> {
-    /// The markup of the plot.
-    ///
-    /// # Errors
-    /// Where the picture of the vessel is not base64.
     pub(super) fn svg(&self) -> Result<String> {
         let layout = Layout::of(self.profile);
         let (strip, top) = self.strip_markup(&layout.axes.x)?;
@@ -108,13 +96,12 @@ impl Plot<'_> {
         Ok(svg)
     }
 
-    /// The straightened vessel, and its height.
     fn strip_markup(&self, x: &Axis) -> Result<(String, f64)> {
         let Some(strip) = self.strip else { return Ok((String::new(), 0.0)) };
         let per_mm = (x.end - x.start) / (x.high - x.low);
         let [columns, rows] = strip.size.map(|count| count as f64 * strip.spacing * per_mm);
         let height = rows.min(STRIP);
-        // The middle of the first column is at the beginning of the vessel.
+        // The vessel begins in the middle of the first column.
         let left = x.start - strip.spacing * per_mm / 2.0;
         let address = png_address(&strip.picture)?;
         let mut markup = format!(
@@ -186,7 +173,7 @@ impl Plot<'_> {
         let width = counted(&all);
         let spread = |sign: f64| -> Vec<f64> {
             let away = |n: usize| width[n] + sign * DEVIATIONS * profile.uncertainty[n];
-            // What is not a number stays so.
+            // NaN stays NaN.
             (0..width.len()).map(away).map(|edge| if edge < 0.0 { 0.0 } else { edge }).collect()
         };
         let range = band(axes, at, &counted(&profile.diameter_min), &counted(&profile.diameter_max));
@@ -210,7 +197,6 @@ impl Plot<'_> {
         self.push_limit(svg, axes);
     }
 
-    /// The line below which little is left of a diameter in the picture.
     fn push_limit(&self, svg: &mut String, axes: &Axes) {
         let limit = LIMIT * self.profile.fwhm;
         if limit < axes.y.high {
@@ -231,7 +217,7 @@ impl Plot<'_> {
         }
     }
 
-    /// A row for each flag that is set somewhere. Stretches begin half a step before their first section.
+    /// A row per flag that occurs. A run begins half a step before its first section.
     fn push_flags(&self, svg: &mut String, layout: &Layout) {
         let (Axes { x, y }, row) = (layout.axes, layout.row);
         let (at, flags) = (&self.profile.arc_length, &self.profile.flags);
@@ -284,7 +270,7 @@ impl Plot<'_> {
             format_args!(
                 "<g class=\"place\" stroke=\"{OUTLINE}\" fill=\"{fill}\"><path d=\"M{column:.2} 0V{top:.2}M{column:.2} {:.2}V{:.2}\" \
                  stroke=\"{color}\" stroke-width=\"1.4\"{dashes}/><path d=\"{symbol}\"/></g>\n",
-                // The words between the vessel and the chart stay free.
+                // Keeps the words between vessel and chart clear.
                 top + ABOVE,
                 top + layout.bottom
             ),
@@ -318,7 +304,7 @@ fn push(svg: &mut String, markup: std::fmt::Arguments) {
     let _ = svg.write_fmt(markup);
 }
 
-/// The largest diameter (mm) that has room: that of the sections that count, or of all where none does.
+/// The top of the chart (mm): the largest diameter of counting sections, else of all.
 fn top(profile: &Profile) -> f64 {
     let widest = |is_among: &dyn Fn(usize) -> bool| {
         let among = (0..profile.len()).filter(|n| is_among(*n)).map(|n| profile.diameter_max[n]);

@@ -1,4 +1,4 @@
-//! A file of centerlines becomes vessels in world space.
+//! Reads a centerline file into vessels in world space.
 
 use crate::extent::Extent;
 use crate::line_doubts::{DoubtedLine, LineDoubt, beside_doubts_of, order_doubts_of};
@@ -15,7 +15,6 @@ use serde::{Deserialize, Serialize};
 
 use crate::study::failure::Result;
 
-/// In which space and unit centerlines are to be read, by names; what is left out is not asked for.
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(default)]
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename = "CenterlineWish"))]
@@ -26,17 +25,13 @@ pub(crate) struct AskedMessage {
     /// `um`, `mm`, `cm`, `dm` or `m`.
     #[cfg_attr(test, ts(optional))]
     pub unit: Option<String>,
-    /// Whether the points of each line are put into their order.
     #[cfg_attr(test, ts(optional))]
     pub(crate) reorder: Option<bool>,
 }
 
-/// How centerlines are to be read.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Asked {
-    /// Their space and unit.
     pub place: Statement,
-    /// Whether the points of each line are put into their order.
     pub(crate) reorder: bool,
 }
 
@@ -53,7 +48,7 @@ impl From<AskedMessage> for Asked {
 }
 
 impl AskedMessage {
-    /// What it asks for; other names ask for nothing.
+    /// The request; unknown names count as none.
     pub(crate) fn statement(self) -> Statement {
         let space = |space: &Space| Some(space.name()) == self.coordinates.as_deref();
         let unit = |unit: &Unit| Some(unit.name()) == self.unit.as_deref();
@@ -61,46 +56,36 @@ impl AskedMessage {
     }
 }
 
-/// Vessels, their names, and what was odd about their file.
 #[derive(Clone, Debug)]
 pub(crate) struct PlacedVessels {
-    /// The vessels in world space.
     pub tree: VesselTree,
-    /// The name of each vessel; empty where the file has none.
+    /// One per vessel; may be empty.
     pub names: Vec<String>,
-    /// One sentence each.
     pub(crate) notes: Vec<String>,
-    /// Whether points are in another order, and may be put in order.
+    /// Whether points seem to be in the wrong order and can be sorted.
     pub(crate) can_reorder: bool,
-    /// What speaks against the space or unit in which they were read.
+    /// Evidence against the space or unit used.
     pub(crate) doubt: Option<PlaceDoubt>,
 }
 
-/// What speaks against the space or unit of centerlines, and how else they can be read.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub(crate) struct PlaceDoubt {
-    /// What was found, in words.
+    /// The finding, in words.
     pub found: String,
-    /// The places that fit instead, such as `lps in cm`; none where no other fits.
+    /// Alternatives such as `lps in cm`; may be empty.
     pub(crate) readings: Vec<String>,
 }
 
-/// What is told of centerlines that were opened.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub(crate) struct OpenedLines {
-    /// What was odd about their file, one sentence each.
     pub(crate) notes: Vec<String>,
-    /// What speaks against the space or unit in which they were read.
+    /// Evidence against the space or unit used.
     pub(crate) doubt: Option<PlaceDoubt>,
 }
 
-/// The vessels of the file `name` in world space, read in the space and unit that are asked for; what neither the file nor the
-/// caller states of them the volume decides.
-///
-/// # Errors
-/// `format` for a file that is damaged or holds no centerlines, and where nothing tells where they lie.
+/// Reads the vessels of the file `name` as requested; the volume decides what neither caller nor file states.
 pub(crate) fn read_centerlines(
     bytes: &[u8],
     name: &str,
@@ -146,7 +131,6 @@ pub(crate) fn read_centerlines(
     Ok(PlacedVessels { tree, names, notes, doubt, can_reorder })
 }
 
-/// What is doubtful about vessels of a file.
 fn doubts_of(vessels: &[Vessel], names: &[String]) -> Vec<LineDoubt> {
     let pairs = vessels.iter().zip(names);
     let looked_at: Vec<DoubtedLine> =
@@ -156,7 +140,7 @@ fn doubts_of(vessels: &[Vessel], names: &[String]) -> Vec<LineDoubt> {
     doubts
 }
 
-/// What speaks against the unit, or which other ones fit the volume too.
+/// Evidence against the unit, or other units that fit.
 fn doubt_of_unit(found: &Placement) -> Option<PlaceDoubt> {
     let of =
         |units: &[Unit]| units.iter().map(|unit| Place { unit: *unit, ..found.place }.to_string()).collect();
@@ -167,7 +151,7 @@ fn doubt_of_unit(found: &Placement) -> Option<PlaceDoubt> {
     (!found.also.is_empty()).then(|| PlaceDoubt { found: found.decision.clone(), readings: also })
 }
 
-/// What is to be said of vessels beside a volume: that they miss it, or where nothing is told yet, that another place fits.
+/// A doubt if vessels miss the volume or, without an earlier doubt, fit better elsewhere.
 fn doubt_beside(tree: &VesselTree, volume: &Volume, read: &Placement) -> Option<PlaceDoubt> {
     let points: Vec<DVec3> = tree.vessels().iter().flat_map(|vessel| vessel.points()).copied().collect();
     let radius =
@@ -182,7 +166,7 @@ fn doubt_beside(tree: &VesselTree, volume: &Volume, read: &Placement) -> Option<
     }
     let is_told = read.is_unusual || read.space_from == Origin::Asked;
     let better = better_place(&points, &judge).filter(|_| !is_told)?;
-    // The place that fits is that of lines that were read as LPS: those that were read as RAS fit the other way round.
+    // `better` assumes points read as LPS; for points read as RAS it is the opposite.
     let space = if better.meant.space == read.place.space { Space::Lps } else { Space::Ras };
     let is_in_mm = read.place.unit == Unit::Millimetre;
     let meant = Place { space, ..better.meant };

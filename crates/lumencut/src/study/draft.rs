@@ -1,4 +1,4 @@
-//! A document while an edit changes it: which vessels come to it, which lose their marks, and which of its clicks are new.
+//! A document during an edit: added vessels, lost marks and new clicks.
 
 use crate::study::document::{Document, DocumentVessel, Place};
 use crate::study::edits::Edit;
@@ -6,35 +6,27 @@ use crate::study::failure::Failure;
 use crate::study::names::{fresh_name, part_name};
 use crate::study::tracing::StopperMessage;
 
-/// The radius of a stopper (mm), as in Python.
+/// Radius of a stopper (mm), as in Python.
 const STOPPER_RADIUS: f64 = 3.0;
 
-/// The least number of clicks of a vessel.
 const FEWEST: usize = 2;
 
-/// A document that is being edited.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Draft {
-    /// As it is by now.
     pub(crate) document: Document,
-    /// The largest id that was ever given in the study.
     pub(crate) last_id: u32,
-    /// The vessels that came to it.
     pub(crate) added: Vec<u32>,
-    /// The vessels whose marks are lost.
     pub(crate) without_marks: Vec<u32>,
-    /// The clicks that the edit sets: a vessel, and the number of the click.
+    /// Clicks set by the edit: vessel id and click index.
     new_clicks: Vec<(u32, usize)>,
 }
 
 impl Draft {
-    /// A document before an edit.
     pub(crate) fn of(document: Document, last_id: u32) -> Self {
         let last_id = document.vessels.iter().map(|vessel| vessel.id).fold(last_id, u32::max);
         Self { document, last_id, ..Self::default() }
     }
 
-    /// Adds a vessel at the end, in the next colour.
     pub(crate) fn add(&mut self, line: usize, name: String) -> &mut DocumentVessel {
         self.last_id += 1;
         self.added.push(self.last_id);
@@ -45,19 +37,18 @@ impl Draft {
         &mut vessels[last]
     }
 
-    /// Adds a vessel that has a name of its own, or none: then it gets one of its kind, such as `Mask 2`.
+    /// Adds a vessel; without a name it gets one of its kind, such as `Mask 2`.
     pub(crate) fn add_named(&mut self, line: usize, name: &str, kind: &str) -> &mut DocumentVessel {
         let name = if name.is_empty() { fresh_name(&self.document.names(), kind) } else { name.to_owned() };
         self.add(line, name)
     }
 
-    /// Removes vessels with what was marked on them.
     pub(crate) fn remove(&mut self, ids: &[u32]) {
         self.without_marks.extend(ids.iter().filter(|id| self.document.position(**id).is_some()));
         self.document.vessels.retain(|vessel| !ids.contains(&vessel.id));
     }
 
-    /// Gives a vessel another line, which is not that between its clicks; places that were marked on it lie elsewhere.
+    /// Gives a vessel another line that is not traced between clicks, so its marks are lost.
     pub(crate) fn replace(&mut self, id: u32, line: usize) {
         if let Some(vessel) = self.vessel(id) {
             vessel.line = line;
@@ -66,7 +57,6 @@ impl Draft {
         }
     }
 
-    /// Puts both parts of a vessel in its place.
     pub(crate) fn part(&mut self, id: u32, [first, second]: [usize; 2]) {
         let Some((place, whole)) = self.document.position(id).zip(self.document.vessel(id)) else { return };
         let name = part_name(&self.document.names(), &whole.called());
@@ -75,27 +65,24 @@ impl Draft {
         self.document.vessels[place + 1..].rotate_right(1);
     }
 
-    /// Accepts branches that are doubtful.
     pub(crate) fn accept(&mut self, ids: &[u32]) {
         for vessel in self.document.vessels.iter_mut().filter(|vessel| ids.contains(&vessel.id)) {
             vessel.doubt = None;
         }
     }
 
-    /// Removes those vessels that are doubtful.
     pub(crate) fn leave_out(&mut self, ids: &[u32]) {
         let is_doubtful = |id: &&u32| self.document.vessel(**id).is_some_and(|vessel| vessel.doubt.is_some());
         let doubtful: Vec<u32> = ids.iter().filter(is_doubtful).copied().collect();
         self.remove(&doubtful);
     }
 
-    /// Begins a vessel between clicks; its line follows once it is traced.
+    /// Begins a vessel between clicks; its line follows once traced.
     pub(crate) fn begin(&mut self, clicks: &[Place]) {
         let id = self.add_named(0, "", "Vessel").id;
         self.give_clicks(id, clicks.to_vec());
     }
 
-    /// Gives a vessel clicks, all of which are new.
     pub(crate) fn give_clicks(&mut self, id: u32, clicks: Vec<Place>) {
         self.new_clicks = (0..clicks.len()).map(|number| (id, number)).collect();
         if let Some(vessel) = self.vessel(id) {
@@ -103,7 +90,6 @@ impl Draft {
         }
     }
 
-    /// Adds a click at the end of a vessel, or before another click.
     pub(crate) fn insert_click(&mut self, id: u32, before: Option<usize>, point: Place) {
         let Some(clicks) = self.clicks(id) else { return };
         let number = before.map_or(clicks.len(), |before| before.min(clicks.len()));
@@ -111,7 +97,6 @@ impl Draft {
         self.new_clicks.push((id, number));
     }
 
-    /// Moves a click of a vessel.
     pub(crate) fn move_click(&mut self, id: u32, number: usize, point: Place) {
         if let Some(click) = self.clicks(id).and_then(|clicks| clicks.get_mut(number)) {
             *click = point;
@@ -119,7 +104,7 @@ impl Draft {
         }
     }
 
-    /// Removes a click of a vessel, or all of the vessel; says whether a line is to be traced for it.
+    /// Removes a click, or the whole vessel; returns whether a line must be traced.
     pub(crate) fn remove_click(&mut self, id: u32, number: usize) -> bool {
         let Some(clicks) = self.clicks(id).filter(|clicks| number < clicks.len()) else { return false };
         let is_kept = clicks.len() > FEWEST;
@@ -131,7 +116,7 @@ impl Draft {
         is_kept
     }
 
-    /// Changes stoppers; says nothing of one that does not exist.
+    /// Applies a stopper edit; ignores unknown stoppers.
     pub(crate) fn change_stoppers(&mut self, edit: &Edit) {
         let stoppers = &mut self.document.stoppers;
         match edit {
@@ -150,12 +135,11 @@ impl Draft {
         }
     }
 
-    /// The vessels that were clicked, in their order.
     pub(crate) fn clicked(&self) -> impl Iterator<Item = (&DocumentVessel, &Vec<Place>)> {
         self.document.vessels.iter().filter_map(|vessel| Some((vessel, vessel.clicks.as_ref()?)))
     }
 
-    /// Why the vessels that were clicked cannot be traced, in their names: tracing counts vessels and points.
+    /// Replaces vessel and point indices of a tracing failure by names.
     pub(crate) fn in_names(&self, mut failure: Failure) -> Failure {
         let Some(about) = &failure.more.about else { return failure };
         let vessel = about.vessel.and_then(|number| self.clicked().nth(number));
@@ -164,7 +148,7 @@ impl Draft {
             (Some((vessel, _)), Some(number)) if !self.new_clicks.contains(&(vessel.id, number)) => {
                 format!("point {} of {}", number + 1, vessel.called())
             }
-            // Hosts mark a new point by its place.
+            // Hosts show a new point at its place.
             _ => "this point".to_owned(),
         };
         failure

@@ -1,4 +1,4 @@
-//! Edits of vessels: which of them are traced again, and beside which.
+//! Executes edits of vessels, and retraces the affected ones.
 
 use glam::DVec3;
 
@@ -12,7 +12,7 @@ use crate::study::telling::DoubtfulPlace;
 use crate::study::tracing::{TraceRequest, Watch};
 
 impl Study {
-    /// The document that the study begins with: the vessels that were opened, counted from 1.
+    /// The initial document: the opened vessels, with ids from 1.
     pub(crate) fn begin_document(&mut self) -> Document {
         let mut draft = Draft::default();
         if let Some(named) = &self.content.named {
@@ -24,12 +24,8 @@ impl Study {
         draft.document
     }
 
-    /// The document after an edit. After one of clicks, stoppers or bridges all vessels that were clicked are traced again, beside
-    /// the others that are not doubtful.
-    ///
-    /// # Errors
-    /// Those of tracing, with the names of the vessels, of cutting and joining, of seeds and masks; `interrupted`. Where
-    /// the error is mended by `bridge`, the same edit with [`EditMessage::bridging`] may succeed.
+    /// The document after an edit. Clicks, stoppers and bridges retrace all clicked vessels, next to the others that are not
+    /// doubtful.
     pub(crate) fn edit(&mut self, message: &EditMessage, watch: Watch) -> Result<Edited> {
         let mut draft = Draft::of(message.document.clone(), self.last_id);
         let mut notes = Vec::new();
@@ -62,7 +58,6 @@ impl Study {
         Ok(Edited { document, words: message.words(), added, without_marks, notes, told })
     }
 
-    /// Traces all vessels that were clicked.
     fn trace_clicked(&mut self, draft: &mut Draft, watch: Watch) -> Result<()> {
         let Document { vessels, stoppers, bridge } = &draft.document;
         let request = TraceRequest {
@@ -83,7 +78,7 @@ impl Study {
     }
 
     fn add_branches(&mut self, draft: &mut Draft, seed: Place, watch: Watch) -> Result<()> {
-        // A place in bone or fat is refused at once: the search would look through all of the scan before it says so.
+        // Reject a seed in bone or fat at once, instead of after a search of the whole scan.
         self.check_click(seed)?;
         for branch in self.trace_from(seed, watch)? {
             draft.add_named(branch.line, "", "Branch").doubt = branch.doubt.map(str::to_owned);
@@ -91,7 +86,7 @@ impl Study {
         Ok(())
     }
 
-    /// Adds all vessels of the scan; gives what is to be told of it.
+    /// Adds all vessels of the scan; returns notes.
     fn add_found(&mut self, draft: &mut Draft, doubtful: bool, watch: Watch) -> Result<Vec<String>> {
         let (found, notes) = self.find_vessels(doubtful, watch)?;
         for vessel in found {
@@ -144,12 +139,11 @@ impl Study {
     }
 }
 
-/// Whether a vessel is met by those that are traced between clicks.
 fn is_beside(vessel: &DocumentVessel) -> bool {
     vessel.clicks.is_none() && vessel.is_sure()
 }
 
-/// Makes an edit that needs nothing but the document; says whether the vessels that were clicked are traced again.
+/// Applies an edit of the document alone; returns whether clicked vessels must be retraced.
 fn changed(draft: &mut Draft, edit: &Edit) -> bool {
     match edit {
         Edit::BeginVessel { clicks } => draft.begin(clicks),

@@ -1,25 +1,21 @@
-//! How the values of a volume are distributed, for the strip beside the window.
+//! The histogram of a volume's values, for the window control.
 
 use lumencut_core::volume::{Real, Voxel};
 use serde::Serialize;
 
-/// The most voxels that are looked at.
 const MOST: usize = 500_000;
 
-/// How many voxels are in each of equally wide ranges of values.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub(crate) struct Histogram {
-    /// The smallest value.
     pub(crate) low: f32,
-    /// The largest value.
     pub(crate) high: f32,
-    /// The number of voxels of each range, the lowest first; the largest value counts to the last.
+    /// Counts from the lowest range; the largest value counts in the last.
     pub counts: Vec<u32>,
 }
 
 impl Histogram {
-    /// That of the voxels, of which only a part is looked at where they are many; NaN does not count.
+    /// Samples large volumes; ignores NaN.
     pub(crate) fn of<T: Voxel>(voxels: &[T], bins: usize) -> Self {
         let values = || {
             let looked_at = voxels.iter().step_by(voxels.len().div_ceil(MOST).max(1));
@@ -31,7 +27,7 @@ impl Histogram {
         let last = counts.len() - 1;
         let per_value = counts.len() as f32 / (high - low).max(f32::MIN_POSITIVE);
         for value in values() {
-            // From 0 on: it is not below the smallest value.
+            // Not below 0: `low` is the smallest value.
             counts[(((value - low) * per_value) as usize).min(last)] += 1;
         }
         Self { low, high, counts }

@@ -1,4 +1,4 @@
-//! The lumens that a pointer means: the one at a place, or those along the ray of a pixel, with the section across each.
+//! The lumens under a pointer, each with the section across it.
 
 use glam::DVec3;
 use lumencut_vessels::trace::lumen::on_ray::lumens_on_ray;
@@ -10,39 +10,33 @@ use crate::study::failure::Result;
 use crate::study::held_volume::no_volume;
 use crate::study::open_study::Study;
 
-/// Where a pointer is: a place, or the ray through it.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename = "PointedAt"))]
 pub(crate) struct PointedMessage {
     /// The place (LPS, mm).
     pub point: Place,
-    /// The direction of the ray, away from the viewer (a unit vector); none where the place itself is meant.
+    /// Unit vector of the ray, away from the viewer; none for the place itself.
     pub along: Option<Place>,
 }
 
-/// A lumen that is pointed at.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub(crate) struct PointedLumen {
-    /// The place in it that is pointed at: on a ray the one that is nearest to its middle.
+    /// The pointed place in it; on a ray, the one nearest its centre.
     pub point: Place,
-    /// Its middle.
+    /// Its centre.
     pub center: Place,
     /// Its diameter (mm).
     pub diameter: f64,
-    /// The median of the values in its middle.
+    /// The median value at its centre.
     pub value: f64,
-    /// The section across it, to the right.
+    /// The section's right.
     pub right: Place,
-    /// The section across it, downwards.
     pub(crate) down: Place,
 }
 
 impl Study {
-    /// The lumens that are pointed at: along a ray all of them, the nearest first, else the one that the place lies in.
-    ///
-    /// # Errors
-    /// `volume` where none is open.
+    /// The lumens along a ray, nearest first, or the one at the place.
     pub(crate) fn lumens(&self, pointed: &PointedMessage) -> Result<Vec<PointedLumen>> {
         let volume = self.content.held.as_ref().ok_or_else(no_volume)?.volume()?;
         let point = DVec3::from_array(pointed.point);
@@ -57,7 +51,7 @@ impl Study {
     }
 }
 
-/// A lumen as it is shown: the front of the patient, or else the head, is up in the section across it.
+/// A lumen with its section: anterior, else the head, is up.
 fn told(seen: &SeenLumen, place: DVec3) -> PointedLumen {
     let upright = |to: DVec3| (-to).reject_from_normalized(seen.along);
     let (front, head) = (upright(DVec3::NEG_Y), upright(DVec3::Z));

@@ -1,8 +1,7 @@
-//! The profiles that are kept, by their lines.
+//! Cached profiles by line.
 //!
-//! The vessels of a list tell the point spread and where branches are, also those of them that are hidden: hiding a vessel changes no
-//! number. So a profile holds for the list that it was measured among: with other lines, or the same in another order, all
-//! profiles are forgotten, and measured anew when they are asked for. They are also forgotten with the volume. Names do not matter.
+//! All listed vessels, hidden ones included, determine point spread and branches, so hiding changes no number. Profiles are valid
+//! for one list and its order, and are dropped with the volume. Names do not matter.
 
 use std::collections::HashMap;
 
@@ -17,21 +16,16 @@ use crate::study::failure::Result;
 use crate::study::held_volume::{HeldVolume, no_volume};
 use crate::study::lines::wrong;
 
-/// The profiles that are kept, and how they were asked for.
 #[derive(Default)]
 pub(crate) struct Profiles {
-    /// The lines that they were measured among.
     listed: Vec<usize>,
     kept: KeptProfiles<usize>,
-    /// The width of the point spread that each line was asked for with last.
+    /// The last requested point-spread width of each line.
     widths: HashMap<usize, Option<f64>>,
 }
 
 impl Profiles {
-    /// The number among those kept of a line's profile, measured where it is not there.
-    ///
-    /// # Errors
-    /// `vessel tree` for a line that is not shown, `volume` where none is open, and those of measuring.
+    /// The cache index of a line's profile; measures it if needed.
     pub(crate) fn of(&mut self, content: &Content, line: usize, asking: &Asking) -> Result<usize> {
         let (listed, tree) = content.named.as_ref().map_or((&[][..], &[][..]), NamedTree::measured_among);
         if self.listed != listed {
@@ -51,31 +45,29 @@ impl Profiles {
         Ok(self.kept.of(line, &tree[number], Scan { volume, tree }, &asking)?)
     }
 
-    /// The profile of a number that [`Profiles::of`] gave last.
+    /// The profile at the last index from [`Profiles::of`].
     pub(crate) fn kept(&self, number: usize) -> &Profile {
         self.kept.kept(number)
     }
 
-    /// A profile of a line, if any is kept; its planes do not depend on the point spread.
+    /// Any cached profile of a line: its planes do not depend on the point spread.
     pub(crate) fn any_of(&self, line: usize) -> Option<&Profile> {
         self.kept.any_of(&line)
     }
 
-    /// From now on a line is asked for with this width of the point spread (mm), or the one that the tree tells.
+    /// Sets the point-spread width (mm) for a line; None for the tree's own.
     pub(crate) fn ask_with(&mut self, line: usize, fwhm: Option<f64>) {
         self.widths.insert(line, fwhm);
     }
 
-    /// The width (mm) that a line was asked for with last.
+    /// The last requested width (mm).
     pub(crate) fn width(&self, line: usize) -> Option<f64> {
         self.widths.get(&line).copied().flatten()
     }
 }
 
-/// How a line is asked for: the width of the point spread (mm), where it is given, and a way to stop.
 pub(crate) struct Asking<'a> {
-    /// The width (mm).
+    /// Point-spread width (mm), if given.
     pub fwhm: Option<f64>,
-    /// Asked whether to stop.
     pub stop: Stop<'a>,
 }

@@ -1,4 +1,4 @@
-//! The straightened CPR of a vessel of the study, and what its pixels show.
+//! Renders and picks the straightened CPR of a vessel.
 
 use crate::feature_aggregation::{Feature, feature_aggregation, half_circle};
 use crate::windows::sample;
@@ -17,26 +17,21 @@ use crate::study::held_volume::no_volume;
 use crate::study::open_study::{Picture, Study, shown_flat};
 use crate::study::straightened::{CprMessage, Laid};
 
-/// What a place in the straightened CPR shows.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub(crate) struct StraightenedPick {
     /// The world point.
     pub point: [f64; 3],
-    /// The volume there; none outside.
+    /// The volume's value; none outside.
     pub value: Option<f32>,
-    /// The vessel that is straightened.
+    /// The vessel.
     pub vessel: usize,
-    /// The place along it (mm).
+    /// The arc length (mm).
     pub arc_length: f64,
 }
 
 impl Study {
-    /// The straightened CPR of a vessel in a window. A roll needs the lumen, which is measured where it is not known yet.
-    ///
-    /// # Errors
-    /// `vessel tree` for a vessel that there is not, and for a roll along one without radii whose lumen cannot be measured either;
-    /// `camera` for a feature of a roll; and those of the layout.
+    /// The straightened CPR of a vessel in a window. A roll needs the lumen, which is measured if unknown.
     pub(crate) fn straightened(
         &mut self,
         message: CprMessage,
@@ -60,11 +55,7 @@ impl Study {
         Ok(picture)
     }
 
-    /// What a place in the straightened CPR that was shown last shows: of the half circle of a CFA the place with the largest or the
-    /// smallest value, as it shows them.
-    ///
-    /// # Errors
-    /// `settings` where none was shown.
+    /// What a position in the last straightened CPR shows; for a CFA of largest or smallest values, the place of that value.
     pub(crate) fn pick_straightened(&self, [column, row]: [f64; 2]) -> Result<StraightenedPick> {
         let none = || Failure::of_message("CPR", &"none", "one that is shown");
         let laid = self.laid.as_ref().ok_or_else(none)?;
@@ -84,7 +75,7 @@ impl Study {
         Ok(place.map(|n| circle[n].to_array()))
     }
 
-    /// Column and row of a world point in the straightened CPR that was shown last; none where none was.
+    /// Column and row of a world point in the last straightened CPR; None without one.
     pub(crate) fn on_straightened(&self, point: [f64; 3]) -> Option<[f64; 2]> {
         self.laid.as_ref().map(|laid| laid.pixel(point))
     }

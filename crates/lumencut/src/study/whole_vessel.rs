@@ -1,4 +1,4 @@
-//! The whole vessel of one click, in the study that is open: it is one of all vessels of the scan, which are looked for once.
+//! Finds the whole vessel at a click among all vessels of the scan, which are searched for once.
 
 use glam::DVec3;
 use lumencut_core::error::ErrorKind;
@@ -20,26 +20,22 @@ use crate::study::lines::Line;
 use crate::study::open_study::Study;
 use crate::study::tracing::Watch;
 
-/// A vessel of which the scan shows hardly more than it is wide is taken where it is round: its points have this confidence on average.
-/// It is no wider than the widest aorta that is no organ (radius in mm).
+/// A stump hardly longer than wide is accepted if it is round: its points have at least this mean confidence, and its radius (mm)
+/// is at most that of the widest aorta.
 const ROUND: f64 = 0.6;
 const WIDEST_SHORT: f64 = 25.0;
 
-/// The whole vessel that a click would add.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub(crate) struct WholeVessel {
     /// The points of its line (mm, LPS).
     pub points: Vec<Place>,
-    /// How long it is and which vessels it joins, such as `84.2 mm, joins Vessel 2 at 12 mm`.
+    /// Length and joined vessels, such as `84.2 mm, joins Vessel 2 at 12 mm`.
     pub words: String,
 }
 
 impl Study {
-    /// The vessels of the scan down to the radius of Python, sure and doubtful ones.
-    ///
-    /// # Errors
-    /// `volume` where none is open, `interrupted`.
+    /// The vessels of the scan down to Python's default radius, confident and doubtful.
     pub(crate) fn trees(&mut self, watch: Watch) -> Result<&Trees> {
         let volume = self.content.held.as_ref().ok_or_else(no_volume)?.volume()?;
         let Watch { stop, progress } = watch;
@@ -53,21 +49,18 @@ impl Study {
         })
     }
 
-    /// Adds the vessel that a click lies in, from the nearest vessel that there is already to its end.
-    ///
-    /// # Errors
-    /// `tracing` as [`one_vessel`] and for a place that no vessel can begin at, `volume` where none is open, `interrupted`.
+    /// Adds the vessel at a click, from the nearest existing vessel to its end.
     pub(crate) fn add_whole_vessel(
         &mut self,
         draft: &mut Draft,
         notes: &mut Vec<String>,
         (click, watch): (Place, Watch),
     ) -> Result<()> {
-        // A place in air or fat is refused at once: the search would look through all of the scan before it says so.
+        // Reject a place in air or fat at once, instead of after a search of the whole scan.
         self.check_click(click)?;
         self.trees(watch)?;
         let known = self.known_vessel(click, &draft.document.vessels);
-        // Where a second click would help, the scan may show too little of the vessel for a tube to be found.
+        // A mend of a second click hints that the scan shows too little of the vessel.
         let is_short = known.as_ref().is_err_and(|refused| !refused.mend.is_empty());
         let short = if is_short { self.short_vessel(click, &draft.document.vessels, watch)? } else { None };
         if let Some(line) = short {
@@ -83,8 +76,7 @@ impl Study {
         Ok(())
     }
 
-    /// The vessel around a click that is cut off by the scan on both sides, and hardly longer than wide in between; none where there
-    /// is none that is round.
+    /// The vessel at a click if the scan cuts it off on both sides, it is hardly longer than wide, and round.
     fn short_vessel(&self, click: Place, vessels: &[DocumentVessel], watch: Watch) -> Result<Option<Line>> {
         let volume = self.content.held.as_ref().ok_or_else(no_volume)?.volume()?;
         let Some(ends) = OwnLumen::around(&Voxels::new(&volume), DVec3::from_array(click)).cut_ends() else {
@@ -105,11 +97,7 @@ impl Study {
         Ok(traced.into_iter().find(|traced| is_round(&traced.line)).map(Line::from))
     }
 
-    /// The vessel that a click would add beside those of a list that are sure; none as long as the vessels of the scan were not looked
-    /// for.
-    ///
-    /// # Errors
-    /// Those of [`one_vessel`], `vessel tree` for a line that there is not, `volume` where none is open.
+    /// The vessel that a click would add; None before the scan's vessels were searched for.
     pub(crate) fn known_vessel(
         &self,
         click: Place,
@@ -123,10 +111,7 @@ impl Study {
         Ok(Some(one_vessel(&volume, trees, DVec3::from_array(click), &beside)?))
     }
 
-    /// The vessel that a click would add; none where it would add none, and as long as that is not known at once.
-    ///
-    /// # Errors
-    /// `vessel tree` for a line that there is not, `volume` where none is open.
+    /// As [`Study::known_vessel`], but None instead of an error about the click.
     pub(crate) fn whole_vessel(
         &self,
         click: Place,

@@ -11,7 +11,6 @@ use lumencut_core::volume::{Volume, Voxels};
 
 use super::*;
 
-/// The result of work on the CPU, which never waits.
 fn at_once<T>(work: impl Future<Output = T>) -> T {
     match pin!(work).poll(&mut std::task::Context::from_waker(Waker::noop())) {
         Poll::Ready(done) => done,
@@ -44,7 +43,7 @@ fn an_interrupted_picture_leaves_the_reason_of_the_fall_back_to_the_next() {
     };
     let (first, second, checks) = render(usize::MAX);
     assert_eq!((first, second), (Ok(Some(reason.clone())), None));
-    // The first of five pictures asks at least once, and so does every sample.
+    // The first of five pictures checks at least once, and so does every sample.
     assert!(checks >= 5, "{checks}");
     for limit in 0..checks {
         let (first, second, _) = render(limit);
@@ -69,7 +68,7 @@ fn reformations_need_a_tree_and_a_cut_surface_does_not() {
         assert_eq!(refused.kind, ErrorKind::VesselTree);
         let (frame, told) = at_once(backend.render_by(method, &whole, &request)).unwrap();
         assert_eq!((frame.image.len(), frame.vessel.len(), told), (72, 72, None));
-        // The folds are those of mpCPR alone.
+        // Only mpCPR has folds.
         assert_eq!(frame.folded.len(), if method == Method::MpCpr { 72 } else { 0 });
     }
 }

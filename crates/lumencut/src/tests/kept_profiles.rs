@@ -1,4 +1,4 @@
-//! Profiles that are kept.
+//! Cached profiles.
 
 use lumencut_core::error::ErrorKind;
 use lumencut_core::volume::Voxels;
@@ -9,7 +9,6 @@ use lumencut_vessels::measure::wall_level::{WallRequest, WallSource};
 
 use super::*;
 
-/// Asks the kept profiles of a phantom's vessels.
 fn with_junction(look: impl FnOnce(Scan)) {
     let Phantom { voxels, size, world_from_index, tree, .. } =
         lumencut_phantom::y_junction().expect("a phantom");

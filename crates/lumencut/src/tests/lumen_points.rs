@@ -4,12 +4,11 @@ use lumencut_io::{Space, Unit};
 
 use super::*;
 
-/// A volume of 81 voxels of 1 mm along each axis, its middle at the origin.
+/// A volume of 81³ voxels of 1 mm, centred at the origin.
 const SIDE: usize = 81;
 const LPS: Place = Place { space: Space::Lps, unit: Unit::Millimetre };
 const RAS: Place = Place { space: Space::Ras, unit: Unit::Millimetre };
 
-/// What the points count where voxels have a value by their place.
 fn counted(value: impl Fn(DVec3) -> f32, lines: &Lines, place: Place) -> LumenCount {
     let middle = (SIDE / 2) as f64;
     let at = |n: usize| DVec3::new((n % SIDE) as f64, (n / SIDE % SIDE) as f64, (n / SIDE / SIDE) as f64);
@@ -19,7 +18,7 @@ fn counted(value: impl Fn(DVec3) -> f32, lines: &Lines, place: Place) -> LumenCo
     lumen_count(&volume, lines, place)
 }
 
-/// The middle of a vessel of 4 mm radius along z, beside the origin: a point for each half mm.
+/// The centerline of a vessel of 4 mm radius along z, off the origin, in 0.5 mm steps.
 fn points() -> Vec<DVec3> {
     (-60..60).map(|n| DVec3::new(15.0, -9.0, 0.5 * f64::from(n) + 0.25)).collect()
 }
@@ -28,7 +27,7 @@ fn is_lumen(p: DVec3) -> bool {
     (p.x - 15.0).hypot(p.y + 9.0) < 4.0
 }
 
-/// Numbers from 0 to 1 that have nothing to do with each other.
+/// Uncorrelated numbers from 0 to 1.
 fn noise(p: DVec3) -> f32 {
     let [x, y, z] = p.as_i64vec3().to_array();
     let mixed = ((x * 73_856_093) ^ (y * 19_349_663) ^ (z * 83_492_791)).wrapping_mul(2_654_435_761) as u64;
@@ -41,7 +40,7 @@ fn lumen_is_told_whatever_the_units_of_the_volume_and_bright_or_dark() {
     let points = points();
     let radii = vec![4.0; points.len()];
     let lines = Lines { points: &points, radii: &radii };
-    // CT whose tissue is not even, bytes of MR on an empty background, the same inverted, and CT with much noise.
+    // CT with uneven tissue, 8-bit MR on an empty background, its inverse, and noisy CT.
     let values: [&dyn Fn(DVec3) -> f32; 4] = [
         &|p| if is_lumen(p) { 350.0 } else { 40.0 + (p.x + p.z) as f32 },
         &|p| if is_lumen(p) { 255.0 } else { 0.0 },

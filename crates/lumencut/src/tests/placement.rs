@@ -7,7 +7,7 @@ use crate::misplaced::{Misplaced, better_place, fits_nowhere};
 use crate::places::{SMALLEST, across};
 use lumencut_io::Mend;
 
-/// A volume of 100 mm along each axis, far enough from the origin that only one space fits it.
+/// A volume of 100 mm sides, far enough from the origin that only one space fits.
 fn volume() -> Extent {
     Extent::new([101; 3], DAffine3::from_translation(DVec3::splat(20.0)))
 }
@@ -22,13 +22,11 @@ fn nothing() -> Known {
     }
 }
 
-/// Points inside the volume, as a file in this place would hold them.
 fn points(space: Space, unit: Unit) -> Vec<DVec3> {
     let scale = Place { space, unit }.scale();
     (0..50).map(|n| DVec3::splat(30.0 + f64::from(n)) / scale).collect()
 }
 
-/// A volume whose values say nothing.
 fn silent(extent: Extent) -> Judge<'static> {
     Judge { extent, lumen: &|_| LumenCount::default() }
 }
@@ -118,7 +116,7 @@ fn centerlines_of_another_volume_are_refused() {
     let error = placement(&nothing(), &far, Some(&silent(volume()))).unwrap_err();
     assert_eq!(error.found, "no point inside the volume, in lps or ras, in um, mm, cm, dm, m");
     assert_eq!(error.mended_by.as_deref(), Some(&Mend::Place));
-    // Where the file states the space there is nothing to ask for.
+    // If the file states the space, it is not requested.
     let known = Known { stated_space: Some(Space::Ras), ..nothing() };
     let found = decided(&known, &far);
     assert_eq!(found.place, Place { space: Space::Ras, unit: Unit::Millimetre });
@@ -137,7 +135,7 @@ fn a_better_place_is_named() {
 
 #[test]
 fn a_few_points_more_are_no_better_place() {
-    // Three of fifty fit only with x and y negated: under a tenth.
+    // Three of fifty fit only with x and y negated: below a tenth.
     let mut mixed = vec![DVec3::splat(7000.0); 47];
     mixed.extend_from_slice(&points(Space::Ras, Unit::Millimetre)[..3]);
     assert_eq!(better_place(&mixed, &silent(volume())), None);
@@ -152,13 +150,12 @@ fn what_misses_the_volume_everywhere_is_said_so() {
     assert!(fits_nowhere(&[DVec3::new(7000.0, 0.0, 0.0), DVec3::new(7000.0, 9.0, 0.0)], &volume()));
 }
 
-/// Twenty points that lie in the volume in both spaces.
 fn around_the_origin() -> (Extent, Vec<DVec3>) {
     let around = Extent::new([101; 3], DAffine3::from_translation(DVec3::splat(-50.0)));
     (around, (0..20).map(|n| DVec3::splat(f64::from(n) - 10.0)).collect())
 }
 
-/// Counts of points that look like lumen, of a hundred in LPS and in RAS.
+/// Lumen counts of a hundred points in LPS and in RAS.
 fn counts(lps: usize, ras: usize) -> impl Fn(Place) -> LumenCount {
     move |place| LumenCount { like_lumen: if place.space == Space::Lps { lps } else { ras }, of: 100 }
 }
@@ -186,12 +183,12 @@ fn between_spaces_that_fit_alike_the_values_decide_where_they_are_evident() {
         assert_eq!(found.decision, expected);
         assert_eq!(found.confirmed_by, Statement { space: Some(space), unit: None });
     }
-    // Too alike, too few of all.
+    // Too similar, or too few.
     for (lps, ras) in [(90, 31), (31, 90), (49, 0), (0, 0), (70, 70)] {
         let error = found(lps, ras, &nothing()).unwrap_err();
         assert_eq!(error.mended_by.as_deref(), Some(&Mend::Coordinates), "{error}");
     }
-    // What is stated or asked is not asked of the values.
+    // Stated or requested choices are not tested against values.
     let stated = Known { stated_space: Some(Space::Lps), ..nothing() };
     assert_eq!(found(0, 100, &stated).unwrap().place.space, Space::Lps);
     let asked = Known { asked_space: Some(Space::Ras), ..nothing() };
@@ -213,24 +210,24 @@ fn values_that_speak_for_the_mirrored_lines_are_told() {
     let meant = Place { space: Space::Ras, unit: Unit::Millimetre };
     assert_eq!(told(20, 80), Some(Misplaced { found: found.into(), meant }));
     assert_eq!((told(80, 20), told(30, 80), told(0, 49)), (None, None, None));
-    // Lines that leave the volume when they are mirrored lie where they are read.
+    // Lines that leave the volume when mirrored stay as read.
     let judge = Judge { extent: volume(), lumen: &counts(0, 100) };
     assert_eq!(better_place(&self::points(Space::Lps, Unit::Millimetre), &judge), None);
 }
 
-/// A cube of 640 mm whose voxels have a side of 1 mm, with its middle at a place.
+/// A 640 mm cube of 1 mm voxels, centred at a position.
 fn cube_around(middle: DVec3) -> Extent {
     Extent::new([640; 3], DAffine3::from_translation(middle - 319.5))
 }
 
-/// A line of a length (mm) around the middle of a cube, as a file in this place would hold it.
+/// A line through the centre of a cube, as a file would store it.
 fn line_of(length: f64, middle: DVec3, place: Place) -> Vec<DVec3> {
     let along = |n: i32| (f64::from(n) / 49.0 - 0.5) * length;
     let point = |n| middle + DVec3::new(3.0 * (along(n) / 9.0).sin(), -6.0, along(n));
     (0..50).map(|n| point(n) / place.scale()).collect()
 }
 
-/// What a caller states who follows a mend: all that it offers.
+/// What a caller states who follows a mend: each of its offers.
 fn followed(mend: &Mend, known: &Known) -> Vec<Known> {
     let space = |space: &Space| Known { asked_space: Some(*space), ..*known };
     let unit = |unit: &Unit| Known { asked_unit: Some(*unit), ..*known };
@@ -249,7 +246,7 @@ fn followed(mend: &Mend, known: &Known) -> Vec<Known> {
     }
 }
 
-/// Follows every mend until the points are read; whether one way ends at the place that is true.
+/// Follows every mend until the points are read; whether one path ends at the truth.
 fn leads_to(truth: Place, known: &Known, points: &[DVec3], judge: &Judge) -> bool {
     match placement(known, points, Some(judge)) {
         Ok(found) => {
@@ -275,7 +272,6 @@ fn leads_to(truth: Place, known: &Known, points: &[DVec3], judge: &Judge) -> boo
 
 const TRIED: [Unit; 4] = [Unit::Micrometre, Unit::Millimetre, Unit::Centimetre, Unit::Metre];
 
-/// Every line that is tried, with its place and the volume.
 fn tried() -> impl Iterator<Item = (Vec<DVec3>, Place, Extent)> {
     let middles = [DVec3::new(20.0, -30.0, 5.0), DVec3::new(700.0, 800.0, 400.0)];
     let of = move |middle: DVec3, length: f64| {
@@ -293,14 +289,14 @@ fn no_unit_is_wrong_without_a_word_and_every_mend_leads_to_the_place() {
         let judge = silent(extent);
         let stated = |space, unit| Known { stated_space: space, stated_unit: unit, ..nothing() };
         let mut tried = vec![nothing(), stated(Some(truth.space), None)];
-        // What is stated is believed where it is a size of vessels, as 60 mm for 600 mm in cm are.
+        // A statement with a plausible size is trusted, such as 60 mm for 600 mm in cm.
         if !(SMALLEST..300.0).contains(&across(&points)) {
             tried.push(stated(Some(truth.space), Some(Unit::Millimetre)));
         }
         for known in tried {
             assert!(leads_to(truth, &known, &points, &judge), "{truth}, {known:?}, {} mm", across(&points));
         }
-        // The caller who names both is believed.
+        // A caller who names both is trusted.
         let asked = Known { asked_space: Some(truth.space), asked_unit: Some(truth.unit), ..nothing() };
         let found = placement(&asked, &points, Some(&judge)).expect("what was asked");
         assert_eq!((found.place, found.doubt, found.also), (truth, None, Vec::new()));

@@ -45,7 +45,7 @@ fn of_a_large_volume_cubes_that_are_spread_over_it_are_looked_at() {
 fn padding_is_a_dark_value_that_many_voxels_have() {
     let mut padded = [vec![-2000.0; 30], (0..70).map(f64::from).collect()].concat();
     assert_eq!(without_padding(&mut padded).len(), 70);
-    // The same number of voxels in the middle is no padding, nor is a volume of nothing else.
+    // As many voxels mid-range are no padding, nor is a constant volume.
     let mut tissue = [vec![35.0; 30], (0..70).map(f64::from).collect()].concat();
     assert_eq!(without_padding(&mut tissue).len(), 100);
     assert_eq!(without_padding(&mut [0.0; 50]).len(), 50);
@@ -63,7 +63,7 @@ fn few_voxels_beside_padding_are_vessels() {
     );
 }
 
-/// Air that is cut off at −1000, tissue of 40 to 60, in it a rod of 300 and a thicker one of 1000.
+/// Air clipped at −1000, tissue of 40 to 60, a rod of 300 and a thicker one of 1000.
 fn body() -> Vec<f32> {
     let value = |[i, j, k]: [usize; 3]| match (i, j, k) {
         (0..6, ..) => -1000.0,

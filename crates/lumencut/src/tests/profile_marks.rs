@@ -1,7 +1,7 @@
 use super::*;
 use crate::tube::tube;
 
-/// The marks as `name at`, with a question mark behind what is offered.
+/// The marks as `name at`, with a question mark after suggestions.
 fn told(at: Option<f64>, references: &[f64]) -> Vec<String> {
     let found = marks(&tube(), at, references).expect("places on it");
     let word = |mark: &Mark| {

@@ -1,4 +1,4 @@
-//! What a viewer is told where a scan or centerlines are doubtful: orders, units, sizes.
+//! Doubts reported when scans or centerlines are opened: orders, units, sizes.
 
 use glam::DVec3;
 use lumencut_io::Unit;

@@ -1,4 +1,4 @@
-//! What is told of a vessel that was traced, in scenes whose answer is known in closed form.
+//! Reports on traced vessels in scenes with a known answer.
 
 use glam::{DAffine3, DVec3};
 use lumencut_core::math::arc_length::arc_lengths;
@@ -14,13 +14,12 @@ use crate::study::document::Document;
 use crate::study::open_study::Study;
 use crate::study::telling::Told;
 
-/// A tube along z of radius 9 mm in fat, 96 mm long, in voxels of 1 mm whose values are those of a function of z, with an even noise
-/// of 20 on both sides.
+/// A 96 mm tube along z of radius 9 mm in fat, in 1 mm voxels with values from a function of z and noise of ±20.
 fn tube(lumen: impl Fn(f64) -> f64) -> Study {
     tube_of(96, lumen)
 }
 
-/// The same, of so many mm.
+/// The same, of `length` mm.
 fn tube_of(length: usize, lumen: impl Fn(f64) -> f64) -> Study {
     let size = [40, 40, length];
     let mut seed = 3u32;
@@ -52,7 +51,7 @@ fn tube_of(length: usize, lumen: impl Fn(f64) -> f64) -> Study {
 
 #[test]
 fn one_click_takes_a_vessel_that_is_hardly_longer_than_wide_in_the_scan_and_says_that_it_was_not_found() {
-    // A slab of 24 mm of a vessel 18 mm wide.
+    // A 24 mm slab of a vessel 18 mm wide.
     let mut study = tube_of(24, |_| 400.0);
     let whole = json!({"kind": "add_whole_vessel", "click": [2.0, -3.0, 12.0]});
     let begun = edited(&mut study, &Document::default(), &whole);
@@ -65,7 +64,6 @@ fn one_click_takes_a_vessel_that_is_hardly_longer_than_wide_in_the_scan_and_says
     assert_eq!(told.doubts.iter().map(|doubt| doubt.words.as_str()).collect::<Vec<_>>(), [words]);
 }
 
-/// What is told of a vessel between clicks.
 fn told(study: &mut Study, clicks: [[f64; 3]; 2]) -> Told {
     let begin = json!({"kind": "begin_vessel", "clicks": clicks});
     edited(study, &Document::default(), &begin).told.expect("words")
