@@ -4,7 +4,7 @@ use lumencut::devices::devices as found_devices;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-/// The GPUs of this machine, the ones to take first in front, as dictionaries.
+/// The GPUs of this machine as dictionaries, preferred ones first.
 #[pyfunction]
 pub(crate) fn devices(py: Python<'_>) -> PyResult<Vec<Bound<'_, PyDict>>> {
     let found = py.detach(|| pollster::block_on(found_devices()));

@@ -1,4 +1,4 @@
-//! Rust errors as the exception classes of `lumencut.errors`: one exhaustive match over the causes.
+//! Rust errors as exceptions of `lumencut.errors`, by an exhaustive match over the kinds.
 
 use std::ffi::CString;
 
@@ -8,7 +8,6 @@ use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
-/// The exception that stands for `error`.
 #[allow(clippy::needless_pass_by_value)]
 pub(crate) fn to_python(error: Error) -> PyErr {
     let class = match error.kind {
@@ -25,12 +24,11 @@ pub(crate) fn to_python(error: Error) -> PyErr {
     mended(class, [&subject, &found, &expected, &mend], mended_by.map(Mend::from).as_ref())
 }
 
-/// An instance of the class of `lumencut.errors` with this name, with advice that no host acts on.
 pub(crate) fn exception(class: &str, subject: &str, found: &str, expected: &str, advice: &str) -> PyErr {
     mended(class, [subject, found, expected, advice], None)
 }
 
-/// The same: its subject, what was found and expected, and advice; and what mends it beside the advice.
+/// An exception of subject, finding, expectation and advice, with a mend.
 pub(crate) fn mended(class: &str, texts: [&str; 4], mended_by: Option<&Mend>) -> PyErr {
     Python::attach(|py| made(py, class, texts, mended_by).map_or_else(|error| error, PyErr::from_value))
 }
@@ -45,7 +43,6 @@ fn made<'py>(
     py.import("lumencut.errors")?.getattr(class)?.call1((subject, found, expected, mend))
 }
 
-/// Advice and a mend as a text that hosts can word.
 pub(crate) fn advised<'py>(
     py: Python<'py>,
     advice: &str,
@@ -55,12 +52,10 @@ pub(crate) fn advised<'py>(
     py.import("lumencut.mends")?.getattr("told")?.call1((advice, mends))
 }
 
-/// Adds the names of all mends.
 pub(crate) fn add_names(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("MENDS", PyTuple::new(module.py(), mends::names())?)
 }
 
-/// Warns whoever called the function of the package that called this module.
 pub(crate) fn warn(py: Python<'_>, category: &str, text: &str) -> PyResult<()> {
     let category = py.import("lumencut.errors")?.getattr(category)?;
     let text = CString::new(text).map_err(|error| PyValueError::new_err(error.to_string()))?;

@@ -1,4 +1,4 @@
-//! Vessels cut and joined.
+//! Cuts and joins vessels.
 
 use lumencut::study::line_edits;
 use lumencut::study::lines::Line;
@@ -9,7 +9,7 @@ use pyo3::prelude::*;
 use crate::errors::to_python;
 use crate::tree::{flat_arrays, points_of};
 
-/// Points (n, 3), radii (n,), confidence (n,) and which points were bridged (n,) of one vessel.
+/// Points (n, 3), radii (n,), confidence (n,) and bridged points (n,) of a vessel.
 #[derive(FromPyObject)]
 pub(crate) struct LineArrays<'py>(
     PyReadonlyArray2<'py, f64>,
@@ -18,7 +18,6 @@ pub(crate) struct LineArrays<'py>(
     Option<PyReadonlyArray1<'py, bool>>,
 );
 
-/// The same, made by this module.
 type NewLineArrays<'py> = (
     Bound<'py, PyArray2<f64>>,
     Option<Bound<'py, PyArray1<f64>>>,
@@ -38,7 +37,7 @@ impl LineArrays<'_> {
     }
 }
 
-/// Both parts of a vessel that is cut at an arc length (mm).
+/// The two parts of a vessel cut at an arc length (mm).
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
 pub(crate) fn cut<'py>(
@@ -50,7 +49,6 @@ pub(crate) fn cut<'py>(
     parts.iter().map(|part| arrays(py, part)).collect()
 }
 
-/// Two vessels as one, joined at the ends that are nearest to each other.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
 pub(crate) fn join<'py>(
@@ -61,7 +59,6 @@ pub(crate) fn join<'py>(
     arrays(py, &line_edits::join(&first.line()?, &second.line()?).map_err(to_python)?)
 }
 
-/// The name of the second part of a vessel that is cut, beside names that are taken.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
 pub(crate) fn part_name(taken: Vec<String>, whole: &str) -> String {

@@ -1,4 +1,4 @@
-//! What a pixel of a picture means.
+//! Picks points in pictures.
 
 use glam::DVec3;
 use lumencut::cut_at::cut_at;
@@ -15,7 +15,7 @@ use crate::settings::Checked;
 use crate::tree::{self, VesselArrays};
 use crate::volume::VolumeArgument;
 
-/// The brightest place (mm, LPS) on the ray of a pixel (column, row), between two depths (mm).
+/// The brightest place (mm, LPS) on the ray of a pixel (column, row) between two depths (mm).
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
 pub(crate) fn brightest(
@@ -32,8 +32,7 @@ pub(crate) fn brightest(
     Ok(place.to_array())
 }
 
-/// The arc length (mm) on a vessel that is nearest to a point, and whether a click there means the vessel, in a view with pixels
-/// of this side (mm).
+/// The arc length (mm) on a vessel nearest to a point, and whether a click there selects the vessel, for a pixel side (mm).
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
 pub(crate) fn meant_place(
@@ -46,7 +45,7 @@ pub(crate) fn meant_place(
     Ok((at, meant_vessel::is_meant(&vessel, point, pixel_spacing)))
 }
 
-/// Whether the pixel (column, row) of a view of a renderer shows the cut surface rather than what a focus leaves around it.
+/// Whether a pixel (column, row) shows the cut surface rather than a focus's surroundings.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
 pub(crate) fn shows_cut(

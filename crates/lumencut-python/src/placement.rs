@@ -16,7 +16,6 @@ use crate::centerlines::raised;
 use crate::tree::points_of;
 use crate::volume::{GridArgument, VolumeArgument};
 
-/// A space by its name.
 pub(crate) struct SpaceArgument(Space);
 
 impl FromPyObject<'_, '_> for SpaceArgument {
@@ -29,7 +28,6 @@ impl FromPyObject<'_, '_> for SpaceArgument {
     }
 }
 
-/// A unit by its name.
 pub(crate) struct UnitArgument(Unit);
 
 impl FromPyObject<'_, '_> for UnitArgument {
@@ -42,7 +40,7 @@ impl FromPyObject<'_, '_> for UnitArgument {
     }
 }
 
-/// What is known of a file's coordinates: what the caller asks for, and the attributes of `lumencut.placement.Stated`.
+/// Knowledge about a file's coordinates: the caller's request, and the attributes of `lumencut.placement.Stated`.
 #[derive(FromPyObject)]
 pub(crate) struct KnownArgument {
     #[pyo3(item)]
@@ -69,7 +67,7 @@ impl KnownArgument {
     }
 }
 
-/// Millimetres per unit, what brings each space to LPS, and the extents (mm) that pass for vessels of a body.
+/// Adds millimetres per unit, signs from each space to LPS, and plausible extents of vessels (mm).
 pub(crate) fn add_names(module: &Bound<'_, PyModule>) -> PyResult<()> {
     let (units, spaces) = (PyDict::new(module.py()), PyDict::new(module.py()));
     for unit in Unit::ALL {
@@ -85,7 +83,7 @@ pub(crate) fn add_names(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("LARGEST_EXTENT", LARGEST)
 }
 
-/// Asks what a decision needs of a volume: its extent, and its values along points (n, 3) with radii (n,).
+/// Runs `work` with a judge: the extent of a volume, and its values along points (n, 3) with radii (n,).
 fn judged<T: Send>(
     py: Python<'_>,
     (points, radii): (&[DVec3], &PyReadonlyArray1<'_, f64>),
@@ -102,7 +100,7 @@ fn judged<T: Send>(
     Ok(py.detach(|| decide(&Judge { extent: Extent::from(&volume), lumen: &lumen })))
 }
 
-/// How the points (n, 3) with radii (n,), NaN where unknown, of the file `subject` are to be understood: the attributes of
+/// The placement of the file `subject` with points (n, 3) and radii (n,), NaN if unknown: the attributes of
 /// `lumencut.placement.Placement`.
 #[pyfunction]
 #[pyo3(signature = (subject, points, radii, known, volume))]
@@ -140,16 +138,14 @@ pub(crate) fn placement<'py>(
     Ok(fields)
 }
 
-/// The names of the space and of the unit that are stated.
 fn names_of(stated: Statement) -> (Option<&'static str>, Option<&'static str>) {
     (stated.space.map(Space::name), stated.unit.map(Unit::name))
 }
 
-/// A better place: what was found, and the names of its space and unit.
 type Better = (String, (&'static str, &'static str));
 
-/// What is to be said of points (n, 3) (mm, LPS) with radii (n,) (mm), NaN where unknown, that another space or unit brings
-/// into a volume, or that look like lumen in another space alone; and the place that fits, where they were read as LPS in mm.
+/// A better place for points (n, 3) (mm, LPS) with radii (n,) (mm), NaN if unknown, that fit the volume or its lumen better
+/// elsewhere; assumes they were read as LPS in mm.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
 pub(crate) fn better_place(
@@ -163,7 +159,7 @@ pub(crate) fn better_place(
     Ok(better.map(|better| (better.found, (better.meant.space.name(), better.meant.unit.name()))))
 }
 
-/// Whether points (n, 3) (mm, LPS) miss a volume in whatever space and unit they might be meant.
+/// Whether points (n, 3) (mm, LPS) miss a volume in every space and unit.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
 pub(crate) fn fits_nowhere(

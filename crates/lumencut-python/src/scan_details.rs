@@ -1,9 +1,8 @@
-//! How a scan was made, between Python and the facade.
+//! How a scan was made, converted for the facade.
 
 use lumencut::scan_details::ScanDetails;
 use pyo3::prelude::*;
 
-/// `lumencut.ScanDetails`.
 #[derive(FromPyObject)]
 pub(crate) struct ScanArgument {
     series_number: Option<String>,
@@ -14,7 +13,6 @@ pub(crate) struct ScanArgument {
 }
 
 impl ScanArgument {
-    /// The same for the facade.
     pub(crate) fn details(&self) -> ScanDetails {
         ScanDetails {
             series_number: self.series_number.clone(),
@@ -26,7 +24,6 @@ impl ScanArgument {
     }
 }
 
-/// How a scan was made, in words.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
 pub(crate) fn scan_words(scan: ScanArgument) -> String {

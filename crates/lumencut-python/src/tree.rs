@@ -1,4 +1,4 @@
-//! Vessel trees from and to lists of arrays.
+//! Vessel trees from and to arrays.
 
 use glam::DVec3;
 use lumencut::math::centerline_smoothing::smooth_centerlines;
@@ -14,10 +14,9 @@ use pyo3::prelude::*;
 use crate::errors::{exception, to_python};
 use crate::pool;
 
-/// Points (n, 3) and radii (n,) of one vessel.
+/// Points (n, 3) and radii (n,) of a vessel.
 pub(crate) type VesselArrays<'py> = (PyReadonlyArray2<'py, f64>, Option<PyReadonlyArray1<'py, f64>>);
 
-/// Points (n, 3) and radii (n,) of one vessel, made by this module.
 pub(crate) type NewVesselArrays<'py> = (Bound<'py, PyArray2<f64>>, Option<Bound<'py, PyArray1<f64>>>);
 
 /// The rows of points (n, 3).
@@ -30,20 +29,18 @@ pub(crate) fn points_of(points: &PyReadonlyArray2<'_, f64>) -> PyResult<Vec<DVec
     Ok(points.as_array().rows().into_iter().map(|p| DVec3::new(p[0], p[1], p[2])).collect())
 }
 
-/// The vessel of the core.
 pub(crate) fn vessel((points, radius): &VesselArrays) -> PyResult<Vessel> {
     let points = points_of(points)?;
     let radius = radius.as_ref().map(|r| r.as_array().to_vec());
     Vessel::new(points, radius).map_err(to_python)
 }
 
-/// The tree of the core.
 pub(crate) fn tree(vessels: &[VesselArrays]) -> PyResult<VesselTree> {
     let vessels = vessels.iter().map(vessel).collect::<PyResult<Vec<_>>>()?;
     VesselTree::new(vessels).map_err(to_python)
 }
 
-/// Checks the points (n, 3) and radii (n,) of a vessel.
+/// Checks points (n, 3) and radii (n,).
 #[pyfunction]
 #[pyo3(signature = (points, radius=None))]
 pub(crate) fn check_vessel(
@@ -53,7 +50,7 @@ pub(crate) fn check_vessel(
     vessel(&(points, radius)).map(drop)
 }
 
-/// The tree and its `count` levels of detail, finest first, each a list of (points, radius).
+/// The tree and its `count` levels of detail, finest first, as lists of (points, radius).
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
 pub(crate) fn levels<'py>(
@@ -66,7 +63,7 @@ pub(crate) fn levels<'py>(
     levels.iter().map(|level| level.vessels().iter().map(|v| arrays(py, v)).collect()).collect()
 }
 
-/// The points of each vessel, smoothed by a Gaussian whose standard deviation is given in radii.
+/// The points of each vessel after Gaussian smoothing; standard deviation in radii.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
 pub(crate) fn smoothed<'py>(
@@ -80,7 +77,7 @@ pub(crate) fn smoothed<'py>(
     smoothed.vessels().iter().map(|v| arrays(py, v).map(|(points, _)| points)).collect()
 }
 
-/// Several vessels that meet as one: its points (n, 3) and radii (n,). `words` is what an error calls each of them.
+/// Connected vessels as one path: points (n, 3) and radii (n,). `words` name the vessels in errors.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
 pub(crate) fn path<'py>(
@@ -97,7 +94,7 @@ pub(crate) fn path<'py>(
     flat_arrays(py, &joined.points, joined.radius.as_deref())
 }
 
-/// The numbers of the lines, points (n, 3) each, that hang together, the longest part first.
+/// Indices of connected lines, points (n, 3) each, the longest part first.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
 pub(crate) fn parts(py: Python<'_>, lines: Vec<PyReadonlyArray2<'_, f64>>) -> PyResult<Vec<Vec<usize>>> {
@@ -110,7 +107,6 @@ fn arrays<'py>(py: Python<'py>, vessel: &Vessel) -> PyResult<NewVesselArrays<'py
     flat_arrays(py, vessel.points(), vessel.radius())
 }
 
-/// Points (n, 3) and radii (n,) as arrays.
 pub(crate) fn flat_arrays<'py>(
     py: Python<'py>,
     points: &[DVec3],

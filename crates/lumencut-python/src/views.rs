@@ -1,4 +1,4 @@
-//! Views that the facade makes from others, for `lumencut.Camera`.
+//! Derived views, for `lumencut.Camera`.
 
 use glam::DVec3;
 use lumencut::camera::Camera;
@@ -15,7 +15,6 @@ use crate::tree::{self, VesselArrays, points_of};
 use crate::volume::VolumeArgument;
 use crate::watching::computed;
 
-/// The attributes of a `lumencut.Camera`, whose axes are unit vectors already.
 #[derive(FromPyObject)]
 pub(crate) struct MadeCamera {
     center: [f64; 3],
@@ -27,7 +26,6 @@ pub(crate) struct MadeCamera {
 }
 
 impl MadeCamera {
-    /// The camera of the core with exactly these axes.
     pub(crate) fn camera(&self) -> PyResult<Camera> {
         let vectors = [self.center, self.direction, self.right_axis, self.up].map(DVec3::from_array);
         let [center, direction, right, up] = vectors;
@@ -36,7 +34,6 @@ impl MadeCamera {
     }
 }
 
-/// What another view has of its own: all attributes of a `lumencut.Camera` but the size.
 #[derive(IntoPyObject)]
 pub(crate) struct Place {
     center: [f64; 3],
@@ -62,12 +59,10 @@ fn placed(made: lumencut::error::Result<Camera>) -> PyResult<Place> {
     made.map(|camera| Place::of(&camera)).map_err(to_python)
 }
 
-/// An axis of the view or the patient by its name, or a vector.
 #[derive(FromPyObject)]
 pub(crate) enum AxisArgument {
     /// `"superior"`, `"up"`, `"right"` or `"direction"`.
     Name(String),
-    /// A vector (LPS).
     Vector([f64; 3]),
 }
 
@@ -80,7 +75,7 @@ impl AxisArgument {
     }
 }
 
-/// The camera in the middle of the points (n, 3) of a vessel, in which it fits at every amount of uncurling.
+/// The camera centred on points (n, 3) that fits them at every amount of uncurling.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
 pub(crate) fn fitted_uncurling(
@@ -92,7 +87,7 @@ pub(crate) fn fitted_uncurling(
     placed(uncurling::fitted_uncurling(&camera.camera()?, &vessel, smoothing))
 }
 
-/// The views of the body by name: direction from the viewer into the scene, and up (LPS).
+/// Adds the standard views: direction into the scene, and up (LPS).
 pub(crate) fn add_names(module: &Bound<'_, PyModule>) -> PyResult<()> {
     let views = PyDict::new(module.py());
     for view in VIEWS {
@@ -102,7 +97,7 @@ pub(crate) fn add_names(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("VIEWS", views)
 }
 
-/// The place from where all points (n, 3) just fit into the image of a camera of the same direction and up.
+/// The view that just fits all points (n, 3), with the same direction and up.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
 pub(crate) fn fitted(
@@ -114,7 +109,6 @@ pub(crate) fn fitted(
     placed(py.detach(|| views::fitted(&camera, &points)))
 }
 
-/// The place from where every frame of a turn fits.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
 pub(crate) fn fitted_turn(
@@ -128,21 +122,21 @@ pub(crate) fn fitted_turn(
     placed(py.detach(|| turn::fitted_turn(&camera, &points, degrees, axis)))
 }
 
-/// The view about a place on a vessel: the arc length is in mm, the angle in radians.
+/// The view about a place on a vessel: arc length (mm), angle (radians).
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
 pub(crate) fn about(vessel: VesselArrays<'_>, at: f64, angle: f64, size: [usize; 2]) -> PyResult<Place> {
     placed(vessel_views::about(&tree::vessel(&vessel)?, at, angle, size))
 }
 
-/// The radius of a vessel at an arc length (mm).
+/// The radius at an arc length (mm).
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
 pub(crate) fn radius_at(vessel: VesselArrays<'_>, at: f64) -> PyResult<f64> {
     Ok(vessel_views::radius_at(&tree::vessel(&vessel)?, at))
 }
 
-/// The diameter of a vessel (mm) that the view of a place cuts; NaN where it has no two walls.
+/// The diameter (mm) cut by a view about a place; NaN without two walls.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
 pub(crate) fn cut_diameter(volume: VolumeArgument<'_>, camera: MadeCamera, radius: f64) -> PyResult<f64> {
@@ -151,7 +145,6 @@ pub(crate) fn cut_diameter(volume: VolumeArgument<'_>, camera: MadeCamera, radiu
     Ok(found.unwrap_or(f64::NAN))
 }
 
-/// The view from which most of a vessel is seen, not far from that of a camera.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
 pub(crate) fn refocused(py: Python<'_>, camera: MadeCamera, vessel: VesselArrays<'_>) -> PyResult<Place> {
@@ -159,7 +152,6 @@ pub(crate) fn refocused(py: Python<'_>, camera: MadeCamera, vessel: VesselArrays
     placed(py.detach(|| vessel_views::refocused(&camera, &vessel)))
 }
 
-/// The views of a flight from one camera to another, but for the first and the last, which are the cameras themselves.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
 pub(crate) fn flight(start: MadeCamera, end: MadeCamera, frames: usize) -> PyResult<Vec<Place>> {
@@ -167,27 +159,25 @@ pub(crate) fn flight(start: MadeCamera, end: MadeCamera, frames: usize) -> PyRes
     Ok(views[1..views.len() - 1].iter().map(Place::of).collect())
 }
 
-/// The angles of the frames of a turn (radians).
+/// Frame angles of a turn (radians).
 #[pyfunction]
 pub(crate) fn frame_angles(frames: usize, degrees: f64) -> PyResult<Vec<f64>> {
     turn::frame_angles(frames, degrees).map_err(to_python)
 }
 
-/// A camera turned about its center.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
 pub(crate) fn rotated(camera: MadeCamera, angle: f64, axis: AxisArgument) -> PyResult<Place> {
     placed(views::rotated(&camera.camera()?, angle, axis.axis()?))
 }
 
-/// A camera magnified about its center.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
 pub(crate) fn zoomed(camera: MadeCamera, factor: f64) -> PyResult<Place> {
     placed(views::zoomed(&camera.camera()?, factor))
 }
 
-/// The world point (mm, LPS) of each pixel of a picture whose depths (mm) are given, shape (H, W, 3).
+/// World points (mm, LPS) of a picture's pixels for their depths (mm), shape (H, W, 3).
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
 pub(crate) fn positions<'py>(

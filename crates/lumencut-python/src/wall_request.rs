@@ -1,8 +1,8 @@
-//! The level of walls as Python asks for it.
+//! The wall level as Python requests it.
 
 use lumencut::measure::wall_level::WallRequest;
 
-/// The level of walls from a level and its standard deviation; one of 0 says that there is no wall.
+/// The request for a level and its standard deviation; level 0 means no wall.
 pub(crate) fn wall_request(wall: Option<[f64; 2]>) -> WallRequest {
     match wall {
         None => WallRequest::Automatic,

@@ -20,7 +20,9 @@ pub(crate) const CPU_STAGES: &str = "LUMENCUT_CPU_STAGES";
 /// Where the image went.
 #[cfg(target_arch = "wasm32")]
 pub enum Drawn {
+    /// On the canvas.
     OnScreen,
+    /// Returned to the caller.
     Frame(Frame),
 }
 
