@@ -3,7 +3,7 @@
 use std::slice;
 use std::sync::{Arc, Mutex, PoisonError};
 
-use lumencut::kept_profiles::{Asking, KeptProfiles as Core, Scan};
+use lumencut::kept_profiles::{KeptProfiles as Core, MeasureParameters, Scan};
 use lumencut::measure::watched::watched as counted;
 use lumencut::vessel_tree::Vessel;
 use pyo3::prelude::*;
@@ -54,7 +54,7 @@ impl KeptProfiles {
             let kept = &mut *kept;
             let found = pool::install(|| {
                 counted(progress, (slice::from_ref(vessel), step), stop, |stop| {
-                    let asking = Asking { step, fwhm, wall: wall_request(wall), stop };
+                    let asking = MeasureParameters { step, fwhm, wall: wall_request(wall), stop };
                     kept.of(vessel.clone(), vessel, Scan { volume, tree }, &asking)
                 })
             })?;

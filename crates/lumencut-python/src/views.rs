@@ -35,7 +35,7 @@ impl MadeCamera {
 }
 
 #[derive(IntoPyObject)]
-pub(crate) struct Place {
+pub(crate) struct DerivedView {
     center: [f64; 3],
     direction: [f64; 3],
     right_axis: [f64; 3],
@@ -43,7 +43,7 @@ pub(crate) struct Place {
     pixel_spacing: f64,
 }
 
-impl Place {
+impl DerivedView {
     fn of(camera: &Camera) -> Self {
         Self {
             center: camera.center().to_array(),
@@ -55,8 +55,8 @@ impl Place {
     }
 }
 
-fn placed(made: lumencut::error::Result<Camera>) -> PyResult<Place> {
-    made.map(|camera| Place::of(&camera)).map_err(to_python)
+fn placed(made: lumencut::error::Result<Camera>) -> PyResult<DerivedView> {
+    made.map(|camera| DerivedView::of(&camera)).map_err(to_python)
 }
 
 #[derive(FromPyObject)]
@@ -82,7 +82,7 @@ pub(crate) fn fitted_uncurling(
     camera: MadeCamera,
     points: PyReadonlyArray2<'_, f64>,
     smoothing: f64,
-) -> PyResult<Place> {
+) -> PyResult<DerivedView> {
     let vessel = Vessel::new(points_of(&points)?, None).map_err(to_python)?;
     placed(uncurling::fitted_uncurling(&camera.camera()?, &vessel, smoothing))
 }
@@ -104,7 +104,7 @@ pub(crate) fn fitted(
     py: Python<'_>,
     camera: MadeCamera,
     points: PyReadonlyArray2<'_, f64>,
-) -> PyResult<Place> {
+) -> PyResult<DerivedView> {
     let (camera, points) = (camera.camera()?, points_of(&points)?);
     placed(py.detach(|| views::fitted(&camera, &points)))
 }
@@ -117,7 +117,7 @@ pub(crate) fn fitted_turn(
     points: PyReadonlyArray2<'_, f64>,
     degrees: f64,
     axis: AxisArgument,
-) -> PyResult<Place> {
+) -> PyResult<DerivedView> {
     let (camera, points, axis) = (camera.camera()?, points_of(&points)?, axis.axis()?);
     placed(py.detach(|| turn::fitted_turn(&camera, &points, degrees, axis)))
 }
@@ -125,7 +125,12 @@ pub(crate) fn fitted_turn(
 /// The view about a place on a vessel: arc length (mm), angle (radians).
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
-pub(crate) fn about(vessel: VesselArrays<'_>, at: f64, angle: f64, size: [usize; 2]) -> PyResult<Place> {
+pub(crate) fn about(
+    vessel: VesselArrays<'_>,
+    at: f64,
+    angle: f64,
+    size: [usize; 2],
+) -> PyResult<DerivedView> {
     placed(vessel_views::about(&tree::vessel(&vessel)?, at, angle, size))
 }
 
@@ -147,16 +152,20 @@ pub(crate) fn cut_diameter(volume: VolumeArgument<'_>, camera: MadeCamera, radiu
 
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
-pub(crate) fn refocused(py: Python<'_>, camera: MadeCamera, vessel: VesselArrays<'_>) -> PyResult<Place> {
+pub(crate) fn refocused(
+    py: Python<'_>,
+    camera: MadeCamera,
+    vessel: VesselArrays<'_>,
+) -> PyResult<DerivedView> {
     let (camera, vessel) = (camera.camera()?, tree::vessel(&vessel)?);
     placed(py.detach(|| vessel_views::refocused(&camera, &vessel)))
 }
 
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
-pub(crate) fn flight(start: MadeCamera, end: MadeCamera, frames: usize) -> PyResult<Vec<Place>> {
+pub(crate) fn flight(start: MadeCamera, end: MadeCamera, frames: usize) -> PyResult<Vec<DerivedView>> {
     let views = flights::flight(&start.camera()?, &end.camera()?, frames).map_err(to_python)?;
-    Ok(views[1..views.len() - 1].iter().map(Place::of).collect())
+    Ok(views[1..views.len() - 1].iter().map(DerivedView::of).collect())
 }
 
 /// Frame angles of a turn (radians).
@@ -167,13 +176,13 @@ pub(crate) fn frame_angles(frames: usize, degrees: f64) -> PyResult<Vec<f64>> {
 
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
-pub(crate) fn rotated(camera: MadeCamera, angle: f64, axis: AxisArgument) -> PyResult<Place> {
+pub(crate) fn rotated(camera: MadeCamera, angle: f64, axis: AxisArgument) -> PyResult<DerivedView> {
     placed(views::rotated(&camera.camera()?, angle, axis.axis()?))
 }
 
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
-pub(crate) fn zoomed(camera: MadeCamera, factor: f64) -> PyResult<Place> {
+pub(crate) fn zoomed(camera: MadeCamera, factor: f64) -> PyResult<DerivedView> {
     placed(views::zoomed(&camera.camera()?, factor))
 }
 
@@ -204,6 +213,6 @@ pub(crate) fn positions<'py>(
 /// A camera moved in its plane (mm).
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
-pub(crate) fn panned(camera: MadeCamera, right: f64, up: f64) -> PyResult<Place> {
+pub(crate) fn panned(camera: MadeCamera, right: f64, up: f64) -> PyResult<DerivedView> {
     placed(views::panned(&camera.camera()?, right, up))
 }

@@ -44,8 +44,8 @@ fn sent(answered: Result<Answer>) -> Thrown<Array> {
 
 async fn backend(device: &str) -> Thrown<Backend> {
     let wanted = match device {
-        "any" => Wanted::told("auto", Some("any")),
-        name => Wanted::told(name, None),
+        "any" => Wanted::with_auto("auto", Some("any")),
+        name => Wanted::with_auto(name, None),
     };
     let wanted = answer(wanted.map_err(Failure::from))?;
     let (backend, _) = answer(Backend::new(wanted).await.map_err(Failure::from))?;

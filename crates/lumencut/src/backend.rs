@@ -33,7 +33,7 @@ const PICTURE: ImageSet = ImageSet::of(&[Image::Picture]);
 pub struct Backend {
     computer: Computer,
     /// Why the CPU took over, until a finished view reports it.
-    untold: Option<Error>,
+    unreported: Option<Error>,
 }
 
 enum Computer {
@@ -50,7 +50,7 @@ impl Backend {
     /// [`ErrorKind::Device`] if a required GPU cannot be used.
     pub async fn new(wanted: Wanted) -> Result<(Self, Option<Error>)> {
         let (computer, given_up) = Computer::new(wanted).await?;
-        Ok((Self { computer, untold: None }, given_up))
+        Ok((Self { computer, unreported: None }, given_up))
     }
 
     /// "cpu", or the name of the GPU.
@@ -100,7 +100,7 @@ impl Backend {
             }
             frame.image = mean.pixels();
         }
-        Ok((frame, self.untold.take()))
+        Ok((frame, self.unreported.take()))
     }
 
     /// Draws a view on a canvas if a GPU computes, else returns it. One sample of a cut surface never leaves the GPU.
@@ -156,7 +156,7 @@ impl Backend {
     ) -> Result<Rendered> {
         refuse_focus(request.settings)?;
         let gpu = match &mut self.computer {
-            Computer::Cpu(cpu) => return Ok((cpu.look(volume, places()?, request)?, self.untold.take())),
+            Computer::Cpu(cpu) => return Ok((cpu.look(volume, places()?, request)?, self.unreported.take())),
             Computer::Gpu(gpu) => gpu,
         };
         let error = match gpu.look(volume, places()?, request).await {
@@ -201,7 +201,7 @@ impl Backend {
         // Interrupted: the caller has not seen the GPU's failure yet, so the next view tries the GPU again.
         let frame = method.on_cpu(&mut cpu, scene, request)?;
         self.computer = Computer::Cpu(cpu);
-        self.untold = Some(error);
+        self.unreported = Some(error);
         Ok(frame)
     }
 }

@@ -5,14 +5,14 @@ use std::collections::BTreeSet;
 use lumencut_io::{Error, Mend, Result, Space, Unit};
 
 use crate::lumen_points::LumenCount;
-use crate::places::{Place, Reading, Statement, mm};
+use crate::places::{CoordinateSystem, Reading, Statement, mm};
 
-type Lumen<'a> = &'a dyn Fn(Place) -> LumenCount;
+type Lumen<'a> = &'a dyn Fn(CoordinateSystem) -> LumenCount;
 
 pub(crate) struct Choice {
     pub(crate) readings: Vec<Reading>,
     /// Taken unless the volume contradicts it.
-    pub usual: Place,
+    pub usual: CoordinateSystem,
     pub(crate) total: usize,
 }
 
@@ -108,22 +108,22 @@ impl Choice {
     }
 
     fn unit_by_values(&self, fitting: &[Reading], lumen: Lumen) -> Option<(Unit, String)> {
-        let counts: Vec<(Place, LumenCount)> =
+        let counts: Vec<(CoordinateSystem, LumenCount)> =
             fitting.iter().map(|reading| (reading.place, lumen(reading.place))).collect();
         let (best, most) = counts.iter().max_by_key(|(_, count)| count.like_lumen)?;
         let others = counts.iter().filter(|(place, _)| place.unit != best.unit);
         if !others.clone().all(|(_, count)| most.is_evident_beside(*count)) {
             return None;
         }
-        let told = |(place, count): &(Place, LumenCount)| {
+        let lumen_words = |(place, count): &(CoordinateSystem, LumenCount)| {
             format!("{} of {} sampled points look like lumen in {place}", count.like_lumen, count.of)
         };
-        let others: Vec<String> = others.map(told).collect();
+        let others: Vec<String> = others.map(lumen_words).collect();
         let words = format!(
             "{} fit the volume; {}, but {}: read in {}",
             self.several(fitting),
             others.join(" and "),
-            told(&(*best, *most)),
+            lumen_words(&(*best, *most)),
             best.unit.name(),
         );
         Some((best.unit, words))
@@ -182,24 +182,24 @@ impl Choice {
 
     fn several(&self, fitting: &[Reading]) -> String {
         let is_usual = units_of(fitting)[..] == [self.usual.unit];
-        let told = |reading: &Reading| {
+        let reading_words = |reading: &Reading| {
             let size = if is_usual { String::new() } else { format!(", {} across", mm(reading.across)) };
             format!("{} ({} of {} points inside{size})", reading.place, reading.inside, self.total)
         };
-        fitting.iter().map(told).collect::<Vec<_>>().join(", ")
+        fitting.iter().map(reading_words).collect::<Vec<_>>().join(", ")
     }
 
     pub(crate) fn confirmed_by(&self, best: Reading) -> Statement {
-        let Place { space, unit } = best.place;
+        let CoordinateSystem { space, unit } = best.place;
         Statement {
             space: (space != self.usual.space).then_some(space),
             unit: (unit != self.usual.unit).then_some(unit),
         }
     }
 
-    pub(crate) fn told(&self, best: Reading) -> String {
+    pub(crate) fn decision_words(&self, best: Reading) -> String {
         if best.place == self.usual {
-            return self.told_as_usual(best);
+            return self.usual_decision_words(best);
         }
         let usual = self.readings.iter().find(|reading| reading.place == self.usual);
         let inside = usual.map_or(0, |reading| reading.inside);
@@ -217,7 +217,7 @@ impl Choice {
         )
     }
 
-    fn told_as_usual(&self, best: Reading) -> String {
+    fn usual_decision_words(&self, best: Reading) -> String {
         let others = self.readings.iter().filter(|reading| {
             reading.place.space != best.place.space && reading.place.unit == best.place.unit
         });

@@ -12,9 +12,9 @@ use crate::method::Method;
 use crate::positions::world_from_pixel;
 
 /// Pixels around one that affect it: the reach of the depth filter and of jump detection.
-const AROUND: usize = 8;
+const NEIGHBOURHOOD_PX: usize = 8;
 /// A pixel shows the cut surface if its opacity is at least this.
-const SHOWN: f32 = 0.5;
+const MIN_OPACITY: f32 = 0.5;
 
 /// The cut surface in a pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,18 +36,18 @@ pub fn cut_at(
 ) -> Result<CutAt> {
     let [x, y] = pixel.map(f64::round);
     let point = world_from_pixel(camera, [x, y], 0.0);
-    let side = 2 * AROUND + 1;
+    let side = 2 * NEIGHBOURHOOD_PX + 1;
     let near = Camera::new(point, camera.direction(), camera.up(), [side, side], camera.pixel_spacing())?;
     let settings = Settings { samples: 1, ..settings.clone() };
     let mut images = vec![Image::Depth, Image::Vessel, Image::Value];
     images.extend(settings.focus.map(|_| Image::Focus));
     let request = Request { images: ImageSet::of(&images), ..Request::new(&near, &settings) };
     let frame = method.on_cpu(cpu, scene, &request)?;
-    let middle = side * AROUND + AROUND;
+    let middle = side * NEIGHBOURHOOD_PX + NEIGHBOURHOOD_PX;
     let depth = frame.depth().get(middle).copied().unwrap_or_default();
     Ok(CutAt {
         point: point + camera.direction() * f64::from(depth),
         vessel: frame.vessel.get(middle).and_then(|vessel| usize::try_from(*vessel).ok()),
-        is_shown: frame.focus.get(middle).is_none_or(|[surface, _]| *surface >= SHOWN),
+        is_shown: frame.focus.get(middle).is_none_or(|[surface, _]| *surface >= MIN_OPACITY),
     })
 }

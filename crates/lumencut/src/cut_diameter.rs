@@ -7,9 +7,9 @@ use lumencut_core::volume::Volume;
 use crate::windows::sample;
 
 /// In radii from the centre: the lumen is sampled up to here, the surroundings from the second value to the third.
-const LUMEN: f64 = 0.5;
-const AROUND: [f64; 2] = [1.5, 3.0];
-const STEPS: usize = 200;
+const LUMEN_RADII: f64 = 0.5;
+const SURROUNDINGS_RADII: [f64; 2] = [1.5, 3.0];
+const SAMPLES: usize = 200;
 
 /// The diameter (mm) that the view cuts; None without two walls.
 ///
@@ -18,27 +18,30 @@ const STEPS: usize = 200;
 /// three radii. A wall beyond 1.5 radii belongs to a touching vessel, so the result is None. `radius` is the approximate radius
 /// (mm).
 pub fn cut_diameter(volume: &Volume, camera: &Camera, radius: f64) -> Option<f64> {
-    let places: Vec<f64> =
-        (0..=2 * STEPS).map(|n| AROUND[1] * radius * (n as f64 / STEPS as f64 - 1.0)).collect();
+    let places: Vec<f64> = (0..=2 * SAMPLES)
+        .map(|n| SURROUNDINGS_RADII[1] * radius * (n as f64 / SAMPLES as f64 - 1.0))
+        .collect();
     let points: Vec<_> = places.iter().map(|place| camera.center() + *place * camera.right()).collect();
     let values: Vec<f64> = sample(volume, &points).into_iter().map(f64::from).collect();
     let within = |from: f64, to: f64| -> Vec<f64> {
         let place = |n: &usize| (from * radius..=to * radius).contains(&places[*n].abs());
         (0..places.len()).filter(place).map(|n| values[n]).collect()
     };
-    let mut inside = within(0.0, LUMEN);
+    let mut inside = within(0.0, LUMEN_RADII);
     let mut around: Vec<f64> =
-        within(AROUND[0], f64::INFINITY).into_iter().filter(|value| value.is_finite()).collect();
+        within(SURROUNDINGS_RADII[0], f64::INFINITY).into_iter().filter(|value| value.is_finite()).collect();
     if inside.iter().any(|value| value.is_nan()) {
         return None;
     }
     let (lumen, around) = (median(&mut inside)?, median(&mut around)?);
     let sign = if around <= lumen { 1.0 } else { -1.0 };
     let depth: Vec<f64> = values.iter().map(|value| sign * (value - lumen)).collect();
-    let left: Vec<f64> = depth[..=STEPS].iter().rev().copied().collect();
-    let step = AROUND[1] * radius / STEPS as f64;
-    let wall = |depth| steps_to_wall(depth).map(|steps| step * steps).filter(|at| *at <= AROUND[0] * radius);
-    Some(wall(&left)? + wall(&depth[STEPS..])?)
+    let left: Vec<f64> = depth[..=SAMPLES].iter().rev().copied().collect();
+    let step = SURROUNDINGS_RADII[1] * radius / SAMPLES as f64;
+    let wall = |depth| {
+        steps_to_wall(depth).map(|steps| step * steps).filter(|at| *at <= SURROUNDINGS_RADII[0] * radius)
+    };
+    Some(wall(&left)? + wall(&depth[SAMPLES..])?)
 }
 
 /// Steps until values (relative to the lumen) first fall to half of their deepest.

@@ -34,14 +34,14 @@ impl Wanted {
     /// # Errors
     /// [`ErrorKind::Settings`] for another name, also in the environment variable.
     pub fn named(name: &str) -> Result<Self> {
-        Self::told(name, std::env::var(AUTO).ok().as_deref())
+        Self::with_auto(name, std::env::var(AUTO).ok().as_deref())
     }
 
     /// The device for `name`, with the meaning of `auto` given.
     ///
     /// # Errors
     /// [`ErrorKind::Settings`] for an unknown name.
-    pub fn told(name: &str, auto: Option<&str>) -> Result<Self> {
+    pub fn with_auto(name: &str, auto: Option<&str>) -> Result<Self> {
         match name {
             "cpu" => Ok(Self::Cpu),
             "gpu" => Ok(Self::Gpu(Choice::Any)),
@@ -157,24 +157,24 @@ mod tests {
 
     #[test]
     fn auto_is_hardware_unless_told_otherwise() {
-        assert_eq!(Wanted::told("auto", None), Ok(Wanted::Auto(Choice::Hardware)));
-        assert_eq!(Wanted::told("auto", Some("")), Ok(Wanted::Auto(Choice::Hardware)));
-        assert_eq!(Wanted::told("auto", Some("hardware")), Ok(Wanted::Auto(Choice::Hardware)));
-        assert_eq!(Wanted::told("auto", Some("any")), Ok(Wanted::Auto(Choice::Any)));
-        assert_eq!(Wanted::told("auto", Some("cpu")), Ok(Wanted::Cpu));
+        assert_eq!(Wanted::with_auto("auto", None), Ok(Wanted::Auto(Choice::Hardware)));
+        assert_eq!(Wanted::with_auto("auto", Some("")), Ok(Wanted::Auto(Choice::Hardware)));
+        assert_eq!(Wanted::with_auto("auto", Some("hardware")), Ok(Wanted::Auto(Choice::Hardware)));
+        assert_eq!(Wanted::with_auto("auto", Some("any")), Ok(Wanted::Auto(Choice::Any)));
+        assert_eq!(Wanted::with_auto("auto", Some("cpu")), Ok(Wanted::Cpu));
     }
 
     #[test]
     fn a_device_that_is_named_does_not_ask_the_environment() {
-        assert_eq!(Wanted::told("cpu", Some("any")), Ok(Wanted::Cpu));
-        assert_eq!(Wanted::told("gpu", Some("cpu")), Ok(Wanted::Gpu(Choice::Any)));
+        assert_eq!(Wanted::with_auto("cpu", Some("any")), Ok(Wanted::Cpu));
+        assert_eq!(Wanted::with_auto("gpu", Some("cpu")), Ok(Wanted::Gpu(Choice::Any)));
     }
 
     #[test]
     fn unknown_names_are_refused_with_their_source() {
-        let error = Wanted::told("tpu", None).unwrap_err();
+        let error = Wanted::with_auto("tpu", None).unwrap_err();
         assert_eq!(error.to_string(), "device: found 'tpu'; expected auto, cpu or gpu");
-        let error = Wanted::told("auto", Some("fast")).unwrap_err();
+        let error = Wanted::with_auto("auto", Some("fast")).unwrap_err();
         assert_eq!(error.kind, ErrorKind::Settings);
         assert_eq!(
             error.to_string(),

@@ -6,9 +6,9 @@ use crate::places::LARGEST;
 use crate::text::rounded;
 
 /// A scan whose longest side is shorter (mm) is implausible.
-const SHORTEST: f64 = 1.0;
+const MIN_LENGTH_MM: f64 = 1.0;
 /// Corrections for metres or micrometres taken as mm.
-const FACTORS: [f64; 2] = [1e-3, 1e3];
+const UNIT_FACTORS: [f64; 2] = [1e-3, 1e3];
 const DIGITS: usize = 6;
 
 /// Describes an implausible size of a grid of `size` voxels (i, j, k): larger than a body or smaller than a vessel.
@@ -16,12 +16,12 @@ pub fn doubted_size(size: [usize; 3], world_from_index: DAffine3) -> Option<Stri
     let axes = world_from_index.matrix3;
     let sides = [axes.x_axis, axes.y_axis, axes.z_axis].map(DVec3::length);
     let longest = (0..3).map(|axis| sides[axis] * size[axis] as f64).fold(0.0, f64::max);
-    if (SHORTEST..=LARGEST).contains(&longest) || !longest.is_finite() {
+    if (MIN_LENGTH_MM..=LARGEST).contains(&longest) || !longest.is_finite() {
         return None;
     }
     let mm = |length: f64| rounded(length, DIGITS);
-    let likelier = FACTORS.map(|factor| longest * factor);
-    let likelier = likelier.iter().find(|length| (10.0 * SHORTEST..=LARGEST).contains(*length));
+    let likelier = UNIT_FACTORS.map(|factor| longest * factor);
+    let likelier = likelier.iter().find(|length| (10.0 * MIN_LENGTH_MM..=LARGEST).contains(*length));
     let likelier = likelier.map(|length| format!("; perhaps it is {} mm long", mm(*length)));
     let found = format!("the scan is {} mm long by its header", mm(longest));
     Some(format!("{found}{}: check the unit of length", likelier.unwrap_or_default()))

@@ -6,7 +6,7 @@ use glam::DVec3;
 use lumencut_io::Unit;
 
 use crate::lumen_points::Judge;
-use crate::places::{LARGEST, Place, Reading, SMALLEST, across, mm, places, readings};
+use crate::places::{CoordinateSystem, LARGEST, Reading, SMALLEST, across, mm, places, readings};
 
 /// A unit that may be wrong.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -18,14 +18,18 @@ pub struct Doubt {
 }
 
 /// Describes evidence against the unit in which the points of a file are read.
-pub(crate) fn doubted_unit(points: &[DVec3], place: Place, volume: Option<&Judge>) -> Option<Doubt> {
+pub(crate) fn doubted_unit(
+    points: &[DVec3],
+    place: CoordinateSystem,
+    volume: Option<&Judge>,
+) -> Option<Doubt> {
     match volume {
         Some(volume) => doubted_by_volume(points, place, volume),
         None => doubted_by_size(points, place),
     }
 }
 
-fn doubted_by_size(points: &[DVec3], place: Place) -> Option<Doubt> {
+fn doubted_by_size(points: &[DVec3], place: CoordinateSystem) -> Option<Doubt> {
     let bare = across(points);
     let is_size = |unit: &Unit| (SMALLEST..=LARGEST).contains(&(bare * unit.in_mm()));
     if is_size(&place.unit) {
@@ -38,7 +42,7 @@ fn doubted_by_size(points: &[DVec3], place: Place) -> Option<Doubt> {
     Some(Doubt { found, units })
 }
 
-fn doubted_by_volume(points: &[DVec3], place: Place, volume: &Judge) -> Option<Doubt> {
+fn doubted_by_volume(points: &[DVec3], place: CoordinateSystem, volume: &Judge) -> Option<Doubt> {
     let all = readings(points, &places(&[place.space], &Unit::ALL), &volume.extent);
     let as_read = all.iter().find(|reading| reading.place == place)?;
     let mut others: Vec<&Reading> =
@@ -49,7 +53,7 @@ fn doubted_by_volume(points: &[DVec3], place: Place, volume: &Judge) -> Option<D
     if others.is_empty() && !is_no_size {
         return None;
     }
-    let told = |reading: &Reading| {
+    let reading_words = |reading: &Reading| {
         format!(
             "{} across in {}, with {} of {} points inside the volume",
             mm(reading.across),
@@ -58,8 +62,8 @@ fn doubted_by_volume(points: &[DVec3], place: Place, volume: &Judge) -> Option<D
             points.len()
         )
     };
-    let instead: String = others.iter().map(|other| format!("; {}", told(other))).collect();
-    let found = format!("the lines are {}{instead}", told(as_read));
+    let instead: String = others.iter().map(|other| format!("; {}", reading_words(other))).collect();
+    let found = format!("the lines are {}{instead}", reading_words(as_read));
     Some(Doubt { found, units: others.iter().map(|other| other.place.unit).collect() })
 }
 

@@ -41,22 +41,22 @@ pub struct FoundTree {
 /// # Errors
 /// Those of [`find::find_vessels`]; [`lumencut_core::error::ErrorKind::Tracing`] if none is confident.
 pub fn find_vessels(volume: &Volume, request: &FindRequest) -> Result<FoundTree> {
-    told(&find::find_vessels(volume, request)?, request.smallest_radius)
+    confident_tree(&find::find_vessels(volume, request)?, request.smallest_radius)
 }
 
 /// Describes trees with at least one confident vessel.
 ///
 /// # Errors
 /// [`lumencut_core::error::ErrorKind::Tracing`] if none is confident; `smallest_radius` (mm) is the requested one.
-pub fn told(trees: &Trees, smallest_radius: f64) -> Result<FoundTree> {
+pub fn confident_tree(trees: &Trees, smallest_radius: f64) -> Result<FoundTree> {
     if trees.vessels.iter().any(|vessel| vessel.doubt.is_none()) {
         return Ok(found(trees.clone()));
     }
     Err(refusals::no_vessel(trees.vessels.len(), smallest_radius))
 }
 
-/// As [`told`], but accepts doubtful vessels alone.
-pub(crate) fn told_with_doubtful(trees: &Trees, smallest_radius: f64) -> Result<FoundTree> {
+/// As [`confident_tree`], but accepts doubtful vessels alone.
+pub(crate) fn tree_with_doubtful(trees: &Trees, smallest_radius: f64) -> Result<FoundTree> {
     if trees.vessels.is_empty() {
         return Err(refusals::no_vessel(0, smallest_radius));
     }
@@ -108,10 +108,10 @@ fn doubts(vessels: &[FoundLine]) -> Vec<String> {
     }
     let mut counts: Vec<(&str, usize)> = counts.into_iter().collect();
     counts.sort_by_key(|(_, count)| std::cmp::Reverse(*count));
-    let told = |(doubt, count): (&str, usize)| {
+    let sentence = |(doubt, count): (&str, usize)| {
         format!("{count} vessel{} doubtful: {doubt}", if count == 1 { "" } else { "s" })
     };
-    counts.into_iter().map(told).collect()
+    counts.into_iter().map(sentence).collect()
 }
 
 /// Indices of the confident vessels of each connected part, the most important part first.

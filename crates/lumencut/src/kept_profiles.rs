@@ -23,7 +23,7 @@ pub struct Scan<'a> {
 
 /// Parameters of a measurement.
 #[derive(Clone, Copy)]
-pub struct Asking<'a> {
+pub struct MeasureParameters<'a> {
     /// The largest distance of sections (mm).
     pub step: f64,
     /// The width of the point spread (mm); None estimates it from the tree.
@@ -37,7 +37,7 @@ pub struct Asking<'a> {
 /// The cached profiles, by the host's key of a vessel.
 pub struct KeptProfiles<K> {
     /// Tree-wide estimates, by wall level and point spread.
-    told: Vec<((WallRequest, Option<f64>), ToldByTree)>,
+    estimates: Vec<((WallRequest, Option<f64>), ToldByTree)>,
     kept: Vec<Kept<K>>,
 }
 
@@ -52,22 +52,28 @@ struct Kept<K> {
 
 impl<K> Default for KeptProfiles<K> {
     fn default() -> Self {
-        Self { told: Vec::new(), kept: Vec::new() }
+        Self { estimates: Vec::new(), kept: Vec::new() }
     }
 }
 
 impl<K: PartialEq> KeptProfiles<K> {
     /// The cache index of a vessel's profile; measures it if the parameters are new.
-    pub fn of(&mut self, key: K, vessel: &Vessel, scan: Scan, asking: &Asking) -> Result<usize> {
-        let Asking { step, fwhm, wall, stop } = *asking;
+    pub fn of(
+        &mut self,
+        key: K,
+        vessel: &Vessel,
+        scan: Scan,
+        parameters: &MeasureParameters,
+    ) -> Result<usize> {
+        let MeasureParameters { step, fwhm, wall, stop } = *parameters;
         let is_asked =
             |kept: &Kept<K>| kept.of == key && kept.step == step && kept.fwhm == fwhm && kept.wall == wall;
         if let Some(found) = self.kept.iter().position(is_asked) {
             return Ok(found);
         }
         let request = MeasureRequest { step, fwhm, wall, tree: scan.tree, stop };
-        let told = self.told(scan.volume, &request)?;
-        let profile = Arc::new(measure_under(told, scan.volume, vessel, &request)?);
+        let estimates = self.estimates(scan.volume, &request)?;
+        let profile = Arc::new(measure_under(estimates, scan.volume, vessel, &request)?);
         self.kept.push(Kept { of: key, step, fwhm, wall, profile });
         Ok(self.kept.len() - 1)
     }
@@ -81,14 +87,14 @@ impl<K: PartialEq> KeptProfiles<K> {
         self.kept.iter().find(|kept| kept.of == *key).map(|kept| &*kept.profile)
     }
 
-    fn told(&mut self, volume: &Volume, request: &MeasureRequest) -> Result<ToldByTree> {
+    fn estimates(&mut self, volume: &Volume, request: &MeasureRequest) -> Result<ToldByTree> {
         let asked = (request.wall, request.fwhm);
-        if let Some((_, told)) = self.told.iter().find(|(other, _)| *other == asked) {
-            return Ok(told.clone());
+        if let Some((_, estimates)) = self.estimates.iter().find(|(other, _)| *other == asked) {
+            return Ok(estimates.clone());
         }
-        let told = told_by_tree(volume, request)?;
-        self.told.push((asked, told.clone()));
-        Ok(told)
+        let estimates = told_by_tree(volume, request)?;
+        self.estimates.push((asked, estimates.clone()));
+        Ok(estimates)
     }
 }
 

@@ -4,16 +4,16 @@ use glam::DVec3;
 use serde::Serialize;
 
 /// A side is named if the direction's component towards it is at least this: the sine of 11.5 degrees.
-const LEAST_PART: f64 = 0.2;
+const MIN_COMPONENT: f64 = 0.2;
 
 /// Components equal to this many steps tie; the axis order, not rounding, breaks the tie.
-const STEPS: f64 = 1e6;
+const ROUNDING_STEPS: f64 = 1e6;
 
 /// Axes whose cosines differ by less tie, so that rounding does not decide.
-const SAME: f64 = 1e-6;
+const COSINE_TOLERANCE: f64 = 1e-6;
 
 /// The patient's signed axes (LPS) by preference among ties: along the body first.
-pub(crate) const PREFERRED: [DVec3; 6] =
+pub(crate) const PREFERRED_AXES: [DVec3; 6] =
     [DVec3::NEG_Z, DVec3::Z, DVec3::X, DVec3::NEG_X, DVec3::Y, DVec3::NEG_Y];
 
 /// The patient's sides at the low and high end of each axis (LPS).
@@ -44,10 +44,10 @@ impl EdgeLetters {
 /// S(uperior), I(nferior). Components below 0.2 are omitted.
 pub fn sides(direction: DVec3) -> String {
     let parts = direction.normalize_or_zero().to_array();
-    let size = |axis: usize| (parts[axis].abs() * STEPS).round();
+    let size = |axis: usize| (parts[axis].abs() * ROUNDING_STEPS).round();
     let mut order = [0, 1, 2];
     order.sort_by(|a, b| size(*b).total_cmp(&size(*a)));
-    let named = order.into_iter().filter(|axis| parts[*axis].abs() >= LEAST_PART);
+    let named = order.into_iter().filter(|axis| parts[*axis].abs() >= MIN_COMPONENT);
     named.map(|axis| SIDES[axis][usize::from(parts[axis] > 0.0)]).collect()
 }
 
@@ -56,11 +56,11 @@ pub fn nearest_axes(directions: [DVec3; 3]) -> [DVec3; 3] {
     let [first, second, third] = directions.map(DVec3::normalize_or_zero);
     let handedness = if first.cross(second).dot(third) < 0.0 { -1.0 } else { 1.0 };
     let (mut best, mut most) = (directions, f64::NEG_INFINITY);
-    for along in PREFERRED {
-        for ahead in PREFERRED.into_iter().filter(|axis| axis.dot(along) == 0.0) {
+    for along in PREFERRED_AXES {
+        for ahead in PREFERRED_AXES.into_iter().filter(|axis| axis.dot(along) == 0.0) {
             let across = ahead.cross(along) * handedness;
             let sum = first.dot(across) + second.dot(ahead) + third.dot(along);
-            if sum > most + SAME {
+            if sum > most + COSINE_TOLERANCE {
                 (best, most) = ([across, ahead, along], sum);
             }
         }

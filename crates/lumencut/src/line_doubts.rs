@@ -64,7 +64,7 @@ pub fn order_doubts_of(lines: &[DoubtedLine]) -> Vec<LineDoubt> {
 
 /// Pairs of vessels that run side by side, as two lines of one vessel.
 pub fn beside_doubts_of(lines: &[DoubtedLine]) -> Vec<LineDoubt> {
-    let told = |(first, second, length): (usize, usize, f64)| {
+    let doubt_of_pair = |(first, second, length): (usize, usize, f64)| {
         let names = [first, second].map(|vessel| called(vessel, &lines[vessel]));
         let found = format!(
             "{} and {} lie side by side over {} mm: perhaps two lines of one vessel",
@@ -81,7 +81,7 @@ pub fn beside_doubts_of(lines: &[DoubtedLine]) -> Vec<LineDoubt> {
             mend: None,
         }
     };
-    side_by_side(lines).into_iter().map(told).collect()
+    side_by_side(lines).into_iter().map(doubt_of_pair).collect()
 }
 
 fn called(vessel: usize, line: &DoubtedLine) -> String {

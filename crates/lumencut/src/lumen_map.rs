@@ -18,13 +18,13 @@ use lumencut_vessels::voxels::Voxels;
 use crate::lumen_wall::FoundWall;
 use crate::rays_across::TOO_BRIGHT;
 
-const LEAST_CALCIUM: f64 = 130.0;
+const MIN_CALCIUM_HU: f64 = 130.0;
 
 /// Sample distance through the wall, in units of [`Voxels::sampling_side`].
-const SAMPLE: f64 = 0.5;
+const SAMPLE_STEP: f64 = 0.5;
 
 /// A branch is attached if one of its ends lies within this many radii of the wall, plus this distance (mm).
-const HANGS: (f64, f64) = (1.6, 2.0);
+const ATTACHED: (f64, f64) = (1.6, 2.0);
 
 /// The parameters of a lumen map.
 #[derive(Clone, Copy, Debug)]
@@ -42,7 +42,7 @@ pub struct MapRequest {
 }
 
 /// Pixel side of the coarse map used to find the side with most calcium (mm).
-const COARSE: f64 = 1.0;
+const COARSE_PIXEL_MM: f64 = 1.0;
 
 /// The map of a vessel with a known wall; pixels lie in the middle of the band.
 ///
@@ -65,14 +65,14 @@ pub fn lumen_map(
     let laid = |parameters| LumenMap::new(Arc::clone(path), view, Arc::clone(&found.wall), parameters);
     let level = request.calcium_level.or_else(|| found.levels.map(calcium_level));
     let (None, Some(level)) = (request.angle, level) else { return laid(parameters) };
-    let coarse = laid(LumenMapParameters { pixel_spacing: COARSE, overlap: 0.0, ..parameters })?;
+    let coarse = laid(LumenMapParameters { pixel_spacing: COARSE_PIXEL_MM, overlap: 0.0, ..parameters })?;
     let angle = thickest_side(&coarse, &thickness(volume, &coarse, (request.band, level), stop)?);
     laid(LumenMapParameters { angle, ..parameters })
 }
 
 /// The least level of calcium or metal, from the levels of the lumen and its surroundings.
 pub fn calcium_level([lumen, around]: [f64; 2]) -> f64 {
-    (lumen + TOO_BRIGHT * (lumen - around)).max(LEAST_CALCIUM)
+    (lumen + TOO_BRIGHT * (lumen - around)).max(MIN_CALCIUM_HU)
 }
 
 /// The thickness brighter than a level (mm) for each pixel, between two distances beyond the wall (mm). NaN outside the volume
@@ -86,7 +86,7 @@ pub fn thickness(
     let curved = map.curved(stop)?;
     let voxels = Voxels::new(volume);
     let index = &voxels.index_from_world;
-    let steps = ((band[1] - band[0]) / (SAMPLE * voxels.sampling_side)).ceil().max(1.0);
+    let steps = ((band[1] - band[0]) / (SAMPLE_STEP * voxels.sampling_side)).ceil().max(1.0);
     let step = (band[1] - band[0]) / steps;
     let own = map.parameters().beyond;
     let through = |values: &mut Vec<f32>, (position, direction): (&DVec3, &Vec3)| {
@@ -139,17 +139,17 @@ pub struct Ostium {
 pub fn ostia(map: &LumenMap, vessels: &[Vessel]) -> Vec<Ostium> {
     let found = |(vessel, other): (usize, &Vessel)| {
         let mut points = other.points().to_vec();
-        let near = |point: DVec3| Place::of(map, point).is_some_and(|place| place.hangs(map));
+        let near = |point: DVec3| WallCoordinates::of(map, point).is_some_and(|place| place.hangs(map));
         if !near(points[0]) {
             points.reverse();
         }
-        let first = Place::of(map, points[0]).filter(|place| place.hangs(map))?;
-        let leaves = points
-            .iter()
-            .find(|point| Place::of(map, **point).is_none_or(|place| place.away > place.wall(map)))?;
-        let place = Place::of(map, *leaves)?;
+        let first = WallCoordinates::of(map, points[0]).filter(|place| place.hangs(map))?;
+        let leaves = points.iter().find(|point| {
+            WallCoordinates::of(map, **point).is_none_or(|place| place.away > place.wall(map))
+        })?;
+        let place = WallCoordinates::of(map, *leaves)?;
         // Part of the mapped vessel itself: both ends and everything between lie on it.
-        let is_apart = place.away <= HANGS.0 * place.wall(map) + HANGS.1;
+        let is_apart = place.away <= ATTACHED.0 * place.wall(map) + ATTACHED.1;
         is_apart.then_some(Ostium {
             vessel,
             at: f64::midpoint(first.at, place.at),
@@ -160,13 +160,13 @@ pub fn ostia(map: &LumenMap, vessels: &[Vessel]) -> Vec<Ostium> {
     vessels.iter().enumerate().filter_map(found).collect()
 }
 
-struct Place {
+struct WallCoordinates {
     at: f64,
     around: f64,
     away: f64,
 }
 
-impl Place {
+impl WallCoordinates {
     fn of(map: &LumenMap, point: DVec3) -> Option<Self> {
         let straight = map.straightened().straightened_from_world(point);
         let offset = straight.truncate();
@@ -179,7 +179,7 @@ impl Place {
     }
 
     fn hangs(&self, map: &LumenMap) -> bool {
-        self.away <= HANGS.0 * self.wall(map) + HANGS.1
+        self.away <= ATTACHED.0 * self.wall(map) + ATTACHED.1
     }
 }
 

@@ -6,21 +6,21 @@ use glam::DVec3;
 use lumencut_core::volume::Volume;
 
 use crate::extent::Extent;
-use crate::places::Place;
+use crate::places::CoordinateSystem;
 use crate::windows::sample;
 use lumencut_core::math::statistics::median;
 
 /// One point is sampled per cube of this side (mm): close points carry the same information.
-const CUBE: f64 = 2.0;
-const MOST_POINTS: usize = 2000;
+const CUBE_MM: f64 = 2.0;
+const MAX_POINTS: usize = 2000;
 /// The fewest lumen-like points that can decide: about 40 mm of vessel in cubes of 2 mm.
-const FEWEST: usize = 20;
+const MIN_LUMEN_POINTS: usize = 20;
 /// The winning reading has at least this many times the points of the other.
-const TIMES: usize = 3;
+const MIN_RATIO: usize = 3;
 /// If no radius is known: the reach of a point's own value, and the distance of its surroundings (mm).
-const UNKNOWN: (f64, f64) = (1.0, 15.0);
+const UNKNOWN_RADIUS: (f64, f64) = (1.0, 15.0);
 /// The least distance of the surroundings beyond the wall (mm); else a radius.
-const BESIDE: f64 = 3.0;
+const MIN_SURROUNDINGS_MM: f64 = 3.0;
 
 /// Points and radii of centerlines as in their file; NaN for unknown radii.
 #[derive(Clone, Copy, Debug)]
@@ -46,16 +46,16 @@ pub struct Judge<'a> {
     /// The extent of the volume.
     pub extent: Extent,
     /// Counts lumen-like points for a reading.
-    pub lumen: &'a dyn Fn(Place) -> LumenCount,
+    pub lumen: &'a dyn Fn(CoordinateSystem) -> LumenCount,
 }
 
 impl LumenCount {
     /// Whether these points are lumen and those of the other reading are not: at least three times as many, half of all, and
     /// twenty.
     pub(crate) fn is_evident_beside(self, other: Self) -> bool {
-        self.like_lumen >= FEWEST
+        self.like_lumen >= MIN_LUMEN_POINTS
             && 2 * self.like_lumen >= self.of
-            && self.like_lumen >= TIMES * other.like_lumen
+            && self.like_lumen >= MIN_RATIO * other.like_lumen
     }
 }
 
@@ -64,14 +64,15 @@ impl LumenCount {
 /// A point looks like lumen if its value (the median of it and six points half a radius away) exceeds three quarters of 26 values
 /// around it, a radius beyond the wall. Ranks make this independent of CT, MR or scaling. If more points are below three quarters
 /// of their surroundings, those count: the lumen is dark.
-pub fn lumen_count(volume: &Volume, lines: &Lines, place: Place) -> LumenCount {
+pub fn lumen_count(volume: &Volume, lines: &Lines, place: CoordinateSystem) -> LumenCount {
     let (scale, mm) = (place.scale(), place.unit.in_mm());
     let looked_at = spread(lines, mm);
     let (mut brighter, mut darker) = (0, 0);
     for n in &looked_at {
         let (point, radius) = (lines.points[*n] * scale, lines.radii[*n] * mm);
         let is_known = radius > 0.0;
-        let (own, away) = if is_known { (0.5 * radius, radius + radius.max(BESIDE)) } else { UNKNOWN };
+        let (own, away) =
+            if is_known { (0.5 * radius, radius + radius.max(MIN_SURROUNDINGS_MM)) } else { UNKNOWN_RADIUS };
         if let Some((below, above, all)) = ranks(volume, point, own, away) {
             brighter += usize::from(4 * below >= 3 * all);
             darker += usize::from(4 * above >= 3 * all);
@@ -80,12 +81,12 @@ pub fn lumen_count(volume: &Volume, lines: &Lines, place: Place) -> LumenCount {
     LumenCount { like_lumen: brighter.max(darker), of: looked_at.len() }
 }
 
-/// One point per cube, evenly thinned to [`MOST_POINTS`].
+/// One point per cube, evenly thinned to [`MAX_POINTS`].
 fn spread(lines: &Lines, mm: f64) -> Vec<usize> {
     let mut cubes = BTreeSet::new();
-    let cube = |point: DVec3| (point * mm / CUBE).floor().as_i64vec3().to_array();
+    let cube = |point: DVec3| (point * mm / CUBE_MM).floor().as_i64vec3().to_array();
     let kept: Vec<usize> = (0..lines.points.len()).filter(|n| cubes.insert(cube(lines.points[*n]))).collect();
-    kept.iter().copied().step_by(kept.len().div_ceil(MOST_POINTS).max(1)).collect()
+    kept.iter().copied().step_by(kept.len().div_ceil(MAX_POINTS).max(1)).collect()
 }
 
 /// How many of the values `away` from a point are below and above its own, and their count. None if the point or most of its

@@ -25,19 +25,19 @@ use crate::rays_across::{Fall, RaysAcross};
 const DIRECTIONS: usize = 180;
 
 /// The least distance of wall stations along the vessel (mm).
-const STEP: f64 = 1.0;
+const STATION_STEP_MM: f64 = 1.0;
 
 /// A ray without a wall within this many radii leaves through the opening of a branch.
-const OPEN: f64 = 1.6;
+const OPEN_RADII: f64 = 1.6;
 
 /// So does a neighbouring ray whose wall lies beyond this many contour radii: the branch's wall.
-const BESIDE_OPEN: f64 = 1.15;
+const NEAR_OPEN_RADII: f64 = 1.15;
 
 /// Smaller openings are ignored (mm²): single rays slip between stent struts.
-const SMALLEST_OPENING: f64 = 3.0;
+const MIN_OPENING_MM2: f64 = 3.0;
 
 /// A section's own contrast counts up to this many times the usual one, and down to the inverse.
-const MOST_UNLIKE: f64 = 2.0;
+const MAX_CONTRAST_RATIO: f64 = 2.0;
 
 /// The wall around a vessel.
 pub struct FoundWall {
@@ -64,7 +64,7 @@ pub fn lumen_wall(
         None => unmeasured(vessel, straightened)?,
     };
     let at = stations.iter().map(|station| station.at).collect();
-    let radius = quiet(&stations, |station, k| station.radius[k]);
+    let radius = median_filtered(&stations, |station, k| station.radius[k]);
     let open = openings(&stations);
     let mean_radius = known_radius(vessel).or_else(|| median(&mut radius.clone())).unwrap_or(1.0);
     Ok(FoundWall {
@@ -90,7 +90,7 @@ enum Exit {
 
 fn unmeasured(vessel: &Vessel, straightened: &Straightened) -> Result<Vec<Station>> {
     let length = straightened.length();
-    let count = (length / STEP).ceil().max(1.0);
+    let count = (length / STATION_STEP_MM).ceil().max(1.0);
     (0..=count as usize)
         .map(|n| {
             let share = n as f64 / count;
@@ -133,7 +133,10 @@ fn measured(
     let rays = RaysAcross { voxels: &Voxels::new(volume), straightened, directions: DIRECTIONS };
     let mut chosen: Vec<usize> = Vec::new();
     for n in 0..profile.len() {
-        if chosen.last().is_none_or(|last| profile.arc_length[n] - profile.arc_length[*last] >= STEP) {
+        if chosen
+            .last()
+            .is_none_or(|last| profile.arc_length[n] - profile.arc_length[*last] >= STATION_STEP_MM)
+        {
             chosen.push(n);
         }
     }
@@ -143,17 +146,17 @@ fn measured(
         let mut known: Vec<f64> = contour.iter().flatten().copied().collect();
         let own =
             median(&mut known).or_else(|| radius_at(vessel, at / straightened.length())).unwrap_or(usual);
-        let told = Some(profile.levels[*n]).filter(|local| is_alike(*local, levels));
+        let own_levels = Some(profile.levels[*n]).filter(|local| is_alike(*local, levels));
         // At a branch the contour may reach into it.
         let is_branching = profile.flags[*n] & BRANCH != 0;
         let usual = |k: usize| if is_branching { own } else { contour[k].unwrap_or(own) };
-        let reach = |k: usize| OPEN * usual(k);
-        let falls = told.or(levels).map(|levels| rays.falls(at, levels, reach));
+        let reach = |k: usize| OPEN_RADII * usual(k);
+        let falls = own_levels.or(levels).map(|levels| rays.falls(at, levels, reach));
         let fall = |k: usize| falls.as_ref().map_or(Fall::Unknown, |falls| falls[k]);
         let radius = |k: usize| contour[k].unwrap_or_else(|| fall(k).radius().unwrap_or(own));
         let exit = |k: usize| match fall(k) {
             Fall::Open => Exit::Yes,
-            Fall::Wall(away) if away > BESIDE_OPEN * usual(k) => Exit::Perhaps,
+            Fall::Wall(away) if away > NEAR_OPEN_RADII * usual(k) => Exit::Perhaps,
             Fall::Wall(_) | Fall::Unknown => Exit::No,
         };
         Station {
@@ -169,7 +172,7 @@ fn measured(
 fn is_alike(local: [f64; 2], usual: Option<[f64; 2]>) -> bool {
     let contrast = |[lumen, around]: [f64; 2]| lumen - around;
     let ratio = contrast(local) / usual.map_or(contrast(local), contrast);
-    ratio.is_finite() && (1.0 / MOST_UNLIKE..=MOST_UNLIKE).contains(&ratio)
+    ratio.is_finite() && (1.0 / MAX_CONTRAST_RATIO..=MAX_CONTRAST_RATIO).contains(&ratio)
 }
 
 fn median_radius(vessel: &Vessel, profile: &Profile) -> Option<f64> {
@@ -216,16 +219,17 @@ fn crossing_of(direction: DVec2, a: DVec2, b: DVec2) -> Option<f64> {
 /// Openings: directions where rays surely exit, grown over neighbours that perhaps exit, unless the whole is too small.
 fn openings(stations: &[Station]) -> Vec<bool> {
     let is_sure = |station: &Station, k: usize| f64::from(u8::from(station.exit[k] == Exit::Yes));
-    let sure: Vec<bool> = quiet(stations, is_sure).into_iter().map(|share| share > 0.5).collect();
+    let sure: Vec<bool> = median_filtered(stations, is_sure).into_iter().map(|share| share > 0.5).collect();
     let mut seen = vec![false; sure.len()];
     let mut open = vec![false; sure.len()];
     for seed in 0..sure.len() {
         if sure[seed] && !seen[seed] {
             seen[seed] = true;
             let opening = grown(seed, stations, &sure, &mut seen);
-            let area =
-                |n: &usize| STEP * TAU / DIRECTIONS as f64 * stations[n / DIRECTIONS].radius[n % DIRECTIONS];
-            if opening.iter().map(area).sum::<f64>() >= SMALLEST_OPENING {
+            let area = |n: &usize| {
+                STATION_STEP_MM * TAU / DIRECTIONS as f64 * stations[n / DIRECTIONS].radius[n % DIRECTIONS]
+            };
+            if opening.iter().map(area).sum::<f64>() >= MIN_OPENING_MM2 {
                 opening.into_iter().for_each(|n| open[n] = true);
             }
         }
@@ -252,7 +256,7 @@ fn grown(seed: usize, stations: &[Station], sure: &[bool], seen: &mut [bool]) ->
 }
 
 /// A 3 × 3 median of an image of the stations, which removes specks.
-fn quiet(stations: &[Station], value: impl Fn(&Station, usize) -> f64 + Sync) -> Vec<f64> {
+fn median_filtered(stations: &[Station], value: impl Fn(&Station, usize) -> f64 + Sync) -> Vec<f64> {
     let entry = |row: usize, k: usize| {
         let rows = rows_around(row, stations.len());
         let mut near: Vec<f64> = rows.flat_map(|row| around(k).map(|k| value(&stations[row], k))).collect();

@@ -7,10 +7,10 @@ use lumencut_core::volume::Volume;
 use crate::text::rounded;
 
 /// Largest offset of mask voxels from volume voxels, in voxels.
-const OFF_GRID: f64 = 0.1;
+const MAX_VOXEL_OFFSET: f64 = 0.1;
 /// Largest offset of corners, in the smallest voxel side.
-const SAME_GRID: f64 = 0.1;
-const ANOTHER: &str = "take the mask that was made on this scan, or resample it onto the grid of this scan";
+const MAX_CORNER_OFFSET: f64 = 0.1;
+const ADVICE: &str = "take the mask that was made on this scan, or resample it onto the grid of this scan";
 
 /// The grid of a volume or a mask.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -82,10 +82,10 @@ fn check_corners(mask: &Grid, volume: &Grid) -> Result<()> {
     let nearest =
         mask.corners().map(|own| corners.iter().map(|other| own.distance(*other)).fold(f64::MAX, f64::min));
     let apart = nearest.into_iter().fold(0.0, f64::max);
-    if apart > SAME_GRID * volume.steps().into_iter().fold(f64::MAX, f64::min) {
+    if apart > MAX_CORNER_OFFSET * volume.steps().into_iter().fold(f64::MAX, f64::min) {
         let found =
             format!("a grid whose corners lie up to {} mm from those of the volume", rounded(apart, 3));
-        return Err(refused(found, format!("the same grid, to {SAME_GRID} of a voxel")));
+        return Err(refused(found, format!("the same grid, to {MAX_CORNER_OFFSET} of a voxel")));
     }
     Ok(())
 }
@@ -99,10 +99,10 @@ pub fn place_within(mask: &Grid, volume: &Grid) -> Result<MaskPlace> {
         refused(found, format!("the voxels of the volume, {} mm", volume.millimetres()))
     })?;
     let beside = step.translation - step.translation.round();
-    if beside.abs().max_element() > OFF_GRID {
+    if beside.abs().max_element() > MAX_VOXEL_OFFSET {
         let apart = volume.world_from_index.transform_vector3(beside).length();
         let found = format!("a mask whose voxels lie {} mm away from those of the volume", rounded(apart, 3));
-        return Err(refused(found, format!("the same positions, to {OFF_GRID} of a voxel")));
+        return Err(refused(found, format!("the same positions, to {MAX_VOXEL_OFFSET} of a voxel")));
     }
     let (first, mut forward, mut low) = (step.translation.round().to_array(), [true; 3], [0; 3]);
     for (axis, column) in columns.iter().enumerate() {
@@ -126,7 +126,7 @@ fn axes_of(mask: &Grid, columns: &[DVec3; 3]) -> Option<[usize; 3]> {
         let whole = column.round();
         let drift = (*column - whole).abs().max_element() * (mask.size[axis].max(2) - 1) as f64;
         // The comparison also rejects NaN.
-        if !(drift <= OFF_GRID && whole.abs().element_sum() == 1.0) {
+        if !(drift <= MAX_VOXEL_OFFSET && whole.abs().element_sum() == 1.0) {
             return None;
         }
         axes[axis] = whole.abs().max_position();
@@ -141,7 +141,7 @@ pub fn placed_note(mask: [usize; 3], volume: [usize; 3]) -> String {
 }
 
 fn refused(found: String, expected: String) -> Error {
-    Error::new(ErrorKind::Volume, "mask", found, expected).mend(ANOTHER)
+    Error::new(ErrorKind::Volume, "mask", found, expected).mend(ADVICE)
 }
 
 #[cfg(test)]

@@ -7,13 +7,13 @@ use lumencut_core::vessel_tree::Vessel;
 use crate::vessel_views::radius_at;
 
 /// How far outside its wall a vessel is still selected (mm), and in pixels of a distant view.
-const BESIDE: f64 = 2.0;
-const PIXELS_BESIDE: f64 = 4.0;
+const CLICK_MARGIN_MM: f64 = 2.0;
+const CLICK_MARGIN_PX: f64 = 4.0;
 
 /// Whether a click selects the vessel: in its lumen or just outside. `pixel_spacing` is the pixel side (mm).
 pub fn is_meant(vessel: &Vessel, point: DVec3, pixel_spacing: f64) -> bool {
     let at = nearest_arc_length(vessel, point);
-    let reach = BESIDE.max(PIXELS_BESIDE * pixel_spacing);
+    let reach = CLICK_MARGIN_MM.max(CLICK_MARGIN_PX * pixel_spacing);
     point.distance(point_at(vessel.points(), vessel.arc_length(), at)) <= radius_at(vessel, at) + reach
 }
 

@@ -57,10 +57,10 @@ impl From<OfDicom> for Mend {
 
 impl Serialize for Mend {
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        let mut told = to.serialize_struct("Mend", 2)?;
-        told.serialize_field("name", self.name())?;
-        told.serialize_field("values", &self.values())?;
-        told.end()
+        let mut fields = to.serialize_struct("Mend", 2)?;
+        fields.serialize_field("name", self.name())?;
+        fields.serialize_field("values", &self.values())?;
+        fields.end()
     }
 }
 
@@ -82,12 +82,12 @@ mod tests {
 
     #[test]
     fn a_mend_is_told_by_its_name_and_values() {
-        let told = |mend: Mend| serde_json::to_string(&mend).expect("JSON");
-        assert_eq!(told(OfCore::Bridge.into()), r#"{"name":"bridge","values":[]}"#);
+        let json = |mend: Mend| serde_json::to_string(&mend).expect("JSON");
+        assert_eq!(json(OfCore::Bridge.into()), r#"{"name":"bridge","values":[]}"#);
         assert_eq!(
-            told(OfCenterlines::Coordinates.into()),
+            json(OfCenterlines::Coordinates.into()),
             r#"{"name":"coordinates","values":["lps","ras"]}"#
         );
-        assert_eq!(told(OfDicom::Phase(vec!["400".into()]).into()), r#"{"name":"phase","values":["400"]}"#);
+        assert_eq!(json(OfDicom::Phase(vec!["400".into()]).into()), r#"{"name":"phase","values":["400"]}"#);
     }
 }

@@ -5,7 +5,7 @@ use lumencut_io::{Space, Unit};
 
 use crate::extent::Extent;
 use crate::placement::Judge;
-use crate::places::{Place, Reading, mm, places, readings};
+use crate::places::{CoordinateSystem, Reading, mm, places, readings};
 
 /// Whether points in LPS and mm miss the volume in every space and unit.
 pub fn fits_nowhere(points: &[DVec3], volume: &Extent) -> bool {
@@ -22,7 +22,7 @@ pub struct Misplaced {
     /// The finding, in words.
     pub found: String,
     /// The place that fits for points read as LPS in mm. If its space is RAS, points read as RAS fit as LPS.
-    pub meant: Place,
+    pub meant: CoordinateSystem,
 }
 
 /// A better place for points in LPS and mm: it brings twice as many points, and a tenth of all more, into the volume (RAS read as

@@ -18,7 +18,7 @@ pub struct NotMeasured {
 }
 
 /// Shorter unmeasured ends are not reported (mm): many vessels have them.
-const SHORTEST: f64 = 10.0;
+const MIN_LENGTH_MM: f64 = 10.0;
 
 /// The unmeasured ends of a vessel.
 pub fn not_measured(profile: &Profile) -> Vec<NotMeasured> {
@@ -27,7 +27,7 @@ pub fn not_measured(profile: &Profile) -> Vec<NotMeasured> {
     let last = measured.next_back().unwrap_or(first);
     let [low, high] = [first, last].map(|n| profile.arc_length[n]);
     let ends = [(low, [0.0, low], "up to"), (high, [high, profile.length()], "from")];
-    let long = ends.into_iter().filter(|(_, [from, to], _)| to - from >= SHORTEST);
+    let long = ends.into_iter().filter(|(_, [from, to], _)| to - from >= MIN_LENGTH_MM);
     long.map(|(cut, [from, to], side)| {
         let is_bright = profile.without_wall.iter().any(|[begin, end]| *begin < to && *end > from);
         let why = if is_bright { "the vessel is as bright as its surroundings" } else { "no wall was found" };

@@ -27,7 +27,7 @@ pub fn not_suggested(profile: &Profile, at: Option<f64>, references: &[f64]) -> 
 }
 
 /// The number of reported reasons: those of the most sections.
-const MOST_REASONS: usize = 3;
+const MAX_REASONS: usize = 3;
 
 fn none_safe(profile: &Profile) -> String {
     let hindrances = profile.hindrances();
@@ -38,9 +38,9 @@ fn none_safe(profile: &Profile) -> String {
     for (bit, word) in bits {
         let count = counted(bit);
         let place = found.partition_point(|(other, _)| *other >= count);
-        if count > 0 && place < MOST_REASONS {
+        if count > 0 && place < MAX_REASONS {
             found.insert(place, (count, word));
-            found.truncate(MOST_REASONS);
+            found.truncate(MAX_REASONS);
         }
     }
     let words: Vec<&str> = found.iter().map(|(_, word)| *word).collect();

@@ -9,7 +9,7 @@ use lumencut_io::{Result, Space, Unit};
 use crate::choice::{Choice, Chosen};
 use crate::doubted_unit::{Doubt, doubted_unit};
 pub use crate::lumen_points::Judge;
-use crate::places::{Place, Statement, places, readings};
+use crate::places::{CoordinateSystem, Statement, places, readings};
 
 /// What is known about coordinates before the volume is used.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -70,7 +70,7 @@ impl Origin {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Placement {
     /// Space and unit.
-    pub place: Place,
+    pub place: CoordinateSystem,
     /// Source of the space.
     pub space_from: Origin,
     /// Source of the unit.
@@ -97,7 +97,7 @@ pub fn placement(known: &Known, points: &[DVec3], volume: Option<&Judge>) -> Res
     let unit_from = Origin::of(known.asked_unit, known.stated_unit);
     let open = [("space", space_from), ("unit", unit_from)].into_iter();
     let open: Vec<&str> = open.filter(|(_, from)| *from == Origin::Assumed).map(|(what, _)| what).collect();
-    let told = |place, space_from, unit_from, decision| Placement {
+    let placed = |place, space_from, unit_from, decision| Placement {
         place,
         space_from,
         unit_from,
@@ -111,7 +111,7 @@ pub fn placement(known: &Known, points: &[DVec3], volume: Option<&Judge>) -> Res
         },
     };
     if open.is_empty() {
-        return Ok(told(usual, space_from, unit_from, known.overruled()));
+        return Ok(placed(usual, space_from, unit_from, known.overruled()));
     }
     let nothing = format!("the file states no {}", open.join(" and no "));
     if let Some(volume) = volume {
@@ -126,24 +126,24 @@ pub fn placement(known: &Known, points: &[DVec3], volume: Option<&Judge>) -> Res
         if let Some(by_values) = by_values {
             let from = |is_chosen, from: Origin| if is_chosen { Origin::Values } else { from.decided() };
             let froms = [from(by_values.space, space_from), from(by_values.unit, unit_from)];
-            let placement = told(best.place, froms[0], froms[1], format!("{nothing}; {}", by_values.words));
+            let placement = placed(best.place, froms[0], froms[1], format!("{nothing}; {}", by_values.words));
             confirmed_by.space = confirmed_by.space.or(by_values.space.then_some(best.place.space));
             return Ok(Placement { is_unusual: true, confirmed_by, also, ..placement });
         }
         if best.inside > 0 {
-            let decision = format!("{nothing}; {}", choice.told(best));
-            let placement = told(best.place, space_from.decided(), unit_from.decided(), decision);
+            let decision = format!("{nothing}; {}", choice.decision_words(best));
+            let placement = placed(best.place, space_from.decided(), unit_from.decided(), decision);
             return Ok(Placement { confirmed_by, also, ..placement });
         }
     }
     let decision = format!("{nothing}; {usual} is assumed");
-    Ok(told(usual, space_from, unit_from, decision))
+    Ok(placed(usual, space_from, unit_from, decision))
 }
 
 impl Known {
     /// The place taken unless the volume contradicts it.
-    pub fn usual(&self) -> Place {
-        Place {
+    pub fn usual(&self) -> CoordinateSystem {
+        CoordinateSystem {
             space: self.asked_space.or(self.stated_space).unwrap_or(Space::Lps),
             unit: self.asked_unit.or(self.stated_unit).unwrap_or(self.usual_unit),
         }

@@ -23,14 +23,14 @@ const AS_GOOD: f64 = 0.8;
 
 /// A space and a unit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Place {
+pub struct CoordinateSystem {
     /// Patient coordinates, LPS or RAS.
     pub space: Space,
     /// The unit.
     pub unit: Unit,
 }
 
-impl Place {
+impl CoordinateSystem {
     /// Factors from this place to LPS in mm, per axis.
     pub fn scale(self) -> DVec3 {
         signs(self.space) * self.unit.in_mm()
@@ -49,7 +49,7 @@ impl Place {
     }
 }
 
-impl fmt::Display for Place {
+impl fmt::Display for CoordinateSystem {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{} in {}", self.space.name(), self.unit.name())
     }
@@ -73,13 +73,16 @@ pub fn signs(space: Space) -> DVec3 {
 }
 
 /// All combinations, grouped by space.
-pub fn places(spaces: &[Space], units: &[Unit]) -> Vec<Place> {
-    spaces.iter().flat_map(|space| units.iter().map(|unit| Place { space: *space, unit: *unit })).collect()
+pub fn places(spaces: &[Space], units: &[Unit]) -> Vec<CoordinateSystem> {
+    spaces
+        .iter()
+        .flat_map(|space| units.iter().map(|unit| CoordinateSystem { space: *space, unit: *unit }))
+        .collect()
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Reading {
-    pub place: Place,
+    pub place: CoordinateSystem,
     pub inside: usize,
     /// The extent of the vessels, corner to corner (mm).
     pub across: f64,
@@ -108,9 +111,9 @@ impl Reading {
     }
 }
 
-pub(crate) fn readings(points: &[DVec3], candidates: &[Place], volume: &Extent) -> Vec<Reading> {
+pub(crate) fn readings(points: &[DVec3], candidates: &[CoordinateSystem], volume: &Extent) -> Vec<Reading> {
     let bare = across(points);
-    let reading = |place: &Place| {
+    let reading = |place: &CoordinateSystem| {
         let across = bare * place.unit.in_mm();
         let is_of_body = place.unit == Unit::Millimetre || (SMALLEST..=LARGEST).contains(&across);
         let is_plausible = is_of_body && across >= (FEW_VOXELS * volume.smallest_side()).min(SHORTEST);
@@ -142,7 +145,7 @@ mod tests {
 
     #[test]
     fn a_place_brings_coordinates_to_lps_in_mm() {
-        let place = Place { space: Space::Ras, unit: Unit::Centimetre };
+        let place = CoordinateSystem { space: Space::Ras, unit: Unit::Centimetre };
         assert_eq!(DVec3::new(1.0, 2.0, 3.0) * place.scale(), DVec3::new(-10.0, -20.0, 30.0));
         assert_eq!(place.to_string(), "ras in cm");
     }
@@ -151,8 +154,8 @@ mod tests {
     fn places_go_space_by_space() {
         let all = places(&Space::ALL, &Unit::ALL);
         assert_eq!(all.len(), 10);
-        assert_eq!(all[1], Place { space: Space::Lps, unit: Unit::Millimetre });
-        assert_eq!(all[5], Place { space: Space::Ras, unit: Unit::Micrometre });
+        assert_eq!(all[1], CoordinateSystem { space: Space::Lps, unit: Unit::Millimetre });
+        assert_eq!(all[5], CoordinateSystem { space: Space::Ras, unit: Unit::Micrometre });
     }
 
     #[test]

@@ -6,34 +6,34 @@ use lumencut_core::with_voxels;
 use lumencut_core::math::statistics::{median, quantile, two_groups};
 
 /// The cube side (voxels) whose maxima separate lumen from tissue, and the number of cubes.
-const SIDE: usize = 4;
-const MOST_CUBES: f64 = 32768.0;
+const CUBE_SIDE: usize = 4;
+const MAX_CUBES: f64 = 32768.0;
 
 /// A dark value is padding if this fraction of voxels has it, and at most this fraction is darker.
-const PADDING: f64 = 0.05;
-const DARKEST: f64 = 0.01;
+const MIN_PADDING_FRACTION: f64 = 0.05;
+const MAX_DARKER_FRACTION: f64 = 0.01;
 
 /// The quantile of the peak.
-const PEAK: f64 = 0.999;
+const PEAK_QUANTILE: f64 = 0.999;
 
 /// Voxels within this fraction of the range above the darkest are air.
-const AIR: f64 = 0.25;
+const AIR_FRACTION: f64 = 0.25;
 
 /// Padding is air if the next voxel value is within this fraction of the range.
-const GAP: f64 = 0.05;
+const MAX_GAP_FRACTION: f64 = 0.05;
 
 /// If less than this fraction remains, the volume shows vessels only.
-const VESSELS_ALONE: f64 = 0.08;
+const VESSELS_ONLY_FRACTION: f64 = 0.08;
 
 /// The quantile, among voxels brighter than air, of the darkest tissue.
-const DARKEST_TISSUE: f64 = 0.1;
+const DARKEST_TISSUE_QUANTILE: f64 = 0.1;
 
 /// The largest fraction of cubes brighter than tissue, and the number of splits to get there.
-const BRIGHTER: f64 = 1.0 / 3.0;
-const PARTINGS: usize = 8;
+const MAX_BRIGHTER_FRACTION: f64 = 1.0 / 3.0;
+const MAX_SPLITS: usize = 8;
 
 /// Quantiles of cubes: the end of dark tissue; of the brighter cubes the end of edges and the lumen.
-const BRIGHTEST_TISSUE: f64 = 0.95;
+const BRIGHTEST_TISSUE_QUANTILE: f64 = 0.95;
 const EDGES: f64 = 0.2;
 
 /// Vessels only: the quantiles of edges and of lumen.
@@ -44,7 +44,7 @@ const ALONE_DIFFERENCE: f64 = 0.25;
 /// How much darker edges must be than the lumen, in the same fraction.
 const EDGE: f64 = 0.1;
 
-pub(crate) struct Looked {
+pub(crate) struct VoxelSample {
     /// All finite voxels.
     pub voxels: Vec<f64>,
     /// The maximum of each cube.
@@ -53,30 +53,30 @@ pub(crate) struct Looked {
     pub count: usize,
 }
 
-impl Looked {
+impl VoxelSample {
     #[allow(clippy::cast_lossless, clippy::unnecessary_cast)]
     pub(crate) fn at(volume: &Volume) -> Self {
         let (size, strides) = (volume.size(), volume.strides());
-        let cubes = size.map(|n| n.div_ceil(SIDE));
+        let cubes = size.map(|n| n.div_ceil(CUBE_SIDE));
         let all = cubes.iter().product::<usize>() as f64;
-        let step = ((all / MOST_CUBES).cbrt().ceil() as usize).max(1) * SIDE;
+        let step = ((all / MAX_CUBES).cbrt().ceil() as usize).max(1) * CUBE_SIDE;
         let starts = |axis: usize| (0..size[axis]).step_by(step);
         let places = |axis: usize, start: usize| {
-            (start..(start + SIDE).min(size[axis])).map(move |n| n * strides[axis])
+            (start..(start + CUBE_SIDE).min(size[axis])).map(move |n| n * strides[axis])
         };
-        let mut looked = Self { voxels: Vec::new(), largest: Vec::new(), count: 0 };
+        let mut sampled = Self { voxels: Vec::new(), largest: Vec::new(), count: 0 };
         with_voxels!(volume.voxels(), voxels => {
             for (k, j, i) in starts(2).flat_map(|k| starts(1).flat_map(move |j| starts(0).map(move |i| (k, j, i)))) {
-                let before = looked.voxels.len();
+                let before = sampled.voxels.len();
                 for (z, y) in places(2, k).flat_map(|z| places(1, j).map(move |y| (z, y))) {
-                    looked.count += places(0, i).len();
+                    sampled.count += places(0, i).len();
                     let row = places(0, i).map(|x| voxels[x + y + z] as f64);
-                    looked.voxels.extend(row.filter(|value| value.is_finite()));
+                    sampled.voxels.extend(row.filter(|value| value.is_finite()));
                 }
-                looked.largest.extend(looked.voxels[before..].iter().copied().reduce(f64::max));
+                sampled.largest.extend(sampled.voxels[before..].iter().copied().reduce(f64::max));
             }
         });
-        looked
+        sampled
     }
 }
 
@@ -99,10 +99,10 @@ pub(crate) fn range(volume: &Volume) -> [f64; 2] {
 /// The padding: a dark value shared by many but not all voxels. Sorts the voxels.
 pub(crate) fn padding(voxels: &mut [f64]) -> Option<f64> {
     voxels.sort_unstable_by(f64::total_cmp);
-    let darkest = *voxels.get((voxels.len() as f64 * DARKEST) as usize)?;
+    let darkest = *voxels.get((voxels.len() as f64 * MAX_DARKER_FRACTION) as usize)?;
     let start = voxels.partition_point(|value| *value < darkest);
     let end = voxels.partition_point(|value| *value <= darkest);
-    let is_padding = (end - start) as f64 >= PADDING * voxels.len() as f64 && end < voxels.len();
+    let is_padding = (end - start) as f64 >= MIN_PADDING_FRACTION * voxels.len() as f64 && end < voxels.len();
     is_padding.then_some(darkest)
 }
 
@@ -140,11 +140,11 @@ pub(crate) struct Populations {
 
 impl Populations {
     /// None without voxels.
-    pub(crate) fn of(looked: &mut Looked) -> Option<Self> {
-        let Air { smallest, darkest, ends, at: air, .. } = Air::of(looked)?;
-        let enough = VESSELS_ALONE * looked.count as f64;
-        let shown = without_padding(&mut looked.voxels);
-        let peak = quantile(shown, PEAK)?;
+    pub(crate) fn of(sampled: &mut VoxelSample) -> Option<Self> {
+        let Air { smallest, darkest, ends, at: air, .. } = Air::of(sampled)?;
+        let enough = VESSELS_ONLY_FRACTION * sampled.count as f64;
+        let shown = without_padding(&mut sampled.voxels);
+        let peak = quantile(shown, PEAK_QUANTILE)?;
         let mut body: Vec<f64> = shown.iter().copied().filter(|value| *value > air).collect();
         let is_body = body.len() as f64 >= enough && !body.is_empty();
         // A constant volume, or few voxels besides padding: all count.
@@ -152,7 +152,7 @@ impl Populations {
         let vessels = if is_few { shown } else { &mut body };
         let [edges, bright] = [quantile(vessels, ALONE_EDGES)?, quantile(vessels, ALONE_LUMEN)?];
         let [tissue, brightest_tissue, lumen] = if is_body {
-            let cubes = looked.largest.iter().copied().filter(|value| *value > air).collect();
+            let cubes = sampled.largest.iter().copied().filter(|value| *value > air).collect();
             of_body(median(vessels)?, cubes)?
         } else {
             let tissue = bright - (bright - edges).max(ALONE_DIFFERENCE * (bright - darkest));
@@ -174,31 +174,31 @@ struct Air {
 }
 
 impl Air {
-    fn of(looked: &mut Looked) -> Option<Self> {
-        let darkest = quantile(&mut looked.voxels, DARKEST)?;
-        let has_padding = padding(&mut looked.voxels).is_some();
-        let smallest = *looked.voxels.first()?;
-        let shown = without_padding(&mut looked.voxels);
+    fn of(sampled: &mut VoxelSample) -> Option<Self> {
+        let darkest = quantile(&mut sampled.voxels, MAX_DARKER_FRACTION)?;
+        let has_padding = padding(&mut sampled.voxels).is_some();
+        let smallest = *sampled.voxels.first()?;
+        let shown = without_padding(&mut sampled.voxels);
         let first = *shown.first()?;
-        let ends = [quantile(shown, DARKEST)?, quantile(shown, 1.0 - DARKEST)?];
+        let ends = [quantile(shown, MAX_DARKER_FRACTION)?, quantile(shown, 1.0 - MAX_DARKER_FRACTION)?];
         // Padding followed by other values without a gap is clipped air.
-        let is_air = first - darkest < GAP * (ends[1] - darkest);
+        let is_air = first - darkest < MAX_GAP_FRACTION * (ends[1] - darkest);
         let low = if is_air { darkest } else { ends[0] };
-        let at = low + AIR * (ends[1] - low);
+        let at = low + AIR_FRACTION * (ends[1] - low);
         Some(Self { smallest, darkest, ends, at, is_cut_off: has_padding && is_air })
     }
 }
 
 /// The darkest tissue (fat in CT): the 10th percentile of voxels above air. If air was clipped at a value of at least `cut_off`,
 /// that value, because tissue may be darker than the air limit. None if the volume shows hardly anything but vessels.
-pub(crate) fn darkest_tissue(looked: &mut Looked, cut_off: f64) -> Option<f64> {
-    let air = Air::of(looked)?;
+pub(crate) fn darkest_tissue(sampled: &mut VoxelSample, cut_off: f64) -> Option<f64> {
+    let air = Air::of(sampled)?;
     if air.is_cut_off && air.darkest >= cut_off {
         return Some(air.darkest);
     }
-    let enough = VESSELS_ALONE * looked.count as f64;
-    let mut body: Vec<f64> = looked.voxels.iter().copied().filter(|value| *value > air.at).collect();
-    if (body.len() as f64) < enough { None } else { quantile(&mut body, DARKEST_TISSUE) }
+    let enough = VESSELS_ONLY_FRACTION * sampled.count as f64;
+    let mut body: Vec<f64> = sampled.voxels.iter().copied().filter(|value| *value > air.at).collect();
+    if (body.len() as f64) < enough { None } else { quantile(&mut body, DARKEST_TISSUE_QUANTILE) }
 }
 
 /// Tissue, brightest tissue and lumen among tissue and bone, by the maxima of cubes.
@@ -209,16 +209,16 @@ fn of_body(tissue: f64, mut cubes: Vec<f64>) -> Option<[f64; 3]> {
     let scale = if scale > 0.0 { scale } else { f64::MIN_POSITIVE.max(1e-9 * middle.abs()) };
     let above: Vec<f64> = cubes.iter().map(|value| ((value - middle).max(0.0) / scale).asinh()).collect();
     let mut start = 0;
-    for _ in 0..PARTINGS {
+    for _ in 0..MAX_SPLITS {
         let Some(larger) = two_groups(&above[start..]) else { break };
         start += larger;
-        if (above.len() - start) as f64 <= BRIGHTER * above.len() as f64 {
+        if (above.len() - start) as f64 <= MAX_BRIGHTER_FRACTION * above.len() as f64 {
             break;
         }
     }
     let (darker, brighter) = cubes.split_at_mut(start);
     let lumen = quantile(brighter, EDGES)?;
-    Some([tissue, quantile(darker, BRIGHTEST_TISSUE).unwrap_or(lumen), lumen])
+    Some([tissue, quantile(darker, BRIGHTEST_TISSUE_QUANTILE).unwrap_or(lumen), lumen])
 }
 
 #[cfg(test)]

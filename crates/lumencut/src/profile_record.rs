@@ -140,12 +140,12 @@ struct Longest {
 }
 
 #[derive(Serialize)]
-struct Place {
+struct PlaceRecord {
     arc_length_mm: f64,
     diameter_mm: f64,
 }
 
-impl From<&Mark> for Place {
+impl From<&Mark> for PlaceRecord {
     fn from(mark: &Mark) -> Self {
         Self { arc_length_mm: mark.at, diameter_mm: mark.diameter }
     }
@@ -153,8 +153,8 @@ impl From<&Mark> for Place {
 
 #[derive(Serialize)]
 struct Suggestions {
-    narrowest: Option<Place>,
-    references: Vec<Place>,
+    narrowest: Option<PlaceRecord>,
+    references: Vec<PlaceRecord>,
     not_suggested: Vec<String>,
 }
 
@@ -162,8 +162,8 @@ impl Suggestions {
     fn of(profile: &Profile) -> Self {
         // Suggested places are sections that count.
         let found = marks(profile, None, &[]).unwrap_or_default();
-        let narrowest = found.first().map(Place::from);
-        let references = found.iter().skip(1).map(Place::from).collect();
+        let narrowest = found.first().map(PlaceRecord::from);
+        let references = found.iter().skip(1).map(PlaceRecord::from).collect();
         Self { narrowest, references, not_suggested: not_suggested(profile, None, &[]) }
     }
 }
@@ -213,7 +213,7 @@ struct StenosisRecord {
     diameter_mm: f64,
     uncertainty_mm: f64,
     reference_mm: f64,
-    references: Vec<Place>,
+    references: Vec<PlaceRecord>,
     group: Option<String>,
     doubts: Vec<String>,
 }
@@ -221,7 +221,7 @@ struct StenosisRecord {
 impl StenosisRecord {
     fn of(grade: &Grade) -> Option<Self> {
         let graded = grade.stenosis()?;
-        let place = |[at, diameter]: &[f64; 2]| Place { arc_length_mm: *at, diameter_mm: *diameter };
+        let place = |[at, diameter]: &[f64; 2]| PlaceRecord { arc_length_mm: *at, diameter_mm: *diameter };
         Some(Self {
             percent: graded.percent,
             percent_uncertainty: graded.percent_uncertainty,

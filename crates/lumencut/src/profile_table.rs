@@ -70,23 +70,23 @@ pub fn vessels_csv(vessels: &[Measured]) -> String {
         .map(|one| {
             let name = one.name.clone().unwrap_or_default();
             let before = vec![("vessel", one.id.clone()), ("name", name)];
-            Block { before, profile: one.profile, scan: one.scan, behind: told(one) }
+            Block { before, profile: one.profile, scan: one.scan, behind: grade_columns(one) }
         })
         .collect();
     csv_text(&blocks)
 }
 
 /// Columns of the marked place (empty without one), and of assumed lengths.
-fn told(one: &Measured) -> Same {
+fn grade_columns(one: &Measured) -> Same {
     let grade = one.grade;
     let stenosis = grade.and_then(Grade::stenosis);
-    let mut told = vec![
+    let mut columns = vec![
         ("stenosis", stenosis.map(of_stenosis).unwrap_or_default()),
         ("doubts", stenosis.map(|graded| of_doubts(&graded.doubts).join(" ")).unwrap_or_default()),
         ("not_graded", grade.and_then(Grade::not_graded).unwrap_or_default().to_owned()),
     ];
-    told.extend(one.assumed().map(|words| ("assumed", words.to_owned())));
-    told
+    columns.extend(one.assumed().map(|words| ("assumed", words.to_owned())));
+    columns
 }
 
 fn csv_text(blocks: &[Block]) -> String {

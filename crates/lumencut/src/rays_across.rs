@@ -8,13 +8,13 @@ use lumencut_core::reformations::cpr::Straightened;
 use lumencut_vessels::voxels::Voxels;
 
 /// Sample distance on a ray, in units of [`Voxels::sampling_side`].
-const SAMPLE: f64 = 0.4;
+const SAMPLE_STEP: f64 = 0.4;
 
 /// Values above the lumen by this fraction of its contrast are calcium or metal.
 pub(crate) const TOO_BRIGHT: f64 = 0.5;
 
 /// A ray is followed this fraction beyond its reach, to detect touching bone or calcium.
-const FARTHER: f64 = 0.5;
+const EXTRA_REACH: f64 = 0.5;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Fall {
@@ -55,7 +55,7 @@ impl RaysAcross<'_, '_> {
         let index = &self.voxels.index_from_world;
         let middle = self.straightened.world_from_straightened(DVec3::new(0.0, 0.0, at));
         let start = index.transform_point3(middle);
-        let step = SAMPLE * self.voxels.sampling_side;
+        let step = SAMPLE_STEP * self.voxels.sampling_side;
         let depth = |value: f32| (f64::from(value) - lumen) / (around - lumen);
         let ray = |k: usize| {
             let (sine, cosine) = (TAU * k as f64 / self.directions as f64).sin_cos();
@@ -69,7 +69,7 @@ impl RaysAcross<'_, '_> {
                 values[..samples(reach)].iter().map(|value| depth(*value)).collect()
             };
             match fall(&depths(reach(k)), step) {
-                Fall::Open => touching(&depths((1.0 + FARTHER) * reach(k)), step),
+                Fall::Open => touching(&depths((1.0 + EXTRA_REACH) * reach(k)), step),
                 met => met,
             }
         };

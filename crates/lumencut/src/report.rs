@@ -4,11 +4,11 @@
 mod curves;
 mod findings;
 mod markup;
+mod method_text;
 mod places;
 mod plan;
 mod plot;
 mod scale;
-mod told;
 
 use lumencut_core::error::Result;
 use lumencut_vessels::measure::profile::Profile;
@@ -21,12 +21,12 @@ use crate::study::view::method_word;
 use findings::findings;
 pub(crate) use findings::{Sentence, distances, sentences};
 use markup::{escaped, figure, paragraph};
-pub use places::{Place, ReportMark};
+pub use method_text::Stated;
+use method_text::{EXPLAINED, UNITLESS, method_text};
+pub use places::{ReportMark, ReportPlace};
 use places::{places, row, table, widest_row};
 pub use plan::{Plan, plan};
 use plot::Plot;
-pub use told::Stated;
-use told::{EXPLAINED, UNITLESS, told};
 
 const STYLE: &str = include_str!("report/style.css");
 
@@ -133,7 +133,7 @@ fn page(shown: &Shown, vessel: &VesselPage) -> Result<String> {
         plot.svg()?,
         tables(shown, vessel, &places)?,
         paragraph("small", EXPLAINED),
-        paragraph("small", &told(shown, vessel)),
+        paragraph("small", &method_text(shown, vessel)),
     ))
 }
 
@@ -153,7 +153,7 @@ fn top(shown: &Shown, vessel: &VesselPage) -> Result<String> {
     Ok(format!("<div class=\"top\">\n{}<div>\n{found}</div>\n</div>\n", figure(&view.picture, &words)?))
 }
 
-fn tables(shown: &Shown, vessel: &VesselPage, places: &[Place]) -> Result<String> {
+fn tables(shown: &Shown, vessel: &VesselPage, places: &[ReportPlace]) -> Result<String> {
     let profile = vessel.measured.profile;
     let rows = |is_suggestion: bool| {
         let these = places.iter().filter(move |place| place.is_suggestion == is_suggestion);
@@ -183,7 +183,12 @@ fn tables(shown: &Shown, vessel: &VesselPage, places: &[Place]) -> Result<String
     Ok(text)
 }
 
-fn sections(shown: &Shown, vessel: &VesselPage, places: &[Place], is_suggestion: bool) -> Result<String> {
+fn sections(
+    shown: &Shown,
+    vessel: &VesselPage,
+    places: &[ReportPlace],
+    is_suggestion: bool,
+) -> Result<String> {
     let with_pictures = places.iter().zip(&vessel.sections);
     let these = with_pictures.filter(|(place, _)| place.is_suggestion == is_suggestion);
     let figures = these.map(|(place, picture)| figure(picture, &place.caption(shown.stated.unit())));

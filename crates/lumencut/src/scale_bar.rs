@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 /// The longest bar, as a fraction of the picture's width.
-const PART: f64 = 0.25;
+const MAX_WIDTH_FRACTION: f64 = 0.25;
 
 /// A bar with a round length.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -21,7 +21,7 @@ impl ScaleBar {
     /// The longest bar of 1, 2 or 5 times a power of ten mm within a quarter of `width` (pixels; `pixel_spacing` in mm). None
     /// without a width.
     pub fn new(width: f64, pixel_spacing: f64) -> Option<Self> {
-        let room = PART * (width * pixel_spacing);
+        let room = MAX_WIDTH_FRACTION * (width * pixel_spacing);
         if !(room > 0.0 && room.is_finite()) {
             return None;
         }

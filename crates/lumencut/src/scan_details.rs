@@ -51,10 +51,10 @@ impl ScanDetails {
             ("kernel", self.kernel.as_ref().map(|kernel| format!("kernel {kernel}"))),
         ];
         let missing: Vec<&str> =
-            named.iter().filter(|(_, told)| told.is_none()).map(|(name, _)| *name).collect();
-        let told = named.iter().filter_map(|(_, told)| told.clone());
+            named.iter().filter(|(_, stated)| stated.is_none()).map(|(name, _)| *name).collect();
+        let stated = named.iter().filter_map(|(_, stated)| stated.clone());
         let missing = (!missing.is_empty()).then(|| format!("{} {NOT_STATED}", missing.join(", ")));
-        told.chain(missing).collect::<Vec<_>>().join("; ")
+        stated.chain(missing).collect::<Vec<_>>().join("; ")
     }
 
     /// Names and values of table columns.

@@ -3,14 +3,14 @@
 use std::f64::consts::PI;
 
 /// The reach of the windings beyond the largest radius: factor and margin (mm).
-const BEYOND: (f64, f64) = (1.25, 2.0);
+const REACH_FACTOR_AND_MARGIN: (f64, f64) = (1.25, 2.0);
 
 /// The pitch as a fraction of the usual radius.
-const FINE: f64 = 0.25;
+const PITCH_RADII: f64 = 0.25;
 
 /// The reach of the windings (mm) for a largest radius (mm).
 pub fn spiral_reach(largest: f64) -> f64 {
-    BEYOND.0 * largest + BEYOND.1
+    REACH_FACTOR_AND_MARGIN.0 * largest + REACH_FACTOR_AND_MARGIN.1
 }
 
 /// The space available to a spiral CPR.
@@ -31,7 +31,7 @@ pub fn spiral_pitch(usual: f64, smallest_side: f64, room: Room) -> f64 {
     let is_room = lengths.iter().all(|length| *length > 0.0 && length.is_finite());
     let fits =
         if is_room { PI * room.radius * room.radius / (room.columns * room.pixel_spacing) } else { 0.0 };
-    smallest_side.max(FINE * usual).max(fits)
+    smallest_side.max(PITCH_RADII * usual).max(fits)
 }
 
 #[cfg(test)]

@@ -4,14 +4,14 @@ use glam::DVec3;
 use lumencut_core::math::frames::MovingFrame;
 use lumencut_core::reformations::cpr::Straightened;
 
-use crate::letters::{PREFERRED, nearest_axes, sides};
+use crate::letters::{PREFERRED_AXES, nearest_axes, sides};
 
 /// Readers are warned if a true axis deviates more from its stated side (degrees).
-const MOST_TURN: f64 = 45.0;
+const MAX_TURN_DEGREES: f64 = 45.0;
 
 /// Half the length (mm) over which the middle frame is averaged, and the number of samples less one.
-const MIDDLE: f64 = 5.0;
-const PLACES: u32 = 40;
+const MIDDLE_HALF_LENGTH_MM: f64 = 5.0;
+const MIDDLE_SAMPLES: u32 = 40;
 
 const SIDES: [(char, &str); 6] =
     [('R', "right"), ('L', "left"), ('A', "front"), ('P', "back"), ('I', "feet"), ('S', "head")];
@@ -20,7 +20,7 @@ const SIDES: [(char, &str); 6] =
 const MARK: [&str; 2] = ["Lumencut straightened vessel; sides ", " deg off"];
 
 /// Letters searched after the start of a mark.
-const LONGEST: usize = 64;
+const MAX_MARK_LETTERS: usize = 64;
 
 /// Text between them for scans without and with a stated orientation.
 const BETWEEN: [&str; 2] = [" if the scan is LPS; up to ", " at its middle; up to "];
@@ -49,7 +49,7 @@ impl StraightenedSides {
     /// Parses a [`StraightenedSides::mark`] found in a text, such as a file header.
     pub fn read(text: &str) -> Option<Self> {
         let (_, rest) = text.split_once(MARK[0])?;
-        let rest = rest.get(..LONGEST.min(rest.len())).unwrap_or(rest);
+        let rest = rest.get(..MAX_MARK_LETTERS.min(rest.len())).unwrap_or(rest);
         let (is_stated, between) =
             [false, true].into_iter().zip(BETWEEN).find(|(_, words)| rest.contains(words))?;
         let (letters, rest) = rest.split_once(between)?;
@@ -67,7 +67,7 @@ impl StraightenedSides {
 
     /// The directions (LPS) of the sides.
     pub fn axes(&self) -> [DVec3; 3] {
-        let axis = |letter: char| PREFERRED.into_iter().find(|axis| sides(*axis).starts_with(letter));
+        let axis = |letter: char| PREFERRED_AXES.into_iter().find(|axis| sides(*axis).starts_with(letter));
         let mut letters = self.letters.chars();
         [(); 3].map(|()| letters.next().and_then(axis).unwrap_or_default())
     }
@@ -92,7 +92,7 @@ impl StraightenedSides {
                 "the vessel runs across the body at its middle: its sections progress to the patient's {side}"
             ));
         }
-        if self.degrees() > MOST_TURN {
+        if self.degrees() > MAX_TURN_DEGREES {
             let off = self.degrees();
             notes.push(format!(
                 "the sides of the straightened vessel hold at its middle; along the vessel they are up to {off:.1}° off"
@@ -109,9 +109,9 @@ impl StraightenedSides {
 /// The frame at the middle, averaged over a short stretch to suppress noise.
 fn middle(space: &Straightened) -> [DVec3; 3] {
     let half = space.length() / 2.0;
-    let reach = MIDDLE.min(half);
-    let frames =
-        (0..=PLACES).map(|n| space.frame(half + reach * (2.0 * f64::from(n) / f64::from(PLACES) - 1.0)));
+    let reach = MIDDLE_HALF_LENGTH_MM.min(half);
+    let frames = (0..=MIDDLE_SAMPLES)
+        .map(|n| space.frame(half + reach * (2.0 * f64::from(n) / f64::from(MIDDLE_SAMPLES) - 1.0)));
     let [tangent, ahead] = frames
         .map(|frame| [frame.tangent, frame.ahead])
         .fold([DVec3::ZERO; 2], |sum, frame| [sum[0] + frame[0], sum[1] + frame[1]]);

@@ -11,10 +11,10 @@ use lumencut_core::vessel_tree::Vessel;
 use crate::views::{fitted, spacing_for};
 
 /// The fraction of the image that the vessel fills.
-const FILLED: f64 = 0.9;
+const FILLED_FRACTION: f64 = 0.9;
 
 /// Sampled amounts from 0 to 1.
-const STEPS: usize = 17;
+const SAMPLED_AMOUNTS: usize = 17;
 
 /// The camera centred on a vessel that fits it at every amount of uncurling; direction, up and size are kept.
 ///
@@ -25,12 +25,12 @@ pub fn fitted_uncurling(camera: &Camera, vessel: &Vessel, smoothing: f64) -> Res
     let path = Arc::new(CenterlinePath::new(vessel, smoothing)?);
     let middle = fitted(camera, vessel.points())?;
     let mut reach = [0.0f64; 2];
-    for step in 0..STEPS {
-        let amount = step as f64 / (STEPS - 1) as f64;
+    for step in 0..SAMPLED_AMOUNTS {
+        let amount = step as f64 / (SAMPLED_AMOUNTS - 1) as f64;
         let extent = Uncurl::new(Arc::clone(&path), middle, amount, None)?.extent();
         reach = [reach[0].max(extent.x), reach[1].max(extent.y)];
     }
-    let spacing = spacing_for(&middle, reach.map(|side| 2.0 * side), FILLED);
+    let spacing = spacing_for(&middle, reach.map(|side| 2.0 * side), FILLED_FRACTION);
     let made = Camera::new(middle.center(), middle.direction(), middle.up(), middle.size(), spacing)?;
     made.with_axes(middle.direction(), middle.right(), middle.up())
 }

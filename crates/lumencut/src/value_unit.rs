@@ -6,13 +6,13 @@ use lumencut_core::volume::Volume;
 use lumencut_vessels::trace::lumen::surroundings::are_hounsfield;
 use lumencut_vessels::voxels::Voxels;
 
-use crate::populations::Looked;
+use crate::populations::VoxelSample;
 
 /// The quantile of metal: a stent fills little of a scan.
-const BELOW_METAL: f64 = 0.9999;
+const METAL_QUANTILE: f64 = 0.9999;
 /// Metal is this many times as far above the darkest voxels as the white end of the lumen's window. Ours: 4 in CT with a stent,
 /// at most 2.2 in MR and head scans.
-const METAL: f64 = 3.0;
+const METAL_RATIO: f64 = 3.0;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct ValueUnit {
@@ -25,14 +25,14 @@ pub(crate) struct ValueUnit {
 impl ValueUnit {
     /// Inspects a volume; `lumen` is the window of its lumen.
     pub(crate) fn of(volume: &Volume, lumen: Window) -> Self {
-        let mut voxels = Looked::at(volume).voxels;
+        let mut voxels = VoxelSample::at(volume).voxels;
         voxels.sort_unstable_by(f64::total_cmp);
         let darkest = voxels.first().copied().unwrap_or_default();
-        let brightest = quantile(&mut voxels, BELOW_METAL).unwrap_or(darkest);
+        let brightest = quantile(&mut voxels, METAL_QUANTILE).unwrap_or(darkest);
         let white = lumen.level + lumen.width / 2.0 - darkest;
         Self {
             is_hounsfield: are_hounsfield(&Voxels::new(volume)),
-            has_metal: white > 0.0 && brightest - darkest >= METAL * white,
+            has_metal: white > 0.0 && brightest - darkest >= METAL_RATIO * white,
         }
     }
 }

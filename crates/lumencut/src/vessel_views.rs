@@ -13,15 +13,15 @@ use crate::text::rounded;
 use crate::views::{Axis, FINEST, fitted, rotated};
 
 /// Half the width of a view about a place, in radii there.
-const REACH: f64 = 8.0;
+const HALF_WIDTH_RADII: f64 = 8.0;
 /// Stands for unknown radii (mm), as the default of `unknown_radius`.
-const UNKNOWN_RADIUS: f64 = 1.0;
+const UNKNOWN_RADIUS_MM: f64 = 1.0;
 /// Sine of the angle to the anterior view below which a vessel has no nearest view.
-const ALONG: f64 = 0.05;
-const DIRECTIONS: usize = 256;
-const STEPS: usize = 200;
+const MIN_ANTERIOR_SINE: f64 = 0.05;
+const TRIED_DIRECTIONS: usize = 256;
+const VISIBILITY_SAMPLES: usize = 200;
 /// Least margin around a whole vessel, in radii.
-const AROUND: f64 = 2.0;
+const MARGIN_RADII: f64 = 2.0;
 /// The cost of a half turn, as a fraction of the vessel's length.
 const TURN_COST: f64 = 0.2;
 
@@ -56,9 +56,10 @@ pub(crate) fn about_lumen(vessel: &Vessel, Lumen { at, radius }: Lumen, size: [u
     let tangent = tangent_at(&path, at);
     let up = if tangent.z < 0.0 { -tangent } else { tangent };
     let across = DVec3::Y.reject_from_normalized(up);
-    let ahead = if across.length() < ALONG { DVec3::Z.reject_from_normalized(up) } else { across };
+    let ahead =
+        if across.length() < MIN_ANTERIOR_SINE { DVec3::Z.reject_from_normalized(up) } else { across };
     let shorter = size[0].min(size[1]).max(1) as f64;
-    let spacing = (2.0 * REACH * radius / shorter).max(FINEST);
+    let spacing = (2.0 * HALF_WIDTH_RADII * radius / shorter).max(FINEST);
     Camera::new(path.at(at), ahead, up, size, spacing)
 }
 
@@ -69,7 +70,7 @@ fn tangent_at(path: &CenterlinePath, at: f64) -> DVec3 {
 
 /// The radius of a vessel at a place (mm), linear between points; 1 mm if unknown.
 pub fn radius_at(vessel: &Vessel, at: f64) -> f64 {
-    known_radius_at(vessel, at).unwrap_or(UNKNOWN_RADIUS)
+    known_radius_at(vessel, at).unwrap_or(UNKNOWN_RADIUS_MM)
 }
 
 /// As [`radius_at`]; None if unknown.
@@ -111,8 +112,8 @@ pub fn refocused(camera: &Camera, vessel: &Vessel) -> Result<Camera> {
 /// Directions spread evenly on the sphere by a golden-angle spiral.
 fn directions() -> impl Iterator<Item = DVec3> {
     let golden = PI * (3.0 - 5f64.sqrt());
-    (0..DIRECTIONS).map(move |n| {
-        let z = 1.0 - (2 * n + 1) as f64 / DIRECTIONS as f64;
+    (0..TRIED_DIRECTIONS).map(move |n| {
+        let z = 1.0 - (2 * n + 1) as f64 / TRIED_DIRECTIONS as f64;
         let (sine, cosine) = (golden * n as f64).sin_cos();
         let across = (1.0 - z * z).sqrt();
         DVec3::new(across * cosine, across * sine, z)
@@ -122,7 +123,7 @@ fn directions() -> impl Iterator<Item = DVec3> {
 /// Up in a view: the head, or the front if the view runs along the body.
 fn upright(direction: DVec3) -> DVec3 {
     let across = direction.x.hypot(direction.y);
-    if across > ALONG * direction.z.abs() { DVec3::Z } else { DVec3::NEG_Y }
+    if across > MIN_ANTERIOR_SINE * direction.z.abs() { DVec3::Z } else { DVec3::NEG_Y }
 }
 
 struct Steps {
@@ -135,8 +136,8 @@ struct Steps {
 
 impl Steps {
     fn along(path: &CenterlinePath, vessel: &Vessel) -> Self {
-        let length = path.length() / STEPS as f64;
-        let places: Vec<_> = (0..STEPS).map(|n| (n as f64 + 0.5) * length).collect();
+        let length = path.length() / VISIBILITY_SAMPLES as f64;
+        let places: Vec<_> = (0..VISIBILITY_SAMPLES).map(|n| (n as f64 + 0.5) * length).collect();
         Self {
             length,
             points: places.iter().map(|at| path.at(*at)).collect(),
@@ -148,20 +149,21 @@ impl Steps {
     /// The visible length (mm) along a direction, in projection.
     fn seen(&self, direction: DVec3) -> f64 {
         let seen = |n: usize| self.tangents[n].cross(direction).length();
-        (0..STEPS).filter(|n| !self.is_hidden(*n, direction)).map(seen).sum::<f64>() * self.length
+        (0..VISIBILITY_SAMPLES).filter(|n| !self.is_hidden(*n, direction)).map(seen).sum::<f64>()
+            * self.length
     }
 
     fn surroundings(&self, view: &Camera) -> Vec<DVec3> {
         let around = |n: usize| {
-            let reach = AROUND * self.radii[n];
+            let reach = MARGIN_RADII * self.radii[n];
             [view.right(), -view.right(), view.up(), -view.up()].map(|side| self.points[n] + side * reach)
         };
-        (0..STEPS).flat_map(around).collect()
+        (0..VISIBILITY_SAMPLES).flat_map(around).collect()
     }
 
     /// Whether another stretch, farther along than both are wide, covers a position.
     fn is_hidden(&self, n: usize, direction: DVec3) -> bool {
-        (0..STEPS).any(|other| {
+        (0..VISIBILITY_SAMPLES).any(|other| {
             let offset = self.points[other] - self.points[n];
             let along = other.abs_diff(n) as f64 * self.length;
             let depth = offset.dot(direction);

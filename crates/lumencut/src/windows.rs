@@ -8,53 +8,53 @@ use lumencut_core::vessel_tree::VesselTree;
 use lumencut_core::volume::Volume;
 use lumencut_core::with_voxels;
 
-use crate::populations::{Looked, Populations, darkest_tissue, padding, range, without_padding};
+use crate::populations::{Populations, VoxelSample, darkest_tissue, padding, range, without_padding};
 use crate::text::rounded;
 use lumencut_core::math::statistics::{median, quantile};
 
 /// Where tissue is sampled beyond the wall (mm), and the radius if unknown (mm).
-const BESIDE: f64 = 10.0;
-const UNKNOWN_RADIUS: f64 = 10.0;
+const TISSUE_DISTANCE_MM: f64 = 10.0;
+const UNKNOWN_RADIUS_MM: f64 = 10.0;
 
-const LARGEST: f64 = 1e12;
+const MAX_MAGNITUDE: f64 = 1e12;
 
 /// The lumen's least and largest position in a window, from black (0) to white (1).
-const LUMEN_AT: [f64; 2] = [0.60, 0.72];
+const LUMEN_POSITION: [f64; 2] = [0.60, 0.72];
 
 /// Black lies this many lumen–tissue differences below the lumen: without noise, and at most.
-const BELOW_LUMEN: [f64; 2] = [1.5, 2.2];
+const BLACK_BELOW_LUMEN: [f64; 2] = [1.5, 2.2];
 
 /// Black lies this many lumen–tissue differences below the darkest tissue.
-const BELOW_DARKEST_TISSUE: f64 = 0.1;
+const BLACK_BELOW_DARKEST_TISSUE: f64 = 0.1;
 
 /// Quantiles of a normal distribution at ±1 standard deviation.
-const SPREAD: [f64; 2] = [0.16, 0.84];
+const ONE_SIGMA_QUANTILES: [f64; 2] = [0.16, 0.84];
 
 /// Volume only: the position of the lumen in the window, and how far below it the brightest and the median tissue lie.
-const ALONE_LUMEN_AT: f64 = 0.67;
-const ALONE_BELOW: [f64; 2] = [0.4, 0.56];
+const VOLUME_LUMEN_POSITION: f64 = 0.67;
+const VOLUME_TISSUE_BELOW: [f64; 2] = [0.4, 0.56];
 
 /// Volume only: the least width, as a fraction of the range from darkest to brightest voxels.
-const ALONE_NARROWEST: f64 = 0.1;
+const VOLUME_MIN_WIDTH: f64 = 0.1;
 
 /// The largest widening for a MIP, so that stents and bone are not as white as the lumen.
-const MIP_WIDEST: f64 = 1.4;
+const MIP_MAX_WIDENING: f64 = 1.4;
 
 /// The fraction of the surroundings that must be inside the volume and not padding.
-const SHOWN: f64 = 0.5;
+const MIN_SHOWN_FRACTION: f64 = 0.5;
 
 /// Quantiles of voxels at the black and the white end of a whole-volume window.
-const DARKEST: f64 = 0.01;
-const BRIGHT: f64 = 0.99;
-const BRIGHTEST: f64 = 0.999;
+const DARKEST_QUANTILE: f64 = 0.01;
+const BRIGHT_QUANTILE: f64 = 0.99;
+const BRIGHTEST_QUANTILE: f64 = 0.999;
 
 /// The quantile of the lumen that stands for the brightest vessels: small ones are darker because of blur.
-const BRIGHT_LUMEN: f64 = 0.9;
+const BRIGHT_LUMEN_QUANTILE: f64 = 0.9;
 
 /// The position of the brightest vessels after widening, and from which nothing inside is visible.
-const HELD: [f64; 2] = [0.9, 0.95];
+const BRIGHT_LUMEN_POSITION: [f64; 2] = [0.9, 0.95];
 
-const OF_NOTHING: Window = Window { level: 300.0, width: 900.0 };
+const EMPTY_VOLUME_WINDOW: Window = Window { level: 300.0, width: 900.0 };
 
 /// The volume at world points (mm, LPS), trilinear; NaN outside.
 pub fn sample(volume: &Volume, points: &[DVec3]) -> Vec<f32> {
@@ -79,27 +79,28 @@ pub fn along(volume: &Volume, tree: &VesselTree) -> Result<Window> {
     let points: Vec<DVec3> = tree.vessels().iter().flat_map(|vessel| vessel.points()).copied().collect();
     let mut lumen = finite(&sample(volume, &points));
     let Some(level) = median(&mut lumen) else {
-        return Ok(OF_NOTHING);
+        return Ok(EMPTY_VOLUME_WINDOW);
     };
-    let mut looked = Looked::at(volume);
-    let Some(beyond) = tissue_around(volume, tree, level, &mut looked) else {
-        return Ok(OF_NOTHING);
+    let mut sampled = VoxelSample::at(volume);
+    let Some(beyond) = tissue_around(volume, tree, level, &mut sampled) else {
+        return Ok(EMPTY_VOLUME_WINDOW);
     };
-    let darkest_tissue = darkest_tissue(&mut looked, level - BELOW_LUMEN[1] * (level - beyond));
+    let darkest_tissue = darkest_tissue(&mut sampled, level - BLACK_BELOW_LUMEN[1] * (level - beyond));
     let mut wall = finite(&sample(volume, &beside(tree, 0.0)));
     // A dark lumen is handled as a bright one with negated values.
     let sign = if level < beyond { -1.0 } else { 1.0 };
-    for value in lumen.iter_mut().chain(&mut wall).chain(&mut looked.voxels) {
+    for value in lumen.iter_mut().chain(&mut wall).chain(&mut sampled.voxels) {
         *value *= sign;
     }
-    let [lower, upper] = SPREAD.map(|part| quantile(&mut lumen, part).unwrap_or_default());
-    let [low, high] = [DARKEST, BRIGHTEST].map(|part| quantile(&mut looked.voxels, part).unwrap_or_default());
-    let high = high.max(quantile(&mut wall, BRIGHT).unwrap_or(high));
+    let [lower, upper] = ONE_SIGMA_QUANTILES.map(|part| quantile(&mut lumen, part).unwrap_or_default());
+    let [low, high] = [DARKEST_QUANTILE, BRIGHTEST_QUANTILE]
+        .map(|part| quantile(&mut sampled.voxels, part).unwrap_or_default());
+    let high = high.max(quantile(&mut wall, BRIGHT_QUANTILE).unwrap_or(high));
     let tissue = Tissue { middle: sign * beyond, darkest: darkest_tissue.filter(|_| sign > 0.0) };
     let [black, mut white] = around_lumen(sign * level, tissue, (upper - lower) / 2.0, [low, high]);
     if sign < 0.0 {
         // Negated white is black, which is never below the whole volume.
-        white = white.min(quantile(&mut looked.voxels, 1.0).unwrap_or(white));
+        white = white.min(quantile(&mut sampled.voxels, 1.0).unwrap_or(white));
     }
     within(sign * (black + white) / 2.0, white - black, || {
         format!("values around {} along the centerlines, {} beside", rounded(level, 3), rounded(beyond, 3))
@@ -108,16 +109,16 @@ pub fn along(volume: &Volume, tree: &VesselTree) -> Result<Window> {
 
 /// The median around the vessels. If most of that is padding or outside: the darker of its visible rest and the vessels' edges,
 /// because in clipped scans most tissue looks like padding, and the only edges may be those to bone.
-fn tissue_around(volume: &Volume, tree: &VesselTree, lumen: f64, looked: &mut Looked) -> Option<f64> {
-    let places = beside(tree, BESIDE);
+fn tissue_around(volume: &Volume, tree: &VesselTree, lumen: f64, sampled: &mut VoxelSample) -> Option<f64> {
+    let places = beside(tree, TISSUE_DISTANCE_MM);
     let mut around = finite(&sample(volume, &places));
-    let padding = padding(&mut looked.voxels).unwrap_or(f64::NEG_INFINITY);
+    let padding = padding(&mut sampled.voxels).unwrap_or(f64::NEG_INFINITY);
     let mut shown: Vec<f64> = around.iter().copied().filter(|value| *value > padding).collect();
     let middle = median(&mut shown);
-    if shown.len() as f64 >= SHOWN * places.len() as f64 {
+    if shown.len() as f64 >= MIN_SHOWN_FRACTION * places.len() as f64 {
         return middle;
     }
-    let edges = Populations::of(looked)
+    let edges = Populations::of(sampled)
         .filter(|found| found.tissue < lumen && (found.has_edges || around.is_empty()))
         .map(|found| found.tissue);
     edges.map(|edges| middle.map_or(edges, |middle| edges.min(middle))).or_else(|| median(&mut around))
@@ -135,11 +136,13 @@ fn around_lumen(lumen: f64, tissue: Tissue, spread: f64, ends: [f64; 2]) -> [f64
     let mut below = 2.0 * spread;
     // Without contrast only the noise defines a window.
     if difference > spread / 2.0 {
-        let darkest = tissue.darkest.map_or(0.0, |darkest| (1.0 + BELOW_DARKEST_TISSUE) * (lumen - darkest));
-        below = below.max(darkest).clamp(BELOW_LUMEN[0] * difference, BELOW_LUMEN[1] * difference);
+        let darkest =
+            tissue.darkest.map_or(0.0, |darkest| (1.0 + BLACK_BELOW_DARKEST_TISSUE) * (lumen - darkest));
+        below =
+            below.max(darkest).clamp(BLACK_BELOW_LUMEN[0] * difference, BLACK_BELOW_LUMEN[1] * difference);
     }
     let black = (lumen - below).max(ends[0].min(tissue.middle)).min(lumen);
-    let [farthest, nearest] = LUMEN_AT.map(|place| lumen + (lumen - black) * (1.0 / place - 1.0));
+    let [farthest, nearest] = LUMEN_POSITION.map(|place| lumen + (lumen - black) * (1.0 / place - 1.0));
     [black, ends[1].clamp(nearest, farthest)]
 }
 
@@ -148,7 +151,7 @@ fn beside(tree: &VesselTree, beyond: f64) -> Vec<DVec3> {
     let sides = [DVec3::X, DVec3::Y, DVec3::Z, DVec3::NEG_X, DVec3::NEG_Y, DVec3::NEG_Z];
     let of_vessel = tree.vessels().iter().flat_map(|vessel| {
         vessel.points().iter().enumerate().flat_map(move |(i, point)| {
-            let radius = vessel.radius().map_or(UNKNOWN_RADIUS, |radii| radii[i]);
+            let radius = vessel.radius().map_or(UNKNOWN_RADIUS_MM, |radii| radii[i]);
             sides.map(|side| *point + (radius + beyond) * side)
         })
     });
@@ -163,13 +166,13 @@ pub(crate) fn of_volume(volume: &Volume) -> Result<Window> {
 /// A window without centerlines for slices, in which tissue matters: the lumen is at 60 to 72 %, and black as far below it as in
 /// [`along`]. [`of_volume`] leaves more tissue black, as projections require.
 pub(crate) fn of_slices(volume: &Volume) -> Result<Window> {
-    let mut looked = Looked::at(volume);
-    let Some(found) = Populations::of(&mut looked) else {
-        return Ok(OF_NOTHING);
+    let mut sampled = VoxelSample::at(volume);
+    let Some(found) = Populations::of(&mut sampled) else {
+        return Ok(EMPTY_VOLUME_WINDOW);
     };
     let lumen = found.lumen;
-    let tissue = cut_off_tissue(&mut looked, lumen).unwrap_or_else(|| {
-        let darkest = darkest_tissue(&mut looked, lumen - BELOW_LUMEN[1] * (lumen - found.tissue));
+    let tissue = cut_off_tissue(&mut sampled, lumen).unwrap_or_else(|| {
+        let darkest = darkest_tissue(&mut sampled, lumen - BLACK_BELOW_LUMEN[1] * (lumen - found.tissue));
         Tissue { middle: found.tissue, darkest }
     });
     let [black, white] = around_lumen(lumen, tissue, 0.0, [found.darkest, found.peak]);
@@ -178,9 +181,9 @@ pub(crate) fn of_slices(volume: &Volume) -> Result<Window> {
 
 /// The tissue of a volume with clipped dark values: most voxels above padding are nearer to it than to the lumen, and much would
 /// count as air. None for other volumes.
-fn cut_off_tissue(looked: &mut Looked, lumen: f64) -> Option<Tissue> {
-    let padding = padding(&mut looked.voxels)?;
-    let middle = median(&mut without_padding(&mut looked.voxels).to_vec())?;
+fn cut_off_tissue(sampled: &mut VoxelSample, lumen: f64) -> Option<Tissue> {
+    let padding = padding(&mut sampled.voxels)?;
+    let middle = median(&mut without_padding(&mut sampled.voxels).to_vec())?;
     (middle - padding < lumen - middle).then_some(Tissue { middle, darkest: Some(padding) })
 }
 
@@ -188,7 +191,8 @@ fn cut_off_tissue(looked: &mut Looked, lumen: f64) -> Option<Tissue> {
 pub(crate) fn holding_lumen(volume: &Volume, tree: &VesselTree) -> Result<Window> {
     let window = along(volume, tree)?;
     let black = window.level - window.width / 2.0;
-    let needed = brightest_lumen(volume, tree).map_or(0.0, |lumen| (lumen - black) / HELD[0]);
+    let needed =
+        brightest_lumen(volume, tree).map_or(0.0, |lumen| (lumen - black) / BRIGHT_LUMEN_POSITION[0]);
     let width = window.width.max(needed);
     Ok(Window { level: black + width / 2.0, width })
 }
@@ -196,32 +200,32 @@ pub(crate) fn holding_lumen(volume: &Volume, tree: &VesselTree) -> Result<Window
 /// Whether the brightest vessels are not white in a window; true without vessels.
 pub(crate) fn holds_lumen(window: Window, volume: &Volume, tree: &VesselTree) -> bool {
     let share = |lumen: f64| (lumen - window.level) / window.width + 0.5;
-    brightest_lumen(volume, tree).is_none_or(|lumen| share(lumen) <= HELD[1])
+    brightest_lumen(volume, tree).is_none_or(|lumen| share(lumen) <= BRIGHT_LUMEN_POSITION[1])
 }
 
 fn brightest_lumen(volume: &Volume, tree: &VesselTree) -> Option<f64> {
     let points: Vec<DVec3> = tree.vessels().iter().flat_map(|vessel| vessel.points()).copied().collect();
-    quantile(&mut finite(&sample(volume, &points)), BRIGHT_LUMEN)
+    quantile(&mut finite(&sample(volume, &points)), BRIGHT_LUMEN_QUANTILE)
 }
 
 /// [`of_volume`] for a MIP: white at the 99.9th percentile, if that widens it at most 1.4 times. In a MIP noise raises the lumen,
 /// so that brighter values have room.
 pub(crate) fn of_mip(volume: &Volume) -> Result<Window> {
-    alone(volume, |found, [black, width]| ((found.peak - black) / width).clamp(1.0, MIP_WIDEST))
+    alone(volume, |found, [black, width]| ((found.peak - black) / width).clamp(1.0, MIP_MAX_WIDENING))
 }
 
 /// A window from the populations, widened by the factor `wider(populations, [black, width])`.
 fn alone(volume: &Volume, wider: impl Fn(&Populations, [f64; 2]) -> f64) -> Result<Window> {
-    let Some(found) = Populations::of(&mut Looked::at(volume)) else {
-        return Ok(OF_NOTHING);
+    let Some(found) = Populations::of(&mut VoxelSample::at(volume)) else {
+        return Ok(EMPTY_VOLUME_WINDOW);
     };
     let above =
         [found.brightest_tissue, found.tissue.min(found.brightest_tissue)].map(|tissue| found.lumen - tissue);
-    let least = ALONE_NARROWEST * (found.brightest - found.darkest);
-    let width = (above[0] / ALONE_BELOW[0]).max(above[1] / ALONE_BELOW[1]).max(least);
+    let least = VOLUME_MIN_WIDTH * (found.brightest - found.darkest);
+    let width = (above[0] / VOLUME_TISSUE_BELOW[0]).max(above[1] / VOLUME_TISSUE_BELOW[1]).max(least);
     // Not below the minimum, which would then look grey.
-    let black = (found.lumen - ALONE_LUMEN_AT * width).max(found.smallest);
-    let width = (found.lumen - black) / ALONE_LUMEN_AT;
+    let black = (found.lumen - VOLUME_LUMEN_POSITION * width).max(found.smallest);
+    let width = (found.lumen - black) / VOLUME_LUMEN_POSITION;
     let width = width * wider(&found, [black, width]);
     within(black + width / 2.0, width, || from_to(found.darkest, found.brightest))
 }
@@ -231,12 +235,12 @@ fn alone(volume: &Volume, wider: impl Fn(&Populations, [f64; 2]) -> f64) -> Resu
 /// # Errors
 /// [`ErrorKind::Volume`] for values out of range.
 pub fn whole(volume: &Volume) -> Result<Window> {
-    without_unit(volume, BRIGHT)
+    without_unit(volume, BRIGHT_QUANTILE)
 }
 
 /// As [`whole`] for MR angiography, but up to the 99.9th percentile, so that vessels are not uniformly white.
 pub(crate) fn mra(volume: &Volume) -> Result<Window> {
-    without_unit(volume, BRIGHTEST)
+    without_unit(volume, BRIGHTEST_QUANTILE)
 }
 
 /// A window from the smallest to the largest voxel.
@@ -246,16 +250,16 @@ pub(crate) fn mra(volume: &Volume) -> Result<Window> {
 pub fn full(volume: &Volume) -> Result<Window> {
     let [black, white] = range(volume);
     if black > white {
-        return Ok(OF_NOTHING);
+        return Ok(EMPTY_VOLUME_WINDOW);
     }
     within(black + (white - black) / 2.0, white - black, || from_to(black, white))
 }
 
 /// From the 1st percentile to the quantile `bright` without padding.
 fn without_unit(volume: &Volume, bright: f64) -> Result<Window> {
-    let mut voxels = Looked::at(volume).voxels;
-    let Some(black) = quantile(&mut voxels, DARKEST) else {
-        return Ok(OF_NOTHING);
+    let mut voxels = VoxelSample::at(volume).voxels;
+    let Some(black) = quantile(&mut voxels, DARKEST_QUANTILE) else {
+        return Ok(EMPTY_VOLUME_WINDOW);
     };
     let white = quantile(without_padding(&mut voxels), bright).unwrap_or(black);
     within((black + white) / 2.0, white - black, || from_to(black, white))
@@ -268,7 +272,7 @@ fn from_to(low: f64, high: f64) -> String {
 /// The window with positive width, or an error that reports `found`.
 fn within(level: f64, width: f64, found: impl Fn() -> String) -> Result<Window> {
     let width = width.max(1e-3 * level.abs()).max(1e-6);
-    if level.abs() <= LARGEST && width <= LARGEST {
+    if level.abs() <= MAX_MAGNITUDE && width <= MAX_MAGNITUDE {
         return Ok(Window { level, width });
     }
     let error = Error::new(ErrorKind::Volume, "window from the data", found(), "a window within ±1e+12");

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 /// Boxes of at most this many points are leaves.
-const LEAF: usize = 8;
+const MAX_LEAF_POINTS: usize = 8;
 
 struct Node {
     low: DVec3,
@@ -37,7 +37,7 @@ impl<'a> Nearby<'a> {
             .fold((DVec3::MAX, DVec3::MIN), |(low, high), n| (low.min(points[*n]), high.max(points[*n])));
         let number = self.nodes.len();
         self.nodes.push(Node { low, high, from, to, second: None });
-        if to - from <= LEAF {
+        if to - from <= MAX_LEAF_POINTS {
             return;
         }
         let sides = (high - low).to_array();

@@ -9,25 +9,25 @@ use super::shortest_tree::ShortestTree;
 /// A step is long from this many times the usual step …
 pub(super) const LONG_STEP: f64 = 20.0;
 /// … and only beyond this fraction of the line's extent.
-const LONG_PART: f64 = 0.05;
+const LONG_STEP_FRACTION: f64 = 0.05;
 /// A line is too long from this many times the length of a short path through its points …
-const TOO_LONG: f64 = 2.0;
+const MAX_LENGTH_RATIO: f64 = 2.0;
 /// … or this many times if an unambiguous order exists.
-const LONGER_THAN_FOUND: f64 = 1.2;
+const MAX_LENGTH_RATIO_FOUND: f64 = 1.2;
 /// Steps are regular if the longest is at most this many usual steps, and high quantiles this many times low ones.
-const REGULAR: f64 = 3.0;
+const MAX_REGULAR_RATIO: f64 = 3.0;
 /// A point is a spike at this many usual steps from both neighbours.
-const SPIKE: f64 = 5.0;
+const SPIKE_STEPS: f64 = 5.0;
 /// An unambiguous order has no step of this many usual steps.
-const LONGEST_FOUND: f64 = 5.0;
+const MAX_FOUND_STEP: f64 = 5.0;
 /// Points of another stretch within this many longest steps make an order ambiguous.
-const CLEARANCE: f64 = 1.5;
+const CLEARANCE_STEPS: f64 = 1.5;
 /// A stretch is another one if the path to it is this many times the straight distance.
-const OTHER_STRETCH: f64 = 4.0;
+const OTHER_STRETCH_RATIO: f64 = 4.0;
 /// An order is ambiguous if this many points are near one.
-const MOST_NEAR: usize = 256;
-const FEWEST_POINTS: usize = 5;
-const FEWEST_WITH_SPIKE: usize = 8;
+const MAX_NEIGHBOURS: usize = 256;
+const MIN_POINTS: usize = 5;
+const MIN_POINTS_WITH_SPIKE: usize = 8;
 
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum OrderDoubt {
@@ -56,7 +56,7 @@ pub(super) struct LongStep {
 }
 
 pub(super) fn order_doubts(points: &[DVec3]) -> Vec<OrderDoubt> {
-    if points.len() < FEWEST_POINTS || is_regular(points) {
+    if points.len() < MIN_POINTS || is_regular(points) {
         return Vec::new();
     }
     let nearby = Nearby::new(points);
@@ -90,7 +90,7 @@ impl OrderDoubt {
 /// The unambiguous order along the vessel: the shortest path, with regular steps, on which each point is nearest to its
 /// neighbours from both ends.
 pub(crate) fn found_order(points: &[DVec3]) -> Option<Vec<usize>> {
-    if points.len() < FEWEST_POINTS {
+    if points.len() < MIN_POINTS {
         return None;
     }
     let nearby = Nearby::new(points);
@@ -113,10 +113,10 @@ fn found(points: &[DVec3], tree: &ShortestTree, nearby: &Nearby) -> Option<Vec<u
     let mut rank = vec![0; points.len()];
     order.iter().enumerate().for_each(|(place, n)| rank[*n] = place);
     let longest = steps.iter().copied().fold(0.0, f64::max);
-    let reach = CLEARANCE * longest;
+    let reach = CLEARANCE_STEPS * longest;
     let is_clear =
         (0..order.len()).all(|at| is_clear((points, nearby), (&order, &rank), &along, (at, reach)));
-    let is_even = median(&mut steps).is_some_and(|usual| longest <= LONGEST_FOUND * usual);
+    let is_even = median(&mut steps).is_some_and(|usual| longest <= MAX_FOUND_STEP * usual);
     (is_clear && is_even).then_some(order)
 }
 
@@ -135,10 +135,10 @@ fn is_clear(
         let (other, distance) = (rank[n], place.distance(points[n]));
         let nearest = if other < at { before } else { after };
         let is_next = other.abs_diff(at) <= 1;
-        let is_same_stretch = (along[other] - along[at]).abs() <= OTHER_STRETCH * distance;
+        let is_same_stretch = (along[other] - along[at]).abs() <= OTHER_STRETCH_RATIO * distance;
         count += 1;
         is_clear = is_next || (is_same_stretch && nearest.is_none_or(|step| distance > step));
-        is_clear &= count <= MOST_NEAR;
+        is_clear &= count <= MAX_NEIGHBOURS;
         is_clear
     });
     is_clear
@@ -149,7 +149,7 @@ fn is_regular(points: &[DVec3]) -> bool {
     let longest = steps.iter().copied().fold(0.0, f64::max);
     let parts = [0.05, 0.5, 0.95].map(|part| quantile(&mut steps, part).unwrap_or(0.0));
     let [short, usual, long] = parts;
-    longest <= REGULAR * usual && long <= REGULAR * short
+    longest <= MAX_REGULAR_RATIO * usual && long <= MAX_REGULAR_RATIO * short
 }
 
 fn steps(points: &[DVec3]) -> impl Iterator<Item = f64> + '_ {
@@ -159,7 +159,7 @@ fn steps(points: &[DVec3]) -> impl Iterator<Item = f64> + '_ {
 fn usual_and_long(points: &[DVec3], tree: &ShortestTree) -> (f64, f64) {
     let mut edges: Vec<f64> = tree.edges.iter().map(|edge| edge.2).filter(|length| *length > 0.0).collect();
     let usual = median(&mut edges).unwrap_or(0.0);
-    (usual, (LONG_STEP * usual).max(LONG_PART * extent(points)))
+    (usual, (LONG_STEP * usual).max(LONG_STEP_FRACTION * extent(points)))
 }
 
 fn extent(points: &[DVec3]) -> f64 {
@@ -178,7 +178,7 @@ fn strays(points: &[DVec3], tree: &ShortestTree, nearby: &Nearby) -> (Vec<usize>
     let is_run = |part: &&Vec<usize>| part.len() > 1 && part.windows(2).all(|pair| pair[1] == pair[0] + 1);
     let few = members.iter().filter(is_few).filter(|part| !is_run(part) && part.len() < largest);
     let mut strays: Vec<usize> = few.flatten().copied().collect();
-    let far = (SPIKE * usual).max(LONG_PART * extent(points));
+    let far = (SPIKE_STEPS * usual).max(LONG_STEP_FRACTION * extent(points));
     strays.extend((0..points.len()).filter(|n| is_spike(points, nearby, [usual, far], *n)));
     strays.sort_unstable();
     strays.dedup();
@@ -193,13 +193,13 @@ fn strays(points: &[DVec3], tree: &ShortestTree, nearby: &Nearby) -> (Vec<usize>
 
 /// Whether a point sticks out of a line that continues without it.
 fn is_spike(points: &[DVec3], nearby: &Nearby, [usual, far]: [f64; 2], n: usize) -> bool {
-    if points.len() < FEWEST_WITH_SPIKE || n == 0 || n + 1 == points.len() {
+    if points.len() < MIN_POINTS_WITH_SPIKE || n == 0 || n + 1 == points.len() {
         return false;
     }
     let [before, place, after] = [points[n - 1], points[n], points[n + 1]];
     if before.distance(place) <= far
         || place.distance(after) <= far
-        || before.distance(after) > REGULAR * usual
+        || before.distance(after) > MAX_REGULAR_RATIO * usual
     {
         return false;
     }
@@ -219,8 +219,10 @@ fn disorder(points: &[DVec3], tree: &ShortestTree, nearby: &Nearby) -> Option<Or
     let (after, longest) =
         steps(points).enumerate().fold((0, 0.0), |most, step| if step.1 > most.1 { step } else { most });
     let step = (longest > long).then_some(LongStep { after, length: longest, usual });
-    let is_too_long = length > TOO_LONG * short
-        || (found.is_some() && longest > REGULAR * usual && length > LONGER_THAN_FOUND * short);
+    let is_too_long = length > MAX_LENGTH_RATIO * short
+        || (found.is_some()
+            && longest > MAX_REGULAR_RATIO * usual
+            && length > MAX_LENGTH_RATIO_FOUND * short);
     if !is_too_long {
         let step = step?;
         let piece = tree.pieces(long);

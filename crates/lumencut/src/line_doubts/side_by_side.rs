@@ -9,19 +9,19 @@ use super::DoubtedLine;
 use super::nearby::Nearby;
 
 /// Lines nearer than this (mm) share a vessel if no radius is known …
-const NEAR: f64 = 0.5;
+const NEAR_MM: f64 = 0.5;
 /// … and else if nearer than this fraction of the smaller radius.
-const NEAR_PART: f64 = 0.5;
+const NEAR_RADII: f64 = 0.5;
 /// Sampling step along lines (mm).
-const STEP: f64 = 1.0;
-const CHORD: usize = 5;
-const MOST_PLACES: f64 = 30_000.0;
+const STEP_MM: f64 = 1.0;
+const CHORD_SAMPLES: usize = 5;
+const MAX_SAMPLES: f64 = 30_000.0;
 /// Upper bound of neighbours per sample: bounds the work; no vessel is that wide.
-const MOST_NEAR: usize = 200;
+const MAX_NEIGHBOURS: usize = 200;
 /// The shortest stretch side by side (mm) …
-const SHORTEST: f64 = 10.0;
+const MIN_LENGTH_MM: f64 = 10.0;
 /// … also in radii, because joining lines separate slowly.
-const SHORTEST_RADII: f64 = 6.0;
+const MIN_LENGTH_RADII: f64 = 6.0;
 
 struct Spot {
     vessel: usize,
@@ -45,7 +45,7 @@ pub(super) fn side_by_side(lines: &[DoubtedLine]) -> Vec<(usize, usize, f64)> {
                 others.entry(other.vessel).or_insert(smaller(spot.radius, other.radius).unwrap_or(0.0));
             }
             count += 1;
-            count < MOST_NEAR
+            count < MAX_NEIGHBOURS
         });
         for (other, radius) in others {
             runs.entry((spot.vessel, other)).or_default().add(n, radius);
@@ -78,20 +78,21 @@ impl Runs {
 
     fn longest(&self, points: &[DVec3]) -> Option<f64> {
         let lengths = self.found.iter().map(|(from, to, radius)| (length(&points[*from..=*to]), radius));
-        let long = lengths.filter(|(length, radius)| *length >= SHORTEST.max(SHORTEST_RADII * **radius));
+        let long =
+            lengths.filter(|(length, radius)| *length >= MIN_LENGTH_MM.max(MIN_LENGTH_RADII * **radius));
         long.map(|(length, _)| length).max_by(f64::total_cmp)
     }
 }
 
 fn length(points: &[DVec3]) -> f64 {
-    let corners: Vec<DVec3> = points.iter().step_by(CHORD).chain(points.last()).copied().collect();
+    let corners: Vec<DVec3> = points.iter().step_by(CHORD_SAMPLES).chain(points.last()).copied().collect();
     corners.windows(2).map(|pair| pair[0].distance(pair[1])).sum()
 }
 
 fn spots(lines: &[DoubtedLine]) -> (Vec<DVec3>, Vec<Spot>, f64) {
     let along: Vec<Vec<f64>> = lines.iter().map(|line| arc_lengths(line.points)).collect();
     let length = |along: &Vec<f64>| along.last().copied().unwrap_or(0.0);
-    let step = STEP.max(along.iter().map(length).sum::<f64>() / MOST_PLACES);
+    let step = STEP_MM.max(along.iter().map(length).sum::<f64>() / MAX_SAMPLES);
     let (mut points, mut spots) = (Vec::new(), Vec::new());
     for (vessel, (line, along)) in lines.iter().zip(&along).enumerate() {
         if line.points.is_empty() {
@@ -109,7 +110,7 @@ fn spots(lines: &[DoubtedLine]) -> (Vec<DVec3>, Vec<Spot>, f64) {
 }
 
 fn near(one: Option<f64>, other: Option<f64>) -> f64 {
-    smaller(one, other).map_or(NEAR, |radius| NEAR.min(radius).max(NEAR_PART * radius))
+    smaller(one, other).map_or(NEAR_MM, |radius| NEAR_MM.min(radius).max(NEAR_RADII * radius))
 }
 
 fn smaller(one: Option<f64>, other: Option<f64>) -> Option<f64> {

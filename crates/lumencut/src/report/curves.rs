@@ -38,7 +38,7 @@ pub(super) fn band(axes: &Axes, at: &[f64], low: &[f64], high: &[f64]) -> String
     path
 }
 
-pub(super) fn lonely(values: &[f64]) -> Vec<usize> {
+pub(super) fn isolated(values: &[f64]) -> Vec<usize> {
     stretches(values).iter().filter(|run| run.len() == 1).map(|run| run.start).collect()
 }
 

@@ -4,7 +4,7 @@ use lumencut_vessels::measure::profile::Profile;
 use serde::Serialize;
 
 use super::markup::paragraph;
-use super::told::Stated;
+use super::method_text::Stated;
 use super::{Lengths, Shown, VesselPage};
 use crate::measure_words::{of_c_arm, of_doubts, of_flags, of_stenosis};
 use crate::not_measured::not_measured;
@@ -31,20 +31,21 @@ pub(crate) struct Sentence {
 
 /// Stenosis with doubts (or why it is not graded) and group; then noted diameters and stretches.
 pub(crate) fn sentences(stated: Stated, measured: &Measured, lengths: &Lengths) -> Vec<Sentence> {
-    let told = |kind, words: &str| Sentence { kind, words: stated.spoken(words) };
+    let sentence = |kind, words: &str| Sentence { kind, words: stated.with_units(words) };
     let graded = match measured.grade {
-        Some(Grade::NotGraded(reason)) => vec![told(Kind::Finding, &format!("No percentage: {reason}"))],
+        Some(Grade::NotGraded(reason)) => vec![sentence(Kind::Finding, &format!("No percentage: {reason}"))],
         Some(Grade::Graded { stenosis, group }) => {
-            let doubts = of_doubts(&stenosis.doubts).into_iter().map(|words| told(Kind::Doubt, &words));
-            let group = group.iter().map(|group| told(Kind::Remark, &format!("Severity group: {group}")));
-            [told(Kind::Finding, &of_stenosis(stenosis))].into_iter().chain(doubts).chain(group).collect()
+            let doubts = of_doubts(&stenosis.doubts).into_iter().map(|words| sentence(Kind::Doubt, &words));
+            let group = group.iter().map(|group| sentence(Kind::Remark, &format!("Severity group: {group}")));
+            [sentence(Kind::Finding, &of_stenosis(stenosis))].into_iter().chain(doubts).chain(group).collect()
         }
         None if !lengths.diameters.is_empty() => Vec::new(),
-        None => {
-            not_suggested(measured.profile, None, &[]).iter().map(|words| told(Kind::Remark, words)).collect()
-        }
+        None => not_suggested(measured.profile, None, &[])
+            .iter()
+            .map(|words| sentence(Kind::Remark, words))
+            .collect(),
     };
-    let parts = not_measured(measured.profile).into_iter().map(|part| told(Kind::Doubt, &part.words));
+    let parts = not_measured(measured.profile).into_iter().map(|part| sentence(Kind::Doubt, &part.words));
     let noted = lengths.diameters.iter().filter_map(|at| noted(stated, measured.profile, *at));
     let noted = noted.map(|words| Sentence { kind: Kind::Finding, words });
     let stretches = stretch_words(stated, measured.profile, &lengths.stretches).into_iter();

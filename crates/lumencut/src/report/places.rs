@@ -14,7 +14,7 @@ const REFERENCE: &str = "reference";
 /// Colours of the stenosis, its references and noted diameters, as the handles in pictures.
 const COLORS: [&str; 3] = ["#ff6b6b", "#7ee787", "#79c0ff"];
 
-const NOTHING: &str = "–";
+const MISSING: &str = "–";
 
 /// A place from [`crate::profile_marks::marks`].
 #[derive(Clone, Debug, PartialEq)]
@@ -36,7 +36,7 @@ impl From<&Mark> for ReportMark {
 /// A place with its name and colour.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename = "ReportPlace"))]
-pub struct Place {
+pub struct ReportPlace {
     /// Such as `marked place` or `reference before (suggestion)`.
     pub name: String,
     /// Arc length (mm).
@@ -47,7 +47,7 @@ pub struct Place {
     pub(crate) is_reference: bool,
 }
 
-impl Place {
+impl ReportPlace {
     /// `#rrggbb`.
     pub fn color(&self) -> &'static str {
         COLORS[self.rank()]
@@ -64,7 +64,7 @@ impl Place {
 }
 
 /// The places of marks; references are named by their side of the first place.
-pub(super) fn places(marks: &[ReportMark]) -> Vec<Place> {
+pub(super) fn places(marks: &[ReportMark]) -> Vec<ReportPlace> {
     let is_main = |mark: &&ReportMark| mark.name != REFERENCE && mark.name != NOTED;
     let main = marks.iter().find(is_main).map(|mark| mark.at);
     let named = |mark: &ReportMark| {
@@ -75,18 +75,18 @@ pub(super) fn places(marks: &[ReportMark]) -> Vec<Place> {
         };
         let offered = if mark.is_suggestion { " (suggestion)" } else { "" };
         let name = format!("{}{side}{offered}", mark.name);
-        Place { name, at: mark.at, is_suggestion: mark.is_suggestion, is_reference }
+        ReportPlace { name, at: mark.at, is_suggestion: mark.is_suggestion, is_reference }
     };
     // Insertion into a short list: less code than a sort.
-    let order = |place: &Place| (place.rank(), place.at);
-    let mut found: Vec<Place> = Vec::new();
+    let order = |place: &ReportPlace| (place.rank(), place.at);
+    let mut found: Vec<ReportPlace> = Vec::new();
     for place in marks.iter().map(named) {
         found.insert(found.partition_point(|other| order(other) <= order(&place)), place);
     }
     found
 }
 
-pub(super) fn row(profile: &Profile, place: &Place, shown: &Shown) -> String {
+pub(super) fn row(profile: &Profile, place: &ReportPlace, shown: &Shown) -> String {
     let dot = format!("<span style=\"color: {}\">●</span> ", place.color());
     numbers(profile, &format!("{dot}{}", escaped(&place.name)), place.at, shown)
 }
@@ -98,7 +98,7 @@ pub(super) fn widest_row(profile: &Profile, at: f64, shown: &Shown) -> String {
 fn numbers(profile: &Profile, name: &str, at: f64, shown: &Shown) -> String {
     let n = profile.nearest_section(at);
     let number = |value: f64, decimals| {
-        if value.is_finite() { fixed(value, decimals) } else { NOTHING.to_owned() }
+        if value.is_finite() { fixed(value, decimals) } else { MISSING.to_owned() }
     };
     let diameter = 2.0 * (profile.area[n] / std::f64::consts::PI).sqrt();
     let cells = [
@@ -109,7 +109,7 @@ fn numbers(profile: &Profile, name: &str, at: f64, shown: &Shown) -> String {
         number(profile.area[n], 1),
     ];
     let cells: String = cells.iter().map(|text| format!("<td>{text}</td>")).collect();
-    let bounds = of_bounds(profile.bounds[n]).map(|words| shown.stated.spoken(&words));
+    let bounds = of_bounds(profile.bounds[n]).map(|words| shown.stated.with_units(&words));
     let flags = of_flags(profile.flags[n]).into_iter().chain(bounds).collect::<Vec<_>>().join(", ");
     let flags = if flags.is_empty() { "none" } else { &flags };
     format!("<tr><td>{name}</td>{cells}<td class=\"words\">{flags}</td></tr>\n")

@@ -6,9 +6,9 @@ use std::fmt::Write;
 use lumencut_core::error::Result;
 use lumencut_vessels::measure::profile::Profile;
 
-use super::curves::{Axes, band, line, lonely, runs};
+use super::curves::{Axes, band, isolated, line, runs};
 use super::markup::png_address;
-use super::places::Place;
+use super::places::ReportPlace;
 use super::scale::Axis;
 use super::{Strip, flag_rows};
 use crate::flag_table::FlagLook;
@@ -20,22 +20,22 @@ const CHART: f64 = 270.0;
 pub(super) const STRIP: f64 = 150.0;
 
 /// Margins for axis numbers, words, legend and ticks.
-const LEFT: f64 = 56.0;
-const RIGHT: f64 = 104.0;
-const ABOVE: f64 = 38.0;
-const BELOW: f64 = 34.0;
+const LEFT_MARGIN: f64 = 56.0;
+const RIGHT_MARGIN: f64 = 104.0;
+const TOP_MARGIN: f64 = 38.0;
+const BOTTOM_MARGIN: f64 = 34.0;
 
 /// Height of a flag row, and the largest share of all rows.
-const ROW: f64 = 12.0;
-const MOST_ROWS: f64 = 0.45;
+const ROW_HEIGHT: f64 = 12.0;
+const MAX_ROWS_SHARE: f64 = 0.45;
 
 /// Half width of the uncertainty band, in standard deviations.
 const DEVIATIONS: f64 = 2.0;
 
-const ROOM: f64 = 1.12;
+const HEADROOM: f64 = 1.12;
 
 /// Diameters below this many FWHM are near the resolution limit.
-const LIMIT: f64 = 1.5;
+const RESOLUTION_LIMIT_FWHM: f64 = 1.5;
 
 const CURVE: &str = "#1f4e9c";
 const LEFT_OUT: &str = "#808080";
@@ -44,7 +44,7 @@ const OUTLINE: &str = "#222222";
 
 pub(super) struct Plot<'a> {
     pub profile: &'a Profile,
-    pub places: &'a [Place],
+    pub places: &'a [ReportPlace],
     pub strip: Option<&'a Strip>,
     /// Whether the unit of lengths is known.
     pub has_units: bool,
@@ -60,16 +60,16 @@ struct Layout {
 
 /// The axis along a vessel of this length (mm).
 pub(super) fn axis_along(length: f64) -> Axis {
-    Axis { low: 0.0, high: length, start: LEFT, end: WIDTH - RIGHT }
+    Axis { low: 0.0, high: length, start: LEFT_MARGIN, end: WIDTH - RIGHT_MARGIN }
 }
 
 impl Layout {
     fn of(profile: &Profile) -> Self {
         let flags = flag_rows(profile);
-        let bottom = CHART - BELOW;
-        let row = ROW.min(MOST_ROWS * (bottom - ABOVE) / flags.len().max(1) as f64);
+        let bottom = CHART - BOTTOM_MARGIN;
+        let row = ROW_HEIGHT.min(MAX_ROWS_SHARE * (bottom - TOP_MARGIN) / flags.len().max(1) as f64);
         let start = bottom - row * flags.len() as f64;
-        let y = Axis { low: 0.0, high: top(profile), start, end: ABOVE };
+        let y = Axis { low: 0.0, high: top(profile), start, end: TOP_MARGIN };
         Self { axes: Axes { x: axis_along(profile.length()), y }, flags, row, bottom }
     }
 }
@@ -186,7 +186,7 @@ impl Plot<'_> {
                  <path class=\"width\" d=\"{curve}\" fill=\"none\" stroke=\"{CURVE}\" stroke-width=\"1.6\"/>\n"
             ),
         );
-        for n in lonely(&width) {
+        for n in isolated(&width) {
             push_dot(svg, [axes.x.pixel(at[n]), axes.y.pixel(width[n])], &format!("fill=\"{CURVE}\""));
         }
         let is_left_out = |n: &usize| !profile.counts(*n) && all[*n] <= axes.y.high;
@@ -198,7 +198,7 @@ impl Plot<'_> {
     }
 
     fn push_limit(&self, svg: &mut String, axes: &Axes) {
-        let limit = LIMIT * self.profile.fwhm;
+        let limit = RESOLUTION_LIMIT_FWHM * self.profile.fwhm;
         if limit < axes.y.high {
             let (at, unit) = (axes.y.pixel(limit), if self.has_units { " mm" } else { "" });
             push(
@@ -206,7 +206,7 @@ impl Plot<'_> {
                 format_args!(
                     "<path class=\"limit\" d=\"M{} {at:.2}H{}\" stroke=\"{LEFT_OUT}\" \
                      stroke-dasharray=\"1.5 3\"/><text x=\"{}\" y=\"{:.2}\" text-anchor=\"end\" \
-                     fill=\"{QUIET}\">{LIMIT} × FWHM: {}{unit}</text>\n",
+                     fill=\"{QUIET}\">{RESOLUTION_LIMIT_FWHM} × FWHM: {}{unit}</text>\n",
                     axes.x.start,
                     axes.x.end,
                     axes.x.end - 4.0,
@@ -252,7 +252,7 @@ impl Plot<'_> {
         }
     }
 
-    fn push_place(&self, svg: &mut String, layout: &Layout, place: &Place, top: f64) {
+    fn push_place(&self, svg: &mut String, layout: &Layout, place: &ReportPlace, top: f64) {
         let Axes { x, y } = layout.axes;
         let area = self.profile.area[self.profile.nearest_section(place.at)];
         let diameter = if area.is_finite() { 2.0 * (area / PI).sqrt() } else { 0.0 };
@@ -271,7 +271,7 @@ impl Plot<'_> {
                 "<g class=\"place\" stroke=\"{OUTLINE}\" fill=\"{fill}\"><path d=\"M{column:.2} 0V{top:.2}M{column:.2} {:.2}V{:.2}\" \
                  stroke=\"{color}\" stroke-width=\"1.4\"{dashes}/><path d=\"{symbol}\"/></g>\n",
                 // Keeps the words between vessel and chart clear.
-                top + ABOVE,
+                top + TOP_MARGIN,
                 top + layout.bottom
             ),
         );
@@ -282,7 +282,7 @@ fn push_legend(svg: &mut String) {
     push(
         svg,
         format_args!(
-            "<g class=\"legend\" fill=\"{QUIET}\" transform=\"translate({LEFT} 12)\">\
+            "<g class=\"legend\" fill=\"{QUIET}\" transform=\"translate({LEFT_MARGIN} 12)\">\
              <path d=\"M0 -3H18\" stroke=\"{CURVE}\" stroke-width=\"1.6\"/>\
              <text x=\"23\">diameter of a circle of the same area</text>\
              <rect x=\"238\" y=\"-8\" width=\"18\" height=\"9\" fill=\"{CURVE}\" fill-opacity=\"0.4\"/>\
@@ -312,5 +312,5 @@ fn top(profile: &Profile) -> f64 {
     };
     let counted = widest(&|n| profile.counts(n));
     let most = if counted > 0.0 { counted } else { widest(&|_| true) };
-    if most > 0.0 { ROOM * most } else { 1.0 }
+    if most > 0.0 { HEADROOM * most } else { 1.0 }
 }

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use crate::study::content::Report;
-use crate::study::document::{Document, DocumentVessel, Place};
+use crate::study::document::{Document, DocumentVessel, WorldPoint};
 use crate::study::edits::{Edit, EditMessage, Edited};
 use crate::study::failure::Result;
 use crate::study::line_facts::LineFacts;
@@ -59,7 +59,7 @@ impl Study {
     }
 
     /// What a first click hit, and the whole vessel that it would add to a list.
-    pub(crate) fn first_click(&self, click: Place, vessels: &[DocumentVessel]) -> Result<FirstClick> {
+    pub(crate) fn first_click(&self, click: WorldPoint, vessels: &[DocumentVessel]) -> Result<FirstClick> {
         self.check_click(click)?;
         Ok(FirstClick { pick: self.at(click), whole: self.whole_vessel(click, vessels)? })
     }
@@ -76,7 +76,7 @@ fn listed(document: &Document) -> Vec<ListedLine> {
 }
 
 /// The place of an edit: its click, seed or stopper.
-fn place(edit: &Edit) -> Option<Place> {
+fn place(edit: &Edit) -> Option<WorldPoint> {
     match edit {
         Edit::BeginVessel { clicks } => clicks.last().copied(),
         Edit::AddClick { point: place, .. }

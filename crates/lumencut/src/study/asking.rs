@@ -73,8 +73,8 @@ impl Answering for Picture {
 impl Answering for ReformedPicture {
     fn sent(self) -> Result<Answer> {
         let Self { size, bytes, words, pixel_spacing, marks } = self;
-        let told = serde_json::json!({ "size": size, "words": words, "pixel_spacing": pixel_spacing, "marks": marks });
-        Ok(Answer { json: as_json(&told)?, bytes: Some(bytes) })
+        let content = serde_json::json!({ "size": size, "words": words, "pixel_spacing": pixel_spacing, "marks": marks });
+        Ok(Answer { json: as_json(&content)?, bytes: Some(bytes) })
     }
 }
 

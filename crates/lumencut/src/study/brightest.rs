@@ -14,7 +14,7 @@ use crate::study::picking::Pick;
 use crate::study::view::View;
 
 /// Sampling step in units of the smallest voxel side.
-const STEP: f64 = 0.5;
+const STEP_VOXELS: f64 = 0.5;
 
 /// Depths (mm) of an unlimited ray.
 const ALL_DEPTHS: [f64; 2] = [f64::MIN, f64::MAX];
@@ -33,7 +33,7 @@ pub fn brightest_on_ray(
     let from = world_from_pixel(camera, pixel, 0.0);
     let [near, far] = chord(volume, from, camera.direction());
     let (near, far) = (near.max(within[0]), far.min(within[1]));
-    let step = STEP * volume.smallest_side();
+    let step = STEP_VOXELS * volume.smallest_side();
     let count = if near <= far { ((far - near) / step) as usize + 1 } else { 0 };
     let place = |n: usize| from + camera.direction() * (near + n as f64 * step);
     let places: Vec<DVec3> = (0..count).map(place).collect();

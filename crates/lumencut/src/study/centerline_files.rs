@@ -5,7 +5,7 @@ use crate::line_doubts::{DoubtedLine, LineDoubt, beside_doubts_of, order_doubts_
 use crate::lumen_points::{Lines, lumen_count};
 use crate::misplaced::{better_place, fits_nowhere};
 use crate::placement::{Judge, Known, Origin, Placement, placement};
-use crate::places::{Place, Statement};
+use crate::places::{CoordinateSystem, Statement};
 use crate::reordering::{in_order, parted_doubt};
 use glam::DVec3;
 use lumencut_core::vessel_tree::{Vessel, VesselTree};
@@ -142,8 +142,9 @@ fn doubts_of(vessels: &[Vessel], names: &[String]) -> Vec<LineDoubt> {
 
 /// Evidence against the unit, or other units that fit.
 fn doubt_of_unit(found: &Placement) -> Option<PlaceDoubt> {
-    let of =
-        |units: &[Unit]| units.iter().map(|unit| Place { unit: *unit, ..found.place }.to_string()).collect();
+    let of = |units: &[Unit]| {
+        units.iter().map(|unit| CoordinateSystem { unit: *unit, ..found.place }.to_string()).collect()
+    };
     if let Some(doubt) = &found.doubt {
         return Some(PlaceDoubt { found: doubt.found.clone(), readings: of(&doubt.units) });
     }
@@ -169,7 +170,7 @@ fn doubt_beside(tree: &VesselTree, volume: &Volume, read: &Placement) -> Option<
     // `better` assumes points read as LPS; for points read as RAS it is the opposite.
     let space = if better.meant.space == read.place.space { Space::Lps } else { Space::Ras };
     let is_in_mm = read.place.unit == Unit::Millimetre;
-    let meant = Place { space, ..better.meant };
+    let meant = CoordinateSystem { space, ..better.meant };
     Some(PlaceDoubt {
         found: better.found,
         readings: is_in_mm.then(|| meant.to_string()).into_iter().collect(),

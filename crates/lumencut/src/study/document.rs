@@ -6,7 +6,7 @@ use crate::study::palette::next_color;
 use crate::study::tracing::StopperMessage;
 
 /// A point in the world (LPS, mm).
-pub(crate) type Place = [f64; 3];
+pub(crate) type WorldPoint = [f64; 3];
 
 #[derive(Clone, Debug, Default, Deserialize, PartialEq, Serialize)]
 #[serde(rename_all = "camelCase")]
@@ -22,7 +22,7 @@ pub(crate) struct DocumentVessel {
     pub(crate) color: String,
     pub(crate) is_hidden: bool,
     /// Its clicks in order; none if it came from a file, mask or seed, or was cut or joined.
-    pub(crate) clicks: Option<Vec<Place>>,
+    pub(crate) clicks: Option<Vec<WorldPoint>>,
     /// Why a found branch is doubtful, until it is accepted.
     pub(crate) doubt: Option<String>,
 }

@@ -1,15 +1,15 @@
 //! A document during an edit: added vessels, lost marks and new clicks.
 
-use crate::study::document::{Document, DocumentVessel, Place};
+use crate::study::document::{Document, DocumentVessel, WorldPoint};
 use crate::study::edits::Edit;
 use crate::study::failure::Failure;
 use crate::study::names::{fresh_name, part_name};
 use crate::study::tracing::StopperMessage;
 
 /// Radius of a stopper (mm), as in Python.
-const STOPPER_RADIUS: f64 = 3.0;
+const STOPPER_RADIUS_MM: f64 = 3.0;
 
-const FEWEST: usize = 2;
+const MIN_CLICKS: usize = 2;
 
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Draft {
@@ -78,26 +78,26 @@ impl Draft {
     }
 
     /// Begins a vessel between clicks; its line follows once traced.
-    pub(crate) fn begin(&mut self, clicks: &[Place]) {
+    pub(crate) fn begin(&mut self, clicks: &[WorldPoint]) {
         let id = self.add_named(0, "", "Vessel").id;
         self.give_clicks(id, clicks.to_vec());
     }
 
-    pub(crate) fn give_clicks(&mut self, id: u32, clicks: Vec<Place>) {
+    pub(crate) fn give_clicks(&mut self, id: u32, clicks: Vec<WorldPoint>) {
         self.new_clicks = (0..clicks.len()).map(|number| (id, number)).collect();
         if let Some(vessel) = self.vessel(id) {
             vessel.clicks = Some(clicks);
         }
     }
 
-    pub(crate) fn insert_click(&mut self, id: u32, before: Option<usize>, point: Place) {
+    pub(crate) fn insert_click(&mut self, id: u32, before: Option<usize>, point: WorldPoint) {
         let Some(clicks) = self.clicks(id) else { return };
         let number = before.map_or(clicks.len(), |before| before.min(clicks.len()));
         clicks.insert(number, point);
         self.new_clicks.push((id, number));
     }
 
-    pub(crate) fn move_click(&mut self, id: u32, number: usize, point: Place) {
+    pub(crate) fn move_click(&mut self, id: u32, number: usize, point: WorldPoint) {
         if let Some(click) = self.clicks(id).and_then(|clicks| clicks.get_mut(number)) {
             *click = point;
             self.new_clicks.push((id, number));
@@ -107,7 +107,7 @@ impl Draft {
     /// Removes a click, or the whole vessel; returns whether a line must be traced.
     pub(crate) fn remove_click(&mut self, id: u32, number: usize) -> bool {
         let Some(clicks) = self.clicks(id).filter(|clicks| number < clicks.len()) else { return false };
-        let is_kept = clicks.len() > FEWEST;
+        let is_kept = clicks.len() > MIN_CLICKS;
         if is_kept {
             clicks.remove(number);
         } else {
@@ -121,7 +121,7 @@ impl Draft {
         let stoppers = &mut self.document.stoppers;
         match edit {
             Edit::AddStopper { center } => {
-                stoppers.push(StopperMessage { center: *center, radius: STOPPER_RADIUS });
+                stoppers.push(StopperMessage { center: *center, radius: STOPPER_RADIUS_MM });
             }
             Edit::MoveStopper { number, center } => {
                 if let Some(stopper) = stoppers.get_mut(*number) {
@@ -135,7 +135,7 @@ impl Draft {
         }
     }
 
-    pub(crate) fn clicked(&self) -> impl Iterator<Item = (&DocumentVessel, &Vec<Place>)> {
+    pub(crate) fn clicked(&self) -> impl Iterator<Item = (&DocumentVessel, &Vec<WorldPoint>)> {
         self.document.vessels.iter().filter_map(|vessel| Some((vessel, vessel.clicks.as_ref()?)))
     }
 
@@ -158,7 +158,7 @@ impl Draft {
         self.document.vessels.iter_mut().find(|vessel| vessel.id == id)
     }
 
-    fn clicks(&mut self, id: u32) -> Option<&mut Vec<Place>> {
+    fn clicks(&mut self, id: u32) -> Option<&mut Vec<WorldPoint>> {
         self.vessel(id)?.clicks.as_mut()
     }
 }

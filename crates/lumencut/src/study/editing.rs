@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::study::document::{Document, DocumentVessel, Place};
+use crate::study::document::{Document, DocumentVessel, WorldPoint};
 use crate::study::draft::Draft;
 use crate::study::edits::{Edit, EditMessage, Edited};
 use crate::study::failure::Result;
@@ -35,7 +35,7 @@ impl Study {
                 self.add_whole_vessel(&mut draft, &mut notes, (*click, watch)).map(|()| false)
             }
             Edit::FindVessels { doubtful } => {
-                self.add_found(&mut draft, *doubtful, watch).map(|told| notes = told).map(|()| false)
+                self.add_found(&mut draft, *doubtful, watch).map(|found| notes = found).map(|()| false)
             }
             Edit::AddMask => self.add_mask(&mut draft, &mut notes, watch).map(|()| false),
             Edit::Cut { id, at } => self.cut_vessel(&mut draft, *id, *at).map(|()| false),
@@ -77,7 +77,7 @@ impl Study {
         Ok(())
     }
 
-    fn add_branches(&mut self, draft: &mut Draft, seed: Place, watch: Watch) -> Result<()> {
+    fn add_branches(&mut self, draft: &mut Draft, seed: WorldPoint, watch: Watch) -> Result<()> {
         // Reject a seed in bone or fat at once, instead of after a search of the whole scan.
         self.check_click(seed)?;
         for branch in self.trace_from(seed, watch)? {
@@ -122,7 +122,7 @@ impl Study {
         Ok(())
     }
 
-    fn add_click_on_line(&mut self, draft: &mut Draft, id: u32, point: Place) -> Result<()> {
+    fn add_click_on_line(&mut self, draft: &mut Draft, id: u32, point: WorldPoint) -> Result<()> {
         let Some(vessel) = draft.document.vessel(id).filter(|vessel| vessel.is_sure()) else {
             return Ok(());
         };

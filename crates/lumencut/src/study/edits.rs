@@ -5,7 +5,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::study::document::{Document, Place};
+use crate::study::document::{Document, WorldPoint};
 use crate::study::lines::NamedLine;
 use crate::study::telling::Told;
 
@@ -15,22 +15,22 @@ use crate::study::telling::Told;
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub(crate) enum Edit {
     BeginVessel {
-        clicks: Vec<Place>,
+        clicks: Vec<WorldPoint>,
     },
     AddClick {
         id: u32,
-        point: Place,
+        point: WorldPoint,
     },
     /// A click between others, where a vessel was dragged. A vessel without clicks first gets clicks along its line, so that it
     /// keeps its course.
     AddClickOnLine {
         id: u32,
-        point: Place,
+        point: WorldPoint,
     },
     MoveClick {
         id: u32,
         number: usize,
-        point: Place,
+        point: WorldPoint,
     },
     /// Removes a click; a vessel left with one click is removed.
     RemoveClick {
@@ -38,11 +38,11 @@ pub(crate) enum Edit {
         number: usize,
     },
     AddStopper {
-        center: Place,
+        center: WorldPoint,
     },
     MoveStopper {
         number: usize,
-        center: Place,
+        center: WorldPoint,
     },
     RemoveStopper {
         number: usize,
@@ -66,11 +66,11 @@ pub(crate) enum Edit {
     },
     /// All branches connected to a seed; doubtful ones wait for acceptance.
     AddBranches {
-        seed: Place,
+        seed: WorldPoint,
     },
     /// The whole vessel at a click, from the nearest existing vessel to its end.
     AddWholeVessel {
-        click: Place,
+        click: WorldPoint,
     },
     /// All vessels of the scan; doubtful ones wait for acceptance.
     FindVessels {

@@ -3,7 +3,7 @@
 use lumencut_core::volume::{Real, Voxel};
 use serde::Serialize;
 
-const MOST: usize = 500_000;
+const MAX_VOXELS: usize = 500_000;
 
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
@@ -18,7 +18,7 @@ impl Histogram {
     /// Samples large volumes; ignores NaN.
     pub(crate) fn of<T: Voxel>(voxels: &[T], bins: usize) -> Self {
         let values = || {
-            let looked_at = voxels.iter().step_by(voxels.len().div_ceil(MOST).max(1));
+            let looked_at = voxels.iter().step_by(voxels.len().div_ceil(MAX_VOXELS).max(1));
             looked_at.map(|voxel| voxel.real().to_f32()).filter(|value| value.is_finite())
         };
         let low = values().fold(f32::MAX, f32::min);

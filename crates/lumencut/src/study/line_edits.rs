@@ -12,8 +12,8 @@ use crate::study::lines::{Line, wrong};
 pub(crate) const MEETING: f64 = 0.1;
 
 /// Ends to join may be this far apart (mm), or this many radii of the wider one: as far as tracing goes without a bridge.
-const FARTHEST: f64 = 5.0;
-const FARTHEST_RADII: f64 = 2.0;
+const MAX_JOIN_MM: f64 = 5.0;
+const MAX_JOIN_RADII: f64 = 2.0;
 
 /// Largest point distance in a gap between joined ends (mm).
 const GAP_STEP: f64 = STEP;
@@ -74,7 +74,7 @@ pub fn join(first: &Line, second: &Line) -> Result<Line> {
     let nearest = pairs.into_iter().min_by(|a, b| apart(*a).total_cmp(&apart(*b))).unwrap_or_default();
     let distance = apart(nearest);
     let radius = end(&one, nearest[0]).radius.max(end(&other, nearest[1]).radius);
-    let farthest = FARTHEST.max(FARTHEST_RADII * radius);
+    let farthest = MAX_JOIN_MM.max(MAX_JOIN_RADII * radius);
     if distance > farthest {
         let found = format!("ends that are {distance:.1} mm apart");
         let expected = format!("ends that are at most {farthest:.1} mm apart");

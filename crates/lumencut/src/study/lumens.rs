@@ -5,7 +5,7 @@ use lumencut_vessels::trace::lumen::on_ray::lumens_on_ray;
 use lumencut_vessels::trace::lumen::seen::{SeenLumen, lumen_at};
 use serde::{Deserialize, Serialize};
 
-use crate::study::document::Place;
+use crate::study::document::WorldPoint;
 use crate::study::failure::Result;
 use crate::study::held_volume::no_volume;
 use crate::study::open_study::Study;
@@ -14,25 +14,25 @@ use crate::study::open_study::Study;
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename = "PointedAt"))]
 pub(crate) struct PointedMessage {
     /// The place (LPS, mm).
-    pub point: Place,
+    pub point: WorldPoint,
     /// Unit vector of the ray, away from the viewer; none for the place itself.
-    pub along: Option<Place>,
+    pub along: Option<WorldPoint>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub(crate) struct PointedLumen {
     /// The pointed place in it; on a ray, the one nearest its centre.
-    pub point: Place,
+    pub point: WorldPoint,
     /// Its centre.
-    pub center: Place,
+    pub center: WorldPoint,
     /// Its diameter (mm).
     pub diameter: f64,
     /// The median value at its centre.
     pub value: f64,
     /// The section's right.
-    pub right: Place,
-    pub(crate) down: Place,
+    pub right: WorldPoint,
+    pub(crate) down: WorldPoint,
 }
 
 impl Study {
@@ -47,12 +47,12 @@ impl Study {
             }
             None => lumen_at(&volume, point).map(|one| (one, point)).into_iter().collect(),
         };
-        Ok(seen.into_iter().map(|(one, place)| told(&one, place)).collect())
+        Ok(seen.into_iter().map(|(one, place)| with_section(&one, place)).collect())
     }
 }
 
 /// A lumen with its section: anterior, else the head, is up.
-fn told(seen: &SeenLumen, place: DVec3) -> PointedLumen {
+fn with_section(seen: &SeenLumen, place: DVec3) -> PointedLumen {
     let upright = |to: DVec3| (-to).reject_from_normalized(seen.along);
     let (front, head) = (upright(DVec3::NEG_Y), upright(DVec3::Z));
     let down = if front.length() > 0.3 { front } else { head }.normalize();

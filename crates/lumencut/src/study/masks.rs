@@ -65,11 +65,11 @@ impl Study {
         let scan = self.content.held.as_ref().ok_or_else(no_volume)?;
         let volume = scan.volume()?;
         let place = place_of(&Grid::from(&held.volume()?), &Grid::from(&volume))?;
-        let mut told: Vec<String> = place.iter().map(|_| placed_note(held.size, scan.size)).collect();
+        let mut all_notes: Vec<String> = place.iter().map(|_| placed_note(held.size, scan.size)).collect();
         let mask = place.map_or(Ok(None), |place| placed(&held, &place, scan).map(Some))?.unwrap_or(held);
         check_labels(&mask.stored)?;
         let traced = traced(&mask.volume()?, &volume, watch)?;
-        told.extend(notes(&traced, &mask.volume()?, true));
+        all_notes.extend(notes(&traced, &mask.volume()?, true));
         drop(mask);
         let several = traced.vessels.iter().any(|vessel| vessel.label != traced.vessels[0].label);
         let added = traced.vessels.into_iter().map(|vessel| {
@@ -77,7 +77,7 @@ impl Study {
             let name = label_names.get(&vessel.label).cloned().unwrap_or_else(numbered);
             Ok(NamedLine { line: self.lines.add(line_of(vessel))?, name })
         });
-        Ok(MaskLines { lines: added.collect::<Result<_>>()?, notes: told })
+        Ok(MaskLines { lines: added.collect::<Result<_>>()?, notes: all_notes })
     }
 }
 

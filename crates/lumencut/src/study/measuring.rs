@@ -10,7 +10,7 @@ use lumencut_vessels::measure::profile::Profile;
 use crate::study::failure::Result;
 use crate::study::measure_messages::VesselMessage;
 use crate::study::open_study::Study;
-use crate::study::profiles::{Asking, Profiles};
+use crate::study::profiles::{ProfileParameters, Profiles};
 
 pub(super) struct GradedVessel {
     number: usize,
@@ -20,7 +20,7 @@ pub(super) struct GradedVessel {
 impl Study {
     /// The profile of a shown line for a point-spread width (mm), or for the tree's own.
     pub fn profile(&mut self, line: usize, fwhm: Option<f64>, stop: Stop) -> Result<&Profile> {
-        let found = self.profiles.of(&self.content, line, &Asking { fwhm, stop })?;
+        let found = self.profiles.of(&self.content, line, &ProfileParameters { fwhm, stop })?;
         self.profiles.ask_with(line, fwhm);
         Ok(self.profiles.kept(found))
     }
@@ -95,7 +95,7 @@ impl Study {
     fn all_of(&mut self, vessels: &[VesselMessage], stop: Stop) -> Result<Vec<usize>> {
         let (profiles, content) = (&mut self.profiles, &self.content);
         let of = |one: &VesselMessage| {
-            profiles.of(content, one.line, &Asking { fwhm: profiles.width(one.line), stop })
+            profiles.of(content, one.line, &ProfileParameters { fwhm: profiles.width(one.line), stop })
         };
         vessels.iter().map(of).collect()
     }

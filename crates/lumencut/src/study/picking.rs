@@ -30,12 +30,12 @@ impl Study {
         if !cut.is_shown {
             // Outside the scan there is no brightest place, and no vessel.
             let brightest = self.brightest_on_whole_ray(view, pixel);
-            return Ok(brightest.unwrap_or_else(|_| self.told(cut.point, None)));
+            return Ok(brightest.unwrap_or_else(|_| self.pick_at(cut.point, None)));
         }
         let spacing = view.camera.pixel_spacing();
         let is_meant =
             |vessel: &usize| self.vessel(*vessel).is_ok_and(|vessel| is_meant(vessel, cut.point, spacing));
-        Ok(self.told(cut.point, cut.vessel.filter(is_meant)))
+        Ok(self.pick_at(cut.point, cut.vessel.filter(is_meant)))
     }
 
     /// The cut surface at a pixel (column, row).
@@ -44,7 +44,7 @@ impl Study {
         Ok(cut_at((&mut self.cpu, view.method), &scene, (&view.camera, &view.settings), pixel)?)
     }
 
-    pub(super) fn told(&self, point: DVec3, vessel: Option<usize>) -> Pick {
+    pub(super) fn pick_at(&self, point: DVec3, vessel: Option<usize>) -> Pick {
         let arc_length = vessel
             .and_then(|vessel| self.vessel(vessel).ok())
             .map(|vessel| nearest_arc_length(vessel, point));
@@ -58,7 +58,7 @@ impl Study {
             let near = vessel.points().iter().zip(0..);
             near.into_iter().any(|(p, i): (&DVec3, usize)| p.distance(point) <= vessel.radius_or_zero(i))
         });
-        self.told(point, inside)
+        self.pick_at(point, inside)
     }
 
     fn value(&self, point: DVec3) -> Option<f32> {

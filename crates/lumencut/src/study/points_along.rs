@@ -6,9 +6,9 @@ use glam::DVec3;
 use lumencut_core::math::arc_length::arc_lengths;
 
 /// Spacing of generated clicks (mm).
-const APART: f64 = 20.0;
+const CLICK_SPACING_MM: f64 = 20.0;
 /// Generated clicks keep this distance from the ends and from the dragged point (mm).
-const NEAREST: f64 = 5.0;
+const MIN_DISTANCE_MM: f64 = 5.0;
 
 pub(super) fn nearest_point(points: &[DVec3], place: DVec3) -> usize {
     let apart = |n: &usize| points[*n].distance(place);
@@ -28,9 +28,9 @@ pub(super) fn points_along(points: &[DVec3], number: usize) -> BTreeSet<usize> {
     let last = points.len() - 1;
     let total = lengths[last];
     let fixed = [0, number, last];
-    let pieces = (total / APART).round().max(1.0) as usize;
+    let pieces = (total / CLICK_SPACING_MM).round().max(1.0) as usize;
     let between = (1..pieces).map(|piece| piece as f64 * total / pieces as f64);
-    let far = between.filter(|place| fixed.iter().all(|n| (lengths[*n] - place).abs() > NEAREST));
+    let far = between.filter(|place| fixed.iter().all(|n| (lengths[*n] - place).abs() > MIN_DISTANCE_MM));
     let chosen = far.map(|place| lengths.partition_point(|length| *length < place));
     fixed.into_iter().chain(chosen).collect()
 }

@@ -26,7 +26,12 @@ pub(crate) struct Profiles {
 
 impl Profiles {
     /// The cache index of a line's profile; measures it if needed.
-    pub(crate) fn of(&mut self, content: &Content, line: usize, asking: &Asking) -> Result<usize> {
+    pub(crate) fn of(
+        &mut self,
+        content: &Content,
+        line: usize,
+        parameters: &ProfileParameters,
+    ) -> Result<usize> {
         let (listed, tree) = content.named.as_ref().map_or((&[][..], &[][..]), NamedTree::measured_among);
         if self.listed != listed {
             self.kept = KeptProfiles::default();
@@ -36,13 +41,13 @@ impl Profiles {
         let number = listed.iter().position(|own| *own == line);
         let not_shown = || wrong("number", line.to_string(), "one of the lines that are shown");
         let number = number.ok_or_else(not_shown)?;
-        let asking = kept_profiles::Asking {
+        let parameters = kept_profiles::MeasureParameters {
             step: STEP,
-            fwhm: asking.fwhm,
+            fwhm: parameters.fwhm,
             wall: WallRequest::Automatic,
-            stop: asking.stop,
+            stop: parameters.stop,
         };
-        Ok(self.kept.of(line, &tree[number], Scan { volume, tree }, &asking)?)
+        Ok(self.kept.of(line, &tree[number], Scan { volume, tree }, &parameters)?)
     }
 
     /// The profile at the last index from [`Profiles::of`].
@@ -66,7 +71,7 @@ impl Profiles {
     }
 }
 
-pub(crate) struct Asking<'a> {
+pub(crate) struct ProfileParameters<'a> {
     /// Point-spread width (mm), if given.
     pub fwhm: Option<f64>,
     pub stop: Stop<'a>,

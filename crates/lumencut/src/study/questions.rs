@@ -43,7 +43,7 @@ type Vector = [f64; 3];
 type Window = [f64; 2];
 
 /// Time limit of a path search while the pointer moves (ms).
-const PATIENCE: f64 = 40.0;
+const PATH_TIME_LIMIT_MS: f64 = 40.0;
 
 questions! { |study, asking|
 of_the_study {
@@ -124,7 +124,7 @@ of_the_study {
 
     /// The path to the pointer through voxel centres; null if not found within 40 ms. Never rejected for lack of lumen.
     [Turn::First] path(request: PathMessage) -> Option<Vec<Vector>> = {
-        let end = (asking.clock)() + PATIENCE;
+        let end = (asking.clock)() + PATH_TIME_LIMIT_MS;
         study.path(&request, &|| (asking.clock)() >= end)?
     };
 

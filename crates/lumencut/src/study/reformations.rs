@@ -26,7 +26,7 @@ use crate::study::failure::{Failure, Result};
 use crate::uncurling::fitted_uncurling;
 
 /// The smallest pixel side used to fill a pane (mm).
-const FINEST: f64 = 0.05;
+const MIN_PIXEL_MM: f64 = 0.05;
 
 /// The range beyond the wall that a map samples (mm).
 pub(crate) const BAND: [f64; 2] = [-1.0, 3.0];
@@ -198,5 +198,5 @@ pub(crate) fn head_up() -> View {
 /// The pixel side (mm) at which an extent (mm) fits a pane.
 fn filling(extent: DVec2, size: [usize; 2]) -> f64 {
     let [width, height] = size.map(|side| side.saturating_sub(2).max(1) as f64);
-    (extent.x / width).max(extent.y / height).max(FINEST)
+    (extent.x / width).max(extent.y / height).max(MIN_PIXEL_MM)
 }

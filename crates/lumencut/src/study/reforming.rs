@@ -59,8 +59,8 @@ impl Study {
             }
             laid => (reformed.message.vessel(), laid.arc_length(pixel)),
         };
-        let told = self.told(point, vessel);
-        Ok(Some(Pick { arc_length: along.or(told.arc_length), ..told }))
+        let pick = self.pick_at(point, vessel);
+        Ok(Some(Pick { arc_length: along.or(pick.arc_length), ..pick }))
     }
 
     /// Column and row of a world point in the last reformation; None if not shown.

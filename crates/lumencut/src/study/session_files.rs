@@ -14,7 +14,7 @@ use crate::study::open_study::Study;
 const SOFTWARE: &str = concat!("lumencut ", env!("CARGO_PKG_VERSION"));
 
 /// Rounding tolerance of a scan's grid in a file (mm).
-const ROUNDING: f64 = 1e-3;
+const GRID_TOLERANCE_MM: f64 = 1e-3;
 
 /// A session as the page has it: lines by number, everything else as in the file except point data.
 #[derive(Debug, Deserialize, Serialize)]
@@ -88,7 +88,8 @@ impl Study {
 fn is_of(saved: &Scan, held: &HeldVolume) -> bool {
     let here = DMat4::from(held.world_from_index).transpose().to_cols_array();
     let there = saved.world_from_index.as_flattened();
-    saved.size == held.size && here.iter().zip(there).all(|(here, there)| (here - there).abs() <= ROUNDING)
+    saved.size == held.size
+        && here.iter().zip(there).all(|(here, there)| (here - there).abs() <= GRID_TOLERANCE_MM)
 }
 
 fn not_of_scan(name: &str, found: &str, expected: &str) -> Failure {

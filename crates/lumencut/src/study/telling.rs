@@ -9,13 +9,13 @@ use lumencut_vessels::trace::lumen::level_change::level_change;
 use lumencut_vessels::voxels::Voxels;
 use serde::Serialize;
 
-use crate::study::document::{Document, DocumentVessel, Place};
+use crate::study::document::{Document, DocumentVessel, WorldPoint};
 use crate::study::failure::Result;
 use crate::study::open_study::Study;
 use crate::text::fixed;
 
 /// An end within this distance of a point of another line is that point, up to rounding (mm).
-const SAME: f64 = 1e-6;
+const SAME_POINT_MM: f64 = 1e-6;
 
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
@@ -55,7 +55,7 @@ impl Study {
             let points = self.lines.get(other.line)?.points.clone();
             let lengths = arc_lengths(&points);
             for end in [0, last] {
-                let met = points.iter().position(|point| point.distance(line.points[end]) <= SAME);
+                let met = points.iter().position(|point| point.distance(line.points[end]) <= SAME_POINT_MM);
                 joined.extend(met.map(|n| format!("{} at {} mm", other.called(), fixed(lengths[n], 0))));
             }
         }
@@ -65,7 +65,7 @@ impl Study {
         Ok(words)
     }
 
-    fn doubtful(&self, line: &Centerline, clicks: Option<&[Place]>) -> Result<Vec<DoubtfulPlace>> {
+    fn doubtful(&self, line: &Centerline, clicks: Option<&[WorldPoint]>) -> Result<Vec<DoubtfulPlace>> {
         let Some(held) = &self.content.held else { return Ok(Vec::new()) };
         let volume = held.volume()?;
         let voxels = &Voxels::new(&volume);

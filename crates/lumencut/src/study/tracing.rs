@@ -126,8 +126,9 @@ impl Study {
         doubtful: bool,
         watch: Watch,
     ) -> Result<(Vec<HeldLine>, Vec<String>)> {
-        let told = if doubtful { found_vessels::told_with_doubtful } else { found_vessels::told };
-        let tree = told(self.trees(watch)?, SMALLEST_RADIUS)?;
+        let as_tree =
+            if doubtful { found_vessels::tree_with_doubtful } else { found_vessels::confident_tree };
+        let tree = as_tree(self.trees(watch)?, SMALLEST_RADIUS)?;
         Ok((self.held_lines(tree.vessels)?, tree.notes))
     }
 

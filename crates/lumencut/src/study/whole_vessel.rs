@@ -12,7 +12,7 @@ use lumencut_vessels::voxels::Voxels;
 use serde::Serialize;
 
 use crate::found_vessels::one_vessel;
-use crate::study::document::{DocumentVessel, Place};
+use crate::study::document::{DocumentVessel, WorldPoint};
 use crate::study::draft::Draft;
 use crate::study::failure::Result;
 use crate::study::held_volume::no_volume;
@@ -22,14 +22,14 @@ use crate::study::tracing::Watch;
 
 /// A stump hardly longer than wide is accepted if it is round: its points have at least this mean confidence, and its radius (mm)
 /// is at most that of the widest aorta.
-const ROUND: f64 = 0.6;
-const WIDEST_SHORT: f64 = 25.0;
+const MIN_ROUND_CONFIDENCE: f64 = 0.6;
+const MAX_STUMP_RADIUS_MM: f64 = 25.0;
 
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub(crate) struct WholeVessel {
     /// The points of its line (mm, LPS).
-    pub points: Vec<Place>,
+    pub points: Vec<WorldPoint>,
     /// Length and joined vessels, such as `84.2 mm, joins Vessel 2 at 12 mm`.
     pub words: String,
 }
@@ -54,7 +54,7 @@ impl Study {
         &mut self,
         draft: &mut Draft,
         notes: &mut Vec<String>,
-        (click, watch): (Place, Watch),
+        (click, watch): (WorldPoint, Watch),
     ) -> Result<()> {
         // Reject a place in air or fat at once, instead of after a search of the whole scan.
         self.check_click(click)?;
@@ -77,7 +77,12 @@ impl Study {
     }
 
     /// The vessel at a click if the scan cuts it off on both sides, it is hardly longer than wide, and round.
-    fn short_vessel(&self, click: Place, vessels: &[DocumentVessel], watch: Watch) -> Result<Option<Line>> {
+    fn short_vessel(
+        &self,
+        click: WorldPoint,
+        vessels: &[DocumentVessel],
+        watch: Watch,
+    ) -> Result<Option<Line>> {
         let volume = self.content.held.as_ref().ok_or_else(no_volume)?.volume()?;
         let Some(ends) = OwnLumen::around(&Voxels::new(&volume), DVec3::from_array(click)).cut_ends() else {
             return Ok(None);
@@ -91,8 +96,8 @@ impl Study {
         };
         let is_round = |line: &Centerline| {
             let sum: f64 = line.confidence.iter().sum();
-            let is_narrow = line.radius.iter().all(|radius| *radius <= WIDEST_SHORT);
-            is_narrow && sum >= ROUND * line.confidence.len() as f64
+            let is_narrow = line.radius.iter().all(|radius| *radius <= MAX_STUMP_RADIUS_MM);
+            is_narrow && sum >= MIN_ROUND_CONFIDENCE * line.confidence.len() as f64
         };
         Ok(traced.into_iter().find(|traced| is_round(&traced.line)).map(Line::from))
     }
@@ -100,7 +105,7 @@ impl Study {
     /// The vessel that a click would add; None before the scan's vessels were searched for.
     pub(crate) fn known_vessel(
         &self,
-        click: Place,
+        click: WorldPoint,
         vessels: &[DocumentVessel],
     ) -> Result<Option<Centerline>> {
         let volume = self.content.held.as_ref().ok_or_else(no_volume)?.volume()?;
@@ -114,7 +119,7 @@ impl Study {
     /// As [`Study::known_vessel`], but None instead of an error about the click.
     pub(crate) fn whole_vessel(
         &self,
-        click: Place,
+        click: WorldPoint,
         vessels: &[DocumentVessel],
     ) -> Result<Option<WholeVessel>> {
         let line = match self.known_vessel(click, vessels) {

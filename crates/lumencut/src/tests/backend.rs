@@ -31,7 +31,7 @@ fn an_interrupted_picture_leaves_the_reason_of_the_fall_back_to_the_next() {
     let render = |limit| {
         let scene = Scene::default().with_volume(volume);
         let computer = Computer::Cpu(CpuRenderer::default());
-        let mut backend = Backend { computer, untold: Some(reason.clone()) };
+        let mut backend = Backend { computer, unreported: Some(reason.clone()) };
         asked.store(0, Ordering::Relaxed);
         allowed.store(limit, Ordering::Relaxed);
         let first = at_once(backend.render(&scene, &request)).map(|(_, told)| told);
@@ -63,7 +63,7 @@ fn reformations_need_a_tree_and_a_cut_surface_does_not() {
     let line = Vessel::new(vec![DVec3::new(2.0, 3.0, 0.0), DVec3::new(5.0, 4.0, 7.0)], None).unwrap();
     let whole = alone.clone().with_tree(VesselTree::new(vec![line]).unwrap());
     for method in [Method::MpCpr, Method::Cr(CrParameters::default())] {
-        let mut backend = Backend { computer: Computer::Cpu(CpuRenderer::default()), untold: None };
+        let mut backend = Backend { computer: Computer::Cpu(CpuRenderer::default()), unreported: None };
         let refused = at_once(backend.render_by(method, &alone, &request)).map(|_| ()).unwrap_err();
         assert_eq!(refused.kind, ErrorKind::VesselTree);
         let (frame, told) = at_once(backend.render_by(method, &whole, &request)).unwrap();

@@ -6,10 +6,10 @@ use super::*;
 
 /// A volume of 81³ voxels of 1 mm, centred at the origin.
 const SIDE: usize = 81;
-const LPS: Place = Place { space: Space::Lps, unit: Unit::Millimetre };
-const RAS: Place = Place { space: Space::Ras, unit: Unit::Millimetre };
+const LPS: CoordinateSystem = CoordinateSystem { space: Space::Lps, unit: Unit::Millimetre };
+const RAS: CoordinateSystem = CoordinateSystem { space: Space::Ras, unit: Unit::Millimetre };
 
-fn counted(value: impl Fn(DVec3) -> f32, lines: &Lines, place: Place) -> LumenCount {
+fn counted(value: impl Fn(DVec3) -> f32, lines: &Lines, place: CoordinateSystem) -> LumenCount {
     let middle = (SIDE / 2) as f64;
     let at = |n: usize| DVec3::new((n % SIDE) as f64, (n / SIDE % SIDE) as f64, (n / SIDE / SIDE) as f64);
     let voxels: Vec<f32> = (0..SIDE * SIDE * SIDE).map(|n| value(at(n) - middle)).collect();
@@ -88,7 +88,7 @@ fn points_that_lie_closely_count_once_and_units_are_those_of_the_place() {
     let close: Vec<DVec3> = (0..500).map(|n| DVec3::new(1.5, -0.9, 0.0001 * f64::from(n))).collect();
     let radii = vec![0.4; close.len()];
     let lines = Lines { points: &close, radii: &radii };
-    let place = Place { unit: Unit::Centimetre, ..LPS };
+    let place = CoordinateSystem { unit: Unit::Centimetre, ..LPS };
     assert_eq!(counted(value, &lines, place), LumenCount { like_lumen: 1, of: 1 });
 }
 

@@ -23,7 +23,7 @@ fn nothing() -> Known {
 }
 
 fn points(space: Space, unit: Unit) -> Vec<DVec3> {
-    let scale = Place { space, unit }.scale();
+    let scale = CoordinateSystem { space, unit }.scale();
     (0..50).map(|n| DVec3::splat(30.0 + f64::from(n)) / scale).collect()
 }
 
@@ -44,7 +44,7 @@ fn what_is_asked_rules_and_contradictions_are_told() {
         ..nothing()
     };
     let found = decided(&known, &points(Space::Lps, Unit::Millimetre));
-    assert_eq!(found.place, Place { space: Space::Ras, unit: Unit::Metre });
+    assert_eq!(found.place, CoordinateSystem { space: Space::Ras, unit: Unit::Metre });
     assert_eq!((found.space_from, found.unit_from), (Origin::Asked, Origin::Asked));
     assert_eq!(found.decision, "the file states lps; read as ras as asked");
     assert!(!found.is_unusual);
@@ -53,7 +53,7 @@ fn what_is_asked_rules_and_contradictions_are_told() {
 #[test]
 fn without_a_volume_the_usual_is_assumed() {
     let found = placement(&nothing(), &points(Space::Ras, Unit::Millimetre), None).unwrap();
-    assert_eq!(found.place, Place { space: Space::Lps, unit: Unit::Millimetre });
+    assert_eq!(found.place, CoordinateSystem { space: Space::Lps, unit: Unit::Millimetre });
     assert_eq!((found.space_from, found.unit_from), (Origin::Assumed, Origin::Assumed));
     assert_eq!(found.decision, "the file states no space and no unit; lps in mm is assumed");
 }
@@ -72,7 +72,7 @@ fn the_volume_confirms_the_usual_place() {
 fn the_volume_decides_against_the_usual_place() {
     let known = Known { stated_unit: Some(Unit::Millimetre), ..nothing() };
     let found = decided(&known, &points(Space::Ras, Unit::Millimetre));
-    assert_eq!(found.place, Place { space: Space::Ras, unit: Unit::Millimetre });
+    assert_eq!(found.place, CoordinateSystem { space: Space::Ras, unit: Unit::Millimetre });
     assert_eq!((found.space_from, found.unit_from), (Origin::Volume, Origin::Stated));
     let counts = "0 of 50 points lie inside the volume in lps in mm, but 50 in ras in mm";
     assert_eq!(found.decision, format!("the file states no space; {counts}: read so"));
@@ -83,7 +83,7 @@ fn the_volume_decides_against_the_usual_place() {
 #[test]
 fn a_space_and_a_unit_can_both_be_unusual() {
     let found = decided(&nothing(), &points(Space::Ras, Unit::Centimetre));
-    assert_eq!(found.place, Place { space: Space::Ras, unit: Unit::Centimetre });
+    assert_eq!(found.place, CoordinateSystem { space: Space::Ras, unit: Unit::Centimetre });
     assert_eq!(found.confirmed_by, Statement { space: Some(Space::Ras), unit: Some(Unit::Centimetre) });
 }
 
@@ -119,7 +119,7 @@ fn centerlines_of_another_volume_are_refused() {
     // If the file states the space, it is not requested.
     let known = Known { stated_space: Some(Space::Ras), ..nothing() };
     let found = decided(&known, &far);
-    assert_eq!(found.place, Place { space: Space::Ras, unit: Unit::Millimetre });
+    assert_eq!(found.place, CoordinateSystem { space: Space::Ras, unit: Unit::Millimetre });
     assert_eq!(found.decision, "the file states no unit; ras in mm is assumed");
 }
 
@@ -129,7 +129,7 @@ fn a_better_place_is_named() {
     let better = better_place(&points(Space::Ras, Unit::Centimetre), &silent(volume())).unwrap();
     let how = "with x and y negated (LPS and RAS mixed up?) and 10 times as large (another unit?)";
     let found = format!("0 of 50 points lie inside the volume as read, but 50 {how}");
-    let meant = Place { space: Space::Ras, unit: Unit::Centimetre };
+    let meant = CoordinateSystem { space: Space::Ras, unit: Unit::Centimetre };
     assert_eq!(better, Misplaced { found, meant });
 }
 
@@ -141,7 +141,7 @@ fn a_few_points_more_are_no_better_place() {
     assert_eq!(better_place(&mixed, &silent(volume())), None);
     mixed.extend_from_slice(&points(Space::Ras, Unit::Millimetre)[3..6]);
     let better = better_place(&mixed, &silent(volume())).expect("a tenth of the points fits");
-    assert_eq!(better.meant, Place { space: Space::Ras, unit: Unit::Millimetre });
+    assert_eq!(better.meant, CoordinateSystem { space: Space::Ras, unit: Unit::Millimetre });
 }
 
 #[test]
@@ -156,7 +156,7 @@ fn around_the_origin() -> (Extent, Vec<DVec3>) {
 }
 
 /// Lumen counts of a hundred points in LPS and in RAS.
-fn counts(lps: usize, ras: usize) -> impl Fn(Place) -> LumenCount {
+fn counts(lps: usize, ras: usize) -> impl Fn(CoordinateSystem) -> LumenCount {
     move |place| LumenCount { like_lumen: if place.space == Space::Lps { lps } else { ras }, of: 100 }
 }
 
@@ -170,7 +170,7 @@ fn between_spaces_that_fit_alike_the_values_decide_where_they_are_evident() {
         let found = found(lps, ras, &nothing()).unwrap();
         assert_eq!(
             (found.place, found.space_from),
-            (Place { space, unit: Unit::Millimetre }, Origin::Values)
+            (CoordinateSystem { space, unit: Unit::Millimetre }, Origin::Values)
         );
         assert_eq!((found.unit_from, found.is_unusual), (Origin::Volume, true));
         let (best, other) = if space == Space::Lps { ("lps", "ras") } else { ("ras", "lps") };
@@ -207,7 +207,7 @@ fn values_that_speak_for_the_mirrored_lines_are_told() {
     let (extent, points) = around_the_origin();
     let told = |lps, ras| better_place(&points, &Judge { extent, lumen: &counts(lps, ras) });
     let found = "of 100 sampled points, 20 look like lumen as read, but 80 with x and y negated (LPS and RAS mixed up?)";
-    let meant = Place { space: Space::Ras, unit: Unit::Millimetre };
+    let meant = CoordinateSystem { space: Space::Ras, unit: Unit::Millimetre };
     assert_eq!(told(20, 80), Some(Misplaced { found: found.into(), meant }));
     assert_eq!((told(80, 20), told(30, 80), told(0, 49)), (None, None, None));
     // Lines that leave the volume when mirrored stay as read.
@@ -221,7 +221,7 @@ fn cube_around(middle: DVec3) -> Extent {
 }
 
 /// A line through the centre of a cube, as a file would store it.
-fn line_of(length: f64, middle: DVec3, place: Place) -> Vec<DVec3> {
+fn line_of(length: f64, middle: DVec3, place: CoordinateSystem) -> Vec<DVec3> {
     let along = |n: i32| (f64::from(n) / 49.0 - 0.5) * length;
     let point = |n| middle + DVec3::new(3.0 * (along(n) / 9.0).sin(), -6.0, along(n));
     (0..50).map(|n| point(n) / place.scale()).collect()
@@ -247,7 +247,7 @@ fn followed(mend: &Mend, known: &Known) -> Vec<Known> {
 }
 
 /// Follows every mend until the points are read; whether one path ends at the truth.
-fn leads_to(truth: Place, known: &Known, points: &[DVec3], judge: &Judge) -> bool {
+fn leads_to(truth: CoordinateSystem, known: &Known, points: &[DVec3], judge: &Judge) -> bool {
     match placement(known, points, Some(judge)) {
         Ok(found) => {
             let doubted = found.doubt.iter().flat_map(|doubt| &doubt.units).chain(&found.also);
@@ -272,10 +272,10 @@ fn leads_to(truth: Place, known: &Known, points: &[DVec3], judge: &Judge) -> boo
 
 const TRIED: [Unit; 4] = [Unit::Micrometre, Unit::Millimetre, Unit::Centimetre, Unit::Metre];
 
-fn tried() -> impl Iterator<Item = (Vec<DVec3>, Place, Extent)> {
+fn tried() -> impl Iterator<Item = (Vec<DVec3>, CoordinateSystem, Extent)> {
     let middles = [DVec3::new(20.0, -30.0, 5.0), DVec3::new(700.0, 800.0, 400.0)];
     let of = move |middle: DVec3, length: f64| {
-        let of = move |place: Place| (line_of(length, middle, place), place, cube_around(middle));
+        let of = move |place: CoordinateSystem| (line_of(length, middle, place), place, cube_around(middle));
         places(&Space::ALL, &TRIED).into_iter().map(of)
     };
     middles
@@ -315,7 +315,7 @@ fn values_tell_the_unit_where_they_are_evident() {
         }
     }
     let middle = DVec3::new(20.0, -30.0, 5.0);
-    let truth = Place { space: Space::Lps, unit: Unit::Centimetre };
+    let truth = CoordinateSystem { space: Space::Lps, unit: Unit::Centimetre };
     let lumen = |place| LumenCount { like_lumen: if place == truth { 90 } else { 20 }, of: 100 };
     let judge = Judge { extent: cube_around(middle), lumen: &lumen };
     let known = Known { stated_space: Some(Space::Lps), ..nothing() };
@@ -329,7 +329,7 @@ fn values_tell_the_unit_where_they_are_evident() {
 
 #[test]
 fn a_size_that_is_none_is_told_without_a_volume_too() {
-    let at = Place { space: Space::Ras, unit: Unit::Metre };
+    let at = CoordinateSystem { space: Space::Ras, unit: Unit::Metre };
     let points = line_of(72.0, DVec3::ZERO, at);
     let stated = Known { stated_space: Some(Space::Ras), stated_unit: Some(Unit::Millimetre), ..nothing() };
     for known in [nothing(), stated] {
@@ -338,20 +338,20 @@ fn a_size_that_is_none_is_told_without_a_volume_too() {
         assert!(doubt.found.starts_with("the lines are 0.072"), "{}", doubt.found);
         assert!(doubt.found.contains("mm across in mm, 72."), "{}", doubt.found);
     }
-    let points = line_of(72.0, DVec3::ZERO, Place { unit: Unit::Millimetre, ..at });
+    let points = line_of(72.0, DVec3::ZERO, CoordinateSystem { unit: Unit::Millimetre, ..at });
     assert_eq!(placement(&stated, &points, None).expect("a place").doubt, None);
 }
 
 #[test]
 fn lines_of_a_few_voxels_are_told_of_with_the_volume_that_they_lie_in() {
     let middle = DVec3::new(20.0, -30.0, 5.0);
-    let points = line_of(72.0, middle, Place { space: Space::Lps, unit: Unit::Metre });
+    let points = line_of(72.0, middle, CoordinateSystem { space: Space::Lps, unit: Unit::Metre });
     let better = better_place(&points, &silent(cube_around(middle))).expect("a better place");
     assert!(
         better.found.starts_with("50 of 50 points lie inside the volume as read, 0.072"),
         "{}",
         better.found
     );
-    assert_eq!(better.meant, Place { space: Space::Lps, unit: Unit::Metre });
+    assert_eq!(better.meant, CoordinateSystem { space: Space::Lps, unit: Unit::Metre });
     assert!(!fits_nowhere(&points, &cube_around(middle)));
 }

@@ -167,7 +167,7 @@ fn an_assumed_millimetre_is_told_in_every_output_and_only_where_it_is() {
 #[test]
 fn lengths_that_a_reader_measured_are_told() {
     let profile = tube();
-    let told = |shown: &Shown| {
+    let method_text = |shown: &Shown| {
         let mut page = page_of(&profile, "LAD", &marked(None, &[]), None);
         page.lengths = Lengths {
             stretches: vec![[10.0, 30.0], [30.0, 50.0]],
@@ -176,14 +176,14 @@ fn lengths_that_a_reader_measured_are_told() {
         };
         html(shown, &[page]).expect("a report")
     };
-    let text = told(&shown());
+    let text = method_text(&shown());
     assert!(text.contains("<p>Stretch: length 20.0 mm, straight 20.0 mm, tortuosity 1.000, C-arm "));
     assert!(text.contains("<p>Angle between both stretches: 0°</p>"));
     assert!(text.contains("<p>Straight distance 1: 12.3 mm</p>"));
     assert!(text.contains(">Diameter: 8.00 ± 0.10 mm at 10.0 mm, 7.20 to 8.80 mm</p>"));
     assert!(!text.contains("No percentage") && !text.contains("No reference is suggested"));
     assert!(
-        !told(&Shown { stated: Stated { has_units: true, has_orientation: false }, ..shown() })
+        !method_text(&Shown { stated: Stated { has_units: true, has_orientation: false }, ..shown() })
             .contains("C-arm")
     );
 }

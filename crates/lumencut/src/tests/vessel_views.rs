@@ -104,7 +104,7 @@ fn a_loop_is_not_seen_through_itself() {
 #[test]
 fn directions_lie_evenly_all_around() {
     let all: Vec<_> = directions().collect();
-    assert_eq!(all.len(), DIRECTIONS);
+    assert_eq!(all.len(), TRIED_DIRECTIONS);
     assert!(all.iter().sum::<DVec3>().length() < 1.0);
     for axis in [DVec3::X, DVec3::Y, DVec3::Z, DVec3::ONE.normalize()] {
         let nearest = all.iter().map(|direction| direction.dot(axis)).fold(-1.0, f64::max);

@@ -35,7 +35,7 @@ fn a_window_along_centerlines_has_the_lumen_light_and_the_darkest_tissue_black()
         let found = along(&volume(&voxels, [40; 3]), &tree(radius)).unwrap();
         assert!(share(found, 100.0).abs() < 1e-12);
         // Nothing is brighter than the lumen.
-        assert!((share(found, 400.0) - LUMEN_AT[1]).abs() < 1e-12);
+        assert!((share(found, 400.0) - LUMEN_POSITION[1]).abs() < 1e-12);
     }
 }
 
@@ -97,7 +97,7 @@ fn no_window_begins_below_the_smallest_value() {
     for found in [of_volume(&masked), of_mip(&masked), along(&masked, &tree(Some(6.0)))] {
         assert!(black(found.unwrap()).abs() < 1e-9);
     }
-    assert!((share(of_volume(&masked).unwrap(), 300.0) - ALONE_LUMEN_AT).abs() < 1e-9);
+    assert!((share(of_volume(&masked).unwrap(), 300.0) - VOLUME_LUMEN_POSITION).abs() < 1e-9);
     // A dark lumen: nothing is as dark as black would be.
     let voxels =
         grid([40; 3], |[_, j, k]| if j.abs_diff(20) < 5 && k.abs_diff(20) < 5 { 20.0 } else { 200.0 });
@@ -129,7 +129,7 @@ fn vessels_without_tissue_have_their_edges_for_it() {
             _ => nothing,
         });
         let found = along(&volume(&voxels, [40; 3]), &tree(Some(2.0))).unwrap();
-        assert!((share(found, 300.0) - LUMEN_AT[1]).abs() < 1e-12, "{nothing}: {found:?}");
+        assert!((share(found, 300.0) - LUMEN_POSITION[1]).abs() < 1e-12, "{nothing}: {found:?}");
         let black = found.level - found.width / 2.0;
         assert!((100.0..200.0).contains(&black), "black at {black}");
     }
@@ -148,12 +148,12 @@ fn tissue_among_padding_is_darker_than_edges_between_bright_structures() {
     let vessel = Vessel::new(points, Some(vec![2.0; 2])).unwrap();
     let found = along(&volume(&voxels, [10, 40, 40]), &VesselTree::new(vec![vessel]).unwrap()).unwrap();
     let black = found.level - found.width / 2.0;
-    assert!(black < 1e-9 && share(found, 300.0) >= LUMEN_AT[0], "{found:?}");
+    assert!(black < 1e-9 && share(found, 300.0) >= LUMEN_POSITION[0], "{found:?}");
 }
 
 #[test]
 fn beside_a_point_are_six_places_beyond_its_wall() {
-    let places = beside(&tree(Some(3.0)), BESIDE);
+    let places = beside(&tree(Some(3.0)), TISSUE_DISTANCE_MM);
     assert_eq!(places.len(), 12);
     assert!(places[..6].iter().all(|place| place.distance(DVec3::new(2.0, 20.0, 20.0)) == 13.0));
     assert_eq!(places[0], DVec3::new(15.0, 20.0, 20.0));
@@ -194,9 +194,9 @@ fn what_is_no_number_is_left_out() {
     let voxels = vec![f32::NAN; 4];
     let empty = volume(&voxels, [4, 1, 1]);
     for found in [whole(&empty), of_volume(&empty), full(&empty), mra(&empty)] {
-        assert_eq!(found.unwrap(), OF_NOTHING);
+        assert_eq!(found.unwrap(), EMPTY_VOLUME_WINDOW);
     }
-    assert_eq!(along(&volume(&voxels, [4, 1, 1]), &tree(None)).unwrap(), OF_NOTHING);
+    assert_eq!(along(&volume(&voxels, [4, 1, 1]), &tree(None)).unwrap(), EMPTY_VOLUME_WINDOW);
 }
 
 #[test]
@@ -209,7 +209,7 @@ fn values_beyond_all_windows_are_refused_with_what_was_found() {
 #[test]
 fn the_window_of_a_mip_reaches_to_the_brightest_and_is_at_most_so_much_wider() {
     let tissue = |i: usize, j: usize, k: usize| 40.0 + ((3 * i + 5 * j + 7 * k) % 41) as f32;
-    for (brightest, wider) in [(300.0, 1.0), (3000.0, MIP_WIDEST)] {
+    for (brightest, wider) in [(300.0, 1.0), (3000.0, MIP_MAX_WIDENING)] {
         let voxels = grid([40; 3], |[i, j, k]| match (j.abs_diff(20), k.abs_diff(20)) {
             (0..2, 0..2) => brightest,
             (0..5, 0..5) => 300.0,
@@ -274,7 +274,7 @@ fn bright_vessels_beside_many_faint_ones_are_held() {
     assert!(!holds_lumen(along(&volume, &tree).unwrap(), &volume, &tree));
     let found = holding_lumen(&volume, &tree).unwrap();
     assert!(holds_lumen(found, &volume, &tree));
-    assert!((share(found, 800.0) - HELD[0]).abs() < 1e-9);
+    assert!((share(found, 800.0) - BRIGHT_LUMEN_POSITION[0]).abs() < 1e-9);
 }
 
 /// The line of [`tree`] with a point per mm.

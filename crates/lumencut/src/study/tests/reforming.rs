@@ -51,7 +51,7 @@ fn each_fits_into_its_pane_and_a_pick_leads_back_to_its_pixel() {
         let pick = study.pick_reformed(pixel).expect("a picture").expect("something shown");
         assert_eq!(pick.vessel, Some(1), "{asked:?}");
         let along = pick.arc_length.expect("a place");
-        let expected = study.told(point, Some(1)).arc_length.expect("a place");
+        let expected = study.pick_at(point, Some(1)).arc_length.expect("a place");
         assert!((along - expected).abs() < picture.pixel_spacing, "{asked:?}: {along} and {expected}");
         // A map shows the wall around the middle, a spiral the nearest winding.
         let bound = match &study.reformed.as_ref().expect("a picture").laid {

@@ -40,12 +40,12 @@ impl Stated {
     }
 
     /// A sentence of the engine, without units if they are unknown.
-    pub(super) fn spoken(&self, words: &str) -> String {
+    pub(super) fn with_units(&self, words: &str) -> String {
         if self.has_units { words.to_owned() } else { words.replace(" mm²", "").replace(" mm", "") }
     }
 }
 
-pub(super) fn told(shown: &Shown, vessel: &VesselPage) -> String {
+pub(super) fn method_text(shown: &Shown, vessel: &VesselPage) -> String {
     let profile = vessel.measured.profile;
     let counted = (0..profile.len()).filter(|n| profile.counts(*n)).count();
     format!(
@@ -55,7 +55,7 @@ pub(super) fn told(shown: &Shown, vessel: &VesselPage) -> String {
         vessel.measured.scan.words(),
         settings(shown),
         shown.stated.length(profile.fwhm, 2),
-        shown.stated.spoken(&of_source(&profile.fwhm_source)),
+        shown.stated.with_units(&of_source(&profile.fwhm_source)),
         of_wall(&profile.wall_source),
         profile.len(),
         flags(profile),
@@ -79,9 +79,9 @@ fn settings(shown: &Shown) -> String {
         ("comparison", asked.comparison_mm.as_ref().map(length)),
         ("group", asked.group.clone()),
     ];
-    let told = named.into_iter().filter_map(|(name, value)| Some(format!("{name} {}", value?)));
+    let stated = named.into_iter().filter_map(|(name, value)| Some(format!("{name} {}", value?)));
     let shown = shown.settings.iter().map(|[name, value]| format!("{name} {value}"));
-    told.chain(shown).collect::<Vec<_>>().join("; ")
+    stated.chain(shown).collect::<Vec<_>>().join("; ")
 }
 
 fn method_word(name: &str) -> String {
