@@ -284,7 +284,6 @@ impl Gpu {
         self.kept_unless_failed(outcome)
     }
 
-    /// Drops the renderer of a failed GPU, so that the next request reopens it.
     fn kept_unless_failed<T>(&mut self, outcome: Result<T>) -> Result<T> {
         let has_failed = outcome.as_ref().is_err_and(|error| error.kind == ErrorKind::Device);
         if has_failed && let Some(renderer) = self.renderer.take() {
@@ -293,7 +292,6 @@ impl Gpu {
         outcome
     }
 
-    /// A forked process can neither use nor free its parent's GPU objects.
     fn leave_the_parents(&mut self) {
         let process = devices::process();
         if self.process != process {

@@ -129,7 +129,6 @@ impl Choice {
         Some((best.unit, words))
     }
 
-    /// The space whose points clearly look like lumen, with the evidence.
     fn space_by_values(&self, one: Reading, other: Reading, lumen: Lumen) -> Option<(Reading, String)> {
         let (of_one, of_other) = (lumen(one.place), lumen(other.place));
         let (best, other, count, few) = if of_one.is_evident_beside(of_other) {
@@ -177,7 +176,7 @@ impl Choice {
             Mend::Unit(units)
         };
         let found = "coordinates that are not stated and that the volume does not decide";
-        Error::new("", format!("{found}: {}", self.several(fitting)), "one that fits").mended_by(mend)
+        Error::new("", format!("{found}: {}", self.several(fitting)), "a space and unit that fit").mended_by(mend)
     }
 
     fn several(&self, fitting: &[Reading]) -> String {

@@ -44,7 +44,6 @@ pub fn cut_diameter(volume: &Volume, camera: &Camera, radius: f64) -> Option<f64
     Some(wall(&left)? + wall(&depth[SAMPLES..])?)
 }
 
-/// Steps until values (relative to the lumen) first fall to half of their deepest.
 fn steps_to_wall(depth: &[f64]) -> Option<f64> {
     let half = depth.iter().copied().fold(0.0, f64::min) / 2.0;
     let after = depth.iter().position(|value| *value <= half).filter(|after| half < 0.0 && *after > 0)?;

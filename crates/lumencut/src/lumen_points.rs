@@ -111,7 +111,6 @@ fn numbers(values: &[f32]) -> Vec<f64> {
     values.iter().filter(|value| !value.is_nan()).map(|value| f64::from(*value)).collect()
 }
 
-/// Directions from the middle of a cube to its corners, edges and faces.
 fn directions() -> Vec<DVec3> {
     let step = |n: u32| DVec3::new(f64::from(n % 3), f64::from(n / 3 % 3), f64::from(n / 9)) - 1.0;
     (0..27).map(step).filter(|step| *step != DVec3::ZERO).map(DVec3::normalize).collect()

@@ -69,7 +69,6 @@ fn cell(point: DVec3) -> Cell {
     (point / VESSEL_END).floor().to_array().map(|side| side as i64)
 }
 
-/// The ends of all lines with their line indices, in every cell close enough.
 fn ends(lines: &[&[DVec3]]) -> HashMap<Cell, Vec<(DVec3, usize)>> {
     let mut ends: HashMap<Cell, Vec<(DVec3, usize)>> = HashMap::new();
     for (number, line) in lines.iter().enumerate() {

@@ -105,7 +105,6 @@ impl Reading {
         self.fits() as f64 >= AS_GOOD * inside as f64
     }
 
-    /// Whether it brings twice as many points inside, and a tenth of all more.
     pub(crate) fn is_clearly_better_than(&self, inside: usize, total: usize) -> bool {
         self.fits() >= 2 * inside && self.fits() >= inside + (total / 10).max(1)
     }

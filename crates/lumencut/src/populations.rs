@@ -201,7 +201,6 @@ pub(crate) fn darkest_tissue(sampled: &mut VoxelSample, cut_off: f64) -> Option<
     if (body.len() as f64) < enough { None } else { quantile(&mut body, DARKEST_TISSUE_QUANTILE) }
 }
 
-/// Tissue, brightest tissue and lumen among tissue and bone, by the maxima of cubes.
 fn of_body(tissue: f64, mut cubes: Vec<f64>) -> Option<[f64; 3]> {
     let middle = median(&mut cubes)?;
     let scale = quantile(&mut cubes, 0.75)? - quantile(&mut cubes, 0.25)?;

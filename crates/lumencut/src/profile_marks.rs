@@ -134,7 +134,6 @@ impl Marked {
         found
     }
 
-    /// The noted diameters in ascending order, without unmeasured ones.
     fn noted(&self, profile: &Profile) -> Vec<Mark> {
         let mut places = self.diameters.clone();
         places.sort_unstable_by(f64::total_cmp);

@@ -56,7 +56,6 @@ pub fn parted_doubt(lines: &Centerlines) -> Option<LineDoubt> {
     })
 }
 
-/// The lines, with split lists rejoined if their points form one line.
 fn rejoined(lines: &[Line]) -> Vec<Line> {
     let mut joined: Vec<Line> = Vec::with_capacity(lines.len());
     let mut from = 0;
@@ -86,7 +85,6 @@ fn one_of(parts: &[Line]) -> Line {
     }
 }
 
-/// An order or its reverse, whichever keeps more points in the given order.
 fn along_given(order: Vec<usize>) -> Vec<usize> {
     let reversed: Vec<usize> = order.iter().rev().copied().collect();
     if rising(&reversed) > rising(&order) { reversed } else { order }

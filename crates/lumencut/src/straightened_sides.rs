@@ -106,7 +106,6 @@ impl StraightenedSides {
     }
 }
 
-/// The frame at the middle, averaged over a short stretch to suppress noise.
 fn middle(space: &Straightened) -> [DVec3; 3] {
     let half = space.length() / 2.0;
     let reach = MIDDLE_HALF_LENGTH_MM.min(half);

@@ -109,7 +109,6 @@ pub fn refocused(camera: &Camera, vessel: &Vessel) -> Result<Camera> {
     fitted(&view, &steps.surroundings(&view))
 }
 
-/// Directions spread evenly on the sphere by a golden-angle spiral.
 fn directions() -> impl Iterator<Item = DVec3> {
     let golden = PI * (3.0 - 5f64.sqrt());
     (0..TRIED_DIRECTIONS).map(move |n| {
@@ -161,7 +160,6 @@ impl Steps {
         (0..VISIBILITY_SAMPLES).flat_map(around).collect()
     }
 
-    /// Whether another stretch, farther along than both are wide, covers a position.
     fn is_hidden(&self, n: usize, direction: DVec3) -> bool {
         (0..VISIBILITY_SAMPLES).any(|other| {
             let offset = self.points[other] - self.points[n];

@@ -130,7 +130,6 @@ struct Tissue {
     darkest: Option<f64>,
 }
 
-/// Black and white for a bright lumen, in a volume with this range.
 fn around_lumen(lumen: f64, tissue: Tissue, spread: f64, ends: [f64; 2]) -> [f64; 2] {
     let difference = lumen - tissue.middle;
     let mut below = 2.0 * spread;

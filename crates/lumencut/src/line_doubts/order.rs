@@ -191,7 +191,6 @@ fn strays(points: &[DVec3], tree: &ShortestTree, nearby: &Nearby) -> (Vec<usize>
     (strays, distance)
 }
 
-/// Whether a point sticks out of a line that continues without it.
 fn is_spike(points: &[DVec3], nearby: &Nearby, [usual, far]: [f64; 2], n: usize) -> bool {
     if points.len() < MIN_POINTS_WITH_SPIKE || n == 0 || n + 1 == points.len() {
         return false;

@@ -96,7 +96,6 @@ impl ShortestTree {
         order.into_iter().fold(start, |far, n| if along[n] > along[far] { n } else { far })
     }
 
-    /// The points in an order in which each follows its parent, and the parents.
     fn from(&self, start: usize) -> (Vec<usize>, Vec<Option<usize>>) {
         let mut before = vec![None; self.neighbours.len()];
         let mut order = vec![start];

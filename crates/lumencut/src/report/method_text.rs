@@ -88,7 +88,6 @@ fn method_word(name: &str) -> String {
     Method::named("method", name).map_or_else(|_| name.to_owned(), of_method)
 }
 
-/// About four digits, without an exponent for usual intensity scales.
 fn intensity(value: f64) -> String {
     if (100.0..1e7).contains(&value.abs()) { fixed(value, 0) } else { rounded(value, 3) }
 }

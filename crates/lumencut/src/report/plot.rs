@@ -217,7 +217,6 @@ impl Plot<'_> {
         }
     }
 
-    /// A row per flag that occurs. A run begins half a step before its first section.
     fn push_flags(&self, svg: &mut String, layout: &Layout) {
         let (Axes { x, y }, row) = (layout.axes, layout.row);
         let (at, flags) = (&self.profile.arc_length, &self.profile.flags);

@@ -58,7 +58,6 @@ impl Study {
         Ok(AfterEdit { report: self.report()?, lines, facts, pick, edited })
     }
 
-    /// What a first click hit, and the whole vessel that it would add to a list.
     pub(crate) fn first_click(&self, click: WorldPoint, vessels: &[DocumentVessel]) -> Result<FirstClick> {
         self.check_click(click)?;
         Ok(FirstClick { pick: self.at(click), whole: self.whole_vessel(click, vessels)? })

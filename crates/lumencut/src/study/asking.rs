@@ -157,7 +157,7 @@ macro_rules! questions {
     };
     (@row $study:ident $asking:ident $name:ident $message:tt $answer:ty = $body:expr) => {
         mod $name {
-            #[allow(clippy::allow_attributes, unused_imports, reason = "what one row names another one may not")]
+            #[allow(clippy::allow_attributes, unused_imports, reason = "rows use different imports")]
             use super::*;
 
             questions!(@message $message);

@@ -148,7 +148,6 @@ impl Content {
         self.held.as_ref().map_or(&NONE, |held| &held.scan)
     }
 
-    /// Recomputes the windows if the lumen of the shown vessels is white in the main one.
     pub(crate) fn hold_lumen(&mut self) -> Result<()> {
         let (Some(Some(windows)), Some(held), Some(tree)) = (self.windows.get(), &self.held, self.tree())
         else {

@@ -139,7 +139,6 @@ impl Draft {
         self.document.vessels.iter().filter_map(|vessel| Some((vessel, vessel.clicks.as_ref()?)))
     }
 
-    /// Replaces vessel and point indices of a tracing failure by names.
     pub(crate) fn in_names(&self, mut failure: Failure) -> Failure {
         let Some(about) = &failure.more.about else { return failure };
         let vessel = about.vessel.and_then(|number| self.clicked().nth(number));

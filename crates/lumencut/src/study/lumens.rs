@@ -36,7 +36,6 @@ pub(crate) struct PointedLumen {
 }
 
 impl Study {
-    /// The lumens along a ray, nearest first, or the one at the place.
     pub(crate) fn lumens(&self, pointed: &PointedMessage) -> Result<Vec<PointedLumen>> {
         let volume = self.content.held.as_ref().ok_or_else(no_volume)?.volume()?;
         let point = DVec3::from_array(pointed.point);

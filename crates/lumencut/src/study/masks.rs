@@ -59,7 +59,6 @@ impl Study {
         self.mask = None;
     }
 
-    /// The lines of the mask, refined by the volume's values. Frees the mask in any case.
     pub(crate) fn trace_mask(&mut self, watch: Watch) -> Result<MaskLines> {
         let HeldMask { held, label_names } = self.mask.take().ok_or_else(no_mask)?;
         let scan = self.content.held.as_ref().ok_or_else(no_volume)?;

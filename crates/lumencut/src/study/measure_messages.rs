@@ -236,7 +236,6 @@ pub(crate) struct ComparedMessage {
 }
 
 impl ComparedMessage {
-    /// The doubts that a percentage from these places would have, one sentence each.
     pub(super) fn doubts(&self, profile: &Profile) -> Result<Vec<String>> {
         let method = Method::named("method of the stenosis", &self.method)?;
         Ok(of_doubts(&profile.doubts(self.at, method, &self.references)))

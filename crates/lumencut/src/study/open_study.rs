@@ -122,7 +122,6 @@ impl Study {
     }
 }
 
-/// Settings of a flat picture in a window, with an unused camera.
 pub(crate) fn shown_flat([level, width]: [f64; 2]) -> Result<(Camera, Settings)> {
     let camera = Camera::new(DVec3::ZERO, DVec3::Y, DVec3::Z, [1, 1], 1.0)?;
     Ok((camera, Settings { window: Window { level, width }, context: None, ..Settings::default() }))

@@ -47,7 +47,7 @@ impl Study {
 
     /// What a position in the last reformation shows; None if nothing.
     pub(crate) fn pick_reformed(&self, pixel: [f64; 2]) -> Result<Option<Pick>> {
-        let none = || Failure::of_message("reformation", &"none", "one that is shown");
+        let none = || Failure::of_message("reformation", &"none", "a reformation shown before");
         let reformed = self.reformed.as_ref().ok_or_else(none)?;
         let point = reformed.laid.layout().world_from_pixel(DVec2::from_array(pixel));
         if !point.is_finite() {
@@ -155,7 +155,6 @@ impl Study {
         }
     }
 
-    /// The picture of a reformation in a window, with caption and labels.
     fn picture_of(&self, reformed: &Reformed, (window, stop): ([f64; 2], Stop)) -> Result<ReformedPicture> {
         let layout = reformed.laid.layout();
         let size = layout.size();

@@ -90,7 +90,6 @@ impl Laid {
         Ok(Self { cpr: self.cpr.rolled(roll)?, ..self })
     }
 
-    /// Whether a message asks for this layout up to angle and feature.
     pub(crate) fn is_turned(&self, message: &CprMessage) -> bool {
         CprMessage { angle: message.angle, feature: message.feature, ..self.message } == *message
     }

@@ -57,7 +57,7 @@ impl Study {
 
     /// What a position in the last straightened CPR shows; for a CFA of largest or smallest values, the place of that value.
     pub(crate) fn pick_straightened(&self, [column, row]: [f64; 2]) -> Result<StraightenedPick> {
-        let none = || Failure::of_message("CPR", &"none", "one that is shown");
+        let none = || Failure::of_message("CPR", &"none", "a straightened CPR shown before");
         let laid = self.laid.as_ref().ok_or_else(none)?;
         let on_half_circle = match laid.message.feature {
             Some(feature) => self.aggregated_place(laid, feature.into(), [column, row])?,
@@ -103,7 +103,7 @@ impl Study {
 
 fn feature_of_roll() -> Failure {
     let found = "a CPR whose rows follow a side of the lumen";
-    Failure::of_message("feature of the CFA", &found, "one at an even angle")
+    Failure::of_message("feature of the CFA", &found, "a CPR at a constant angle")
 }
 
 #[cfg(test)]

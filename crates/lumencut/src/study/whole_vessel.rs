@@ -35,7 +35,6 @@ pub(crate) struct WholeVessel {
 }
 
 impl Study {
-    /// The vessels of the scan down to Python's default radius, confident and doubtful.
     pub(crate) fn trees(&mut self, watch: Watch) -> Result<&Trees> {
         let volume = self.content.held.as_ref().ok_or_else(no_volume)?.volume()?;
         let Watch { stop, progress } = watch;
@@ -49,7 +48,6 @@ impl Study {
         })
     }
 
-    /// Adds the vessel at a click, from the nearest existing vessel to its end.
     pub(crate) fn add_whole_vessel(
         &mut self,
         draft: &mut Draft,

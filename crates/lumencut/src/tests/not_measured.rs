@@ -1,4 +1,4 @@
-//! What is told of stretches that were not measured.
+//! Messages about unmeasured stretches.
 
 use super::*;
 use crate::tube::tube;

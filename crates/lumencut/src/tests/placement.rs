@@ -95,7 +95,7 @@ fn spaces_that_fit_alike_are_left_to_the_caller() {
     let found = "coordinates that are not stated and that the volume does not decide: lps in mm (20 of 20 points \
                  inside), ras in mm (20 of 20 points inside)";
     let mend = "state the space, lps or ras";
-    assert_eq!(error.to_string(), format!("lines.csv: found {found}; expected one that fits; {mend}"));
+    assert_eq!(error.to_string(), format!("lines.csv: found {found}; expected a space and unit that fit; {mend}"));
     assert_eq!(error.mended_by.as_deref(), Some(&Mend::Coordinates));
 }
 
@@ -220,7 +220,6 @@ fn cube_around(middle: DVec3) -> Extent {
     Extent::new([640; 3], DAffine3::from_translation(middle - 319.5))
 }
 
-/// A line through the centre of a cube, as a file would store it.
 fn line_of(length: f64, middle: DVec3, place: CoordinateSystem) -> Vec<DVec3> {
     let along = |n: i32| (f64::from(n) / 49.0 - 0.5) * length;
     let point = |n| middle + DVec3::new(3.0 * (along(n) / 9.0).sin(), -6.0, along(n));

@@ -17,7 +17,6 @@ fn of(lines: Vec<Line>) -> Centerlines {
     Centerlines { lines, ..Centerlines::default() }
 }
 
-/// Every seventh point, then every seventh of the rest, and so on.
 fn dealt(points: &[DVec3]) -> Vec<DVec3> {
     (0..7).flat_map(|first| points.iter().skip(first).step_by(7)).copied().collect()
 }

@@ -164,7 +164,6 @@ fn vessels_that_were_clicked_are_traced_beside_the_others_that_are_not_doubtful(
     assert_eq!((begun.vessels[3].line, called(&begun)[4].as_str()), (first, "Vessel 2"));
 }
 
-/// Two vessels that cross without touching, with a click on each.
 fn crossing() -> (Study, [[f64; 3]; 2], [f64; 3]) {
     let mut study = holding(lumencut_phantom::crossing().expect("a phantom"));
     let [first, second] = [0, 1].map(|vessel| points(&study, vessel));

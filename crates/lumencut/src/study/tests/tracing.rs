@@ -38,7 +38,6 @@ fn request(vessels: &[Vec<[f64; 3]>], beside: &[usize]) -> TraceRequest {
     TraceRequest { vessels: vessels.to_vec(), beside: beside.to_vec(), ..TraceRequest::default() }
 }
 
-/// Two clicks on a vessel of the phantom, a number of points from its ends.
 pub(super) fn clicks(study: &Study, vessel: usize, from_ends: usize) -> Vec<[f64; 3]> {
     let points = study.content.tree().expect("a tree").tree().vessels()[vessel].points().to_vec();
     vec![points[from_ends].to_array(), points[points.len() - 1 - from_ends].to_array()]

@@ -45,7 +45,6 @@ fn ramp(axis: usize, way: DVec3) -> Study {
     study
 }
 
-/// How the true position changes rightwards and downwards in a picture of each ramp.
 fn ways(way: DVec3, mut picture: impl FnMut(&mut Study) -> Picture) -> [DVec3; 2] {
     let made = [0, 1, 2].map(|axis| picture(&mut ramp(axis, way)));
     let [width, height] = made[0].size;
