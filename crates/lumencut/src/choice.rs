@@ -176,7 +176,8 @@ impl Choice {
             Mend::Unit(units)
         };
         let found = "coordinates that are not stated and that the volume does not decide";
-        Error::new("", format!("{found}: {}", self.several(fitting)), "a space and unit that fit").mended_by(mend)
+        Error::new("", format!("{found}: {}", self.several(fitting)), "a space and unit that fit")
+            .mended_by(mend)
     }
 
     fn several(&self, fitting: &[Reading]) -> String {

@@ -95,7 +95,10 @@ fn spaces_that_fit_alike_are_left_to_the_caller() {
     let found = "coordinates that are not stated and that the volume does not decide: lps in mm (20 of 20 points \
                  inside), ras in mm (20 of 20 points inside)";
     let mend = "state the space, lps or ras";
-    assert_eq!(error.to_string(), format!("lines.csv: found {found}; expected a space and unit that fit; {mend}"));
+    assert_eq!(
+        error.to_string(),
+        format!("lines.csv: found {found}; expected a space and unit that fit; {mend}")
+    );
     assert_eq!(error.mended_by.as_deref(), Some(&Mend::Coordinates));
 }
 
