@@ -1,8 +1,8 @@
 //! Picks points in pictures.
 
 use glam::DVec3;
+use lumencut::clicked_vessel;
 use lumencut::cut_at::cut_at;
-use lumencut::meant_vessel;
 use lumencut::method::Method;
 use lumencut::pipeline::CpuRenderer;
 use lumencut::study::brightest::brightest_on_ray;
@@ -41,8 +41,8 @@ pub(crate) fn meant_place(
     pixel_spacing: f64,
 ) -> PyResult<(f64, bool)> {
     let (vessel, point) = (tree::vessel(&vessel)?, DVec3::from_array(point));
-    let at = meant_vessel::nearest_arc_length(&vessel, point);
-    Ok((at, meant_vessel::is_meant(&vessel, point, pixel_spacing)))
+    let at = clicked_vessel::nearest_arc_length(&vessel, point);
+    Ok((at, clicked_vessel::is_clicked(&vessel, point, pixel_spacing)))
 }
 
 /// Whether a pixel (column, row) shows the cut surface rather than a focus's surroundings.

@@ -112,7 +112,7 @@ impl Choice {
             fitting.iter().map(|reading| (reading.place, lumen(reading.place))).collect();
         let (best, most) = counts.iter().max_by_key(|(_, count)| count.like_lumen)?;
         let others = counts.iter().filter(|(place, _)| place.unit != best.unit);
-        if !others.clone().all(|(_, count)| most.is_evident_beside(*count)) {
+        if !others.clone().all(|(_, count)| most.is_evident_over(*count)) {
             return None;
         }
         let lumen_words = |(place, count): &(CoordinateSystem, LumenCount)| {
@@ -131,9 +131,9 @@ impl Choice {
 
     fn space_by_values(&self, one: Reading, other: Reading, lumen: Lumen) -> Option<(Reading, String)> {
         let (of_one, of_other) = (lumen(one.place), lumen(other.place));
-        let (best, other, count, few) = if of_one.is_evident_beside(of_other) {
+        let (best, other, count, few) = if of_one.is_evident_over(of_other) {
             (one, other, of_one, of_other)
-        } else if of_other.is_evident_beside(of_one) {
+        } else if of_other.is_evident_over(of_one) {
             (other, one, of_other, of_one)
         } else {
             return None;

@@ -73,6 +73,6 @@ fn is_likelier(other: &Reading, as_read: &Reading, total: usize, volume: &Judge)
         return true;
     }
     let is_alike = other.is_as_good_as(as_read.fits());
-    let by_values = || (volume.lumen)(other.place).is_evident_beside((volume.lumen)(as_read.place));
+    let by_values = || (volume.lumen)(other.place).is_evident_over((volume.lumen)(as_read.place));
     is_alike && (as_read.is_short() || by_values())
 }

@@ -6,6 +6,7 @@
 pub mod axes_words;
 pub mod backend;
 mod choice;
+pub mod clicked_vessel;
 pub mod cut_at;
 pub mod cut_diameter;
 pub mod devices;
@@ -25,7 +26,6 @@ pub mod lumen_points;
 pub mod lumen_wall;
 pub mod mask_grid;
 pub mod mask_notes;
-pub mod meant_vessel;
 pub mod measure_words;
 pub mod mends;
 pub mod method;

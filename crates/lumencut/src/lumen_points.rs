@@ -52,7 +52,7 @@ pub struct Judge<'a> {
 impl LumenCount {
     /// Whether these points are lumen and those of the other reading are not: at least three times as many, half of all, and
     /// twenty.
-    pub(crate) fn is_evident_beside(self, other: Self) -> bool {
+    pub(crate) fn is_evident_over(self, other: Self) -> bool {
         self.like_lumen >= MIN_LUMEN_POINTS
             && 2 * self.like_lumen >= self.of
             && self.like_lumen >= MIN_RATIO * other.like_lumen

@@ -60,7 +60,7 @@ fn mirrored_by_values(points: &[DVec3], volume: &Judge) -> Option<Misplaced> {
         return None;
     }
     let (few, count) = ((volume.lumen)(as_read.place), (volume.lumen)(mirrored.place));
-    count.is_evident_beside(few).then(|| {
+    count.is_evident_over(few).then(|| {
         let how = mirrored.place.mistaken();
         let found = format!(
             "of {} sampled points, {} look like lumen as read, but {} {how}",

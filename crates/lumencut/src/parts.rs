@@ -49,14 +49,14 @@ pub(crate) fn parents(lines: &[&[DVec3]], widths: &[Option<f64>]) -> Vec<Option<
     parents
 }
 
-/// Calls `hear(a, b)` each time an end of line b is a point of line a.
-fn touching(lines: &[&[DVec3]], mut hear: impl FnMut(usize, usize)) {
+/// Calls `visit(a, b)` each time an end of line b is a point of line a.
+fn touching(lines: &[&[DVec3]], mut visit: impl FnMut(usize, usize)) {
     let ends = ends(lines);
     for (number, line) in lines.iter().enumerate() {
         for point in *line {
             for (end, owner) in ends.get(&cell(*point)).into_iter().flatten() {
                 if end.distance_squared(*point) <= VESSEL_END * VESSEL_END {
-                    hear(number, *owner);
+                    visit(number, *owner);
                 }
             }
         }

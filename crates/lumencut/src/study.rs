@@ -44,7 +44,7 @@ mod session_files;
 mod settings;
 mod straightened;
 mod straightening;
-mod telling;
+mod trace_report;
 pub mod tracing;
 pub mod view;
 pub mod voxels;

@@ -49,8 +49,8 @@ impl<'a> Nearby<'a> {
         self.divide(from + middle, to);
     }
 
-    /// Calls `hear` with each point within `reach` of a position, until it returns false.
-    pub(super) fn within(&self, place: DVec3, reach: f64, mut hear: impl FnMut(usize) -> bool) {
+    /// Calls `visit` with each point within `reach` of a position, until it returns false.
+    pub(super) fn within(&self, place: DVec3, reach: f64, mut visit: impl FnMut(usize) -> bool) {
         let mut open: Vec<usize> = if self.nodes.is_empty() { Vec::new() } else { vec![0] };
         while let Some(number) = open.pop() {
             let node = &self.nodes[number];
@@ -62,7 +62,7 @@ impl<'a> Nearby<'a> {
                 continue;
             }
             for n in &self.order[node.from..node.to] {
-                if self.points[*n].distance(place) <= reach && !hear(*n) {
+                if self.points[*n].distance(place) <= reach && !visit(*n) {
                     return;
                 }
             }

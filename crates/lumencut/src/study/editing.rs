@@ -8,7 +8,7 @@ use crate::study::edits::{Edit, EditMessage, Edited};
 use crate::study::failure::Result;
 use crate::study::open_study::Study;
 use crate::study::points_along::{click_after, nearest_point, points_along};
-use crate::study::telling::DoubtfulPlace;
+use crate::study::trace_report::DoubtfulPlace;
 use crate::study::tracing::{TraceRequest, Watch};
 
 impl Study {
@@ -51,7 +51,7 @@ impl Study {
         }
         self.last_id = draft.last_id;
         let Draft { document, added, without_marks, .. } = draft;
-        let mut told = self.told_of(&document, message.edit.traces(&added))?;
+        let mut told = self.trace_report(&document, message.edit.traces(&added))?;
         if let Some(told) = &mut told {
             told.doubts.extend(notes.iter().map(|note| DoubtfulPlace { words: note.clone(), at: None }));
         }

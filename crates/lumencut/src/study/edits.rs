@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::study::document::{Document, WorldPoint};
 use crate::study::lines::NamedLine;
-use crate::study::telling::Told;
+use crate::study::trace_report::Told;
 
 /// An edit of vessels. Clicks and stoppers are numbered from 0; arc lengths in mm.
 #[derive(Clone, Debug, Deserialize, PartialEq)]

@@ -1,7 +1,7 @@
 //! Picking: what a pixel shows, and what lies at a world point.
 
+use crate::clicked_vessel::{is_clicked, nearest_arc_length};
 use crate::cut_at::{CutAt, cut_at};
-use crate::meant_vessel::{is_meant, nearest_arc_length};
 use crate::windows;
 use glam::DVec3;
 use serde::Serialize;
@@ -33,9 +33,9 @@ impl Study {
             return Ok(brightest.unwrap_or_else(|_| self.pick_at(cut.point, None)));
         }
         let spacing = view.camera.pixel_spacing();
-        let is_meant =
-            |vessel: &usize| self.vessel(*vessel).is_ok_and(|vessel| is_meant(vessel, cut.point, spacing));
-        Ok(self.pick_at(cut.point, cut.vessel.filter(is_meant)))
+        let is_clicked =
+            |vessel: &usize| self.vessel(*vessel).is_ok_and(|vessel| is_clicked(vessel, cut.point, spacing));
+        Ok(self.pick_at(cut.point, cut.vessel.filter(is_clicked)))
     }
 
     /// The cut surface at a pixel (column, row).

@@ -34,12 +34,12 @@ fn an_interrupted_picture_leaves_the_reason_of_the_fall_back_to_the_next() {
         let mut backend = Backend { computer, unreported: Some(reason.clone()) };
         asked.store(0, Ordering::Relaxed);
         allowed.store(limit, Ordering::Relaxed);
-        let first = at_once(backend.render(&scene, &request)).map(|(_, told)| told);
+        let first = at_once(backend.render(&scene, &request)).map(|(_, described)| described);
         let checks = asked.load(Ordering::Relaxed);
         allowed.store(usize::MAX, Ordering::Relaxed);
-        let (frame, told) = at_once(backend.render(&scene, &request)).unwrap();
+        let (frame, described) = at_once(backend.render(&scene, &request)).unwrap();
         assert!(!frame.image.is_empty());
-        (first, told, checks)
+        (first, described, checks)
     };
     let (first, second, checks) = render(usize::MAX);
     assert_eq!((first, second), (Ok(Some(reason.clone())), None));
@@ -66,8 +66,8 @@ fn reformations_need_a_tree_and_a_cut_surface_does_not() {
         let mut backend = Backend { computer: Computer::Cpu(CpuRenderer::default()), unreported: None };
         let refused = at_once(backend.render_by(method, &alone, &request)).map(|_| ()).unwrap_err();
         assert_eq!(refused.kind, ErrorKind::VesselTree);
-        let (frame, told) = at_once(backend.render_by(method, &whole, &request)).unwrap();
-        assert_eq!((frame.image.len(), frame.vessel.len(), told), (72, 72, None));
+        let (frame, described) = at_once(backend.render_by(method, &whole, &request)).unwrap();
+        assert_eq!((frame.image.len(), frame.vessel.len(), described), (72, 72, None));
         // Only mpCPR has folds.
         assert_eq!(frame.folded.len(), if method == Method::MpCpr { 72 } else { 0 });
     }

@@ -9,7 +9,7 @@ fn slab(lumen: f32, around: f32) -> Vec<f32> {
 }
 
 /// The diameter in a view from the front, moved by `beside` (mm) from the slab's middle.
-fn told(voxels: &[f32], beside: f64, radius: f64) -> Option<f64> {
+fn described(voxels: &[f32], beside: f64, radius: f64) -> Option<f64> {
     let volume = Volume::new(Voxels::F32(voxels), [40, 9, 9], [1, 40, 360], DAffine3::IDENTITY).unwrap();
     let place = DVec3::new(16.0 + beside, 4.0, 4.0);
     cut_diameter(&volume, &Camera::new(place, DVec3::Y, DVec3::Z, [40, 40], 1.0).unwrap(), radius)
@@ -20,7 +20,7 @@ fn the_walls_lie_half_way_whichever_is_brighter_and_wherever_the_place_is() {
     for (lumen, around) in [(300.0, 0.0), (0.0, 300.0), (-50.0, -1000.0)] {
         for beside in [0.0, 1.2] {
             // Half values lie half a voxel outside the outermost lumen voxels.
-            let found = told(&slab(lumen, around), beside, 4.0).unwrap();
+            let found = described(&slab(lumen, around), beside, 4.0).unwrap();
             assert!((found - 9.0).abs() < 0.01, "{lumen} in {around}, {beside} mm off: {found}");
         }
     }
@@ -39,21 +39,21 @@ fn the_far_wall_of_a_vessel_that_touches_this_one_is_not_its_own() {
         (0..40 * 9 * 9).map(|n| value(n % 40)).collect()
     };
     for other in [300.0, 900.0] {
-        assert_eq!(told(&touching(300.0, other), 0.0, 4.5), None, "beside {other}");
+        assert_eq!(described(&touching(300.0, other), 0.0, 4.5), None, "beside {other}");
     }
 }
 
 #[test]
 fn without_two_walls_there_is_none() {
-    assert_eq!(told(&slab(40.0, 40.0), 0.0, 4.0), None, "nothing differs");
-    assert_eq!(told(&slab(300.0, 0.0), 100.0, 4.0), None, "outside the volume");
+    assert_eq!(described(&slab(40.0, 40.0), 0.0, 4.0), None, "nothing differs");
+    assert_eq!(described(&slab(300.0, 0.0), 100.0, 4.0), None, "outside the volume");
     let one: Vec<f32> = (0..40 * 9 * 9).map(|n| if n % 40 < 18 { 300.0 } else { 0.0 }).collect();
-    assert_eq!(told(&one, 0.0, 4.0), None, "a single wall");
+    assert_eq!(described(&one, 0.0, 4.0), None, "a single wall");
     let mut voxels = slab(300.0, 0.0);
     for (n, value) in voxels.iter_mut().enumerate() {
         if n % 40 == 11 {
             *value = f32::NAN;
         }
     }
-    assert_eq!(told(&voxels, 0.0, 4.0), None, "beside what is no number");
+    assert_eq!(described(&voxels, 0.0, 4.0), None, "beside what is no number");
 }

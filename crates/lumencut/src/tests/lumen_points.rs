@@ -52,8 +52,8 @@ fn lumen_is_told_whatever_the_units_of_the_volume_and_bright_or_dark() {
         // 60 mm in cubes of 2 mm.
         assert_eq!((as_it_is.of, mirrored.of), (30, 30));
         assert!(as_it_is.like_lumen >= 28, "volume {n}: {as_it_is:?}");
-        let told = format!("volume {n}: {as_it_is:?} beside {mirrored:?}");
-        assert!(as_it_is.is_evident_beside(mirrored) && !mirrored.is_evident_beside(as_it_is), "{told}");
+        let described = format!("volume {n}: {as_it_is:?} beside {mirrored:?}");
+        assert!(as_it_is.is_evident_over(mirrored) && !mirrored.is_evident_over(as_it_is), "{described}");
     }
 }
 
@@ -62,7 +62,7 @@ fn lines_without_radii_are_looked_at_too() {
     let (points, value) = (points(), |p| if is_lumen(p) { 350.0 } else { 40.0 + (p.x + p.z) as f32 });
     let radii = vec![f64::NAN; points.len()];
     let lines = Lines { points: &points, radii: &radii };
-    assert!(counted(value, &lines, LPS).is_evident_beside(counted(value, &lines, RAS)));
+    assert!(counted(value, &lines, LPS).is_evident_over(counted(value, &lines, RAS)));
 }
 
 #[test]
@@ -77,8 +77,8 @@ fn noise_nothing_and_what_is_symmetric_decide_nothing() {
         }];
     for (n, value) in values.iter().enumerate() {
         let [as_it_is, mirrored] = [LPS, RAS].map(|place| counted(value, &lines, place));
-        assert!(!as_it_is.is_evident_beside(mirrored), "volume {n}: {as_it_is:?} beside {mirrored:?}");
-        assert!(!mirrored.is_evident_beside(as_it_is), "volume {n}: {mirrored:?} beside {as_it_is:?}");
+        assert!(!as_it_is.is_evident_over(mirrored), "volume {n}: {as_it_is:?} beside {mirrored:?}");
+        assert!(!mirrored.is_evident_over(as_it_is), "volume {n}: {mirrored:?} beside {as_it_is:?}");
     }
 }
 

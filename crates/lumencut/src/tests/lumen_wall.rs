@@ -21,9 +21,9 @@ fn painted(value: impl Fn(DVec2, f64) -> f64) -> Vec<f32> {
     (0..SIZE.iter().product()).map(each).collect()
 }
 
-fn with<T>(values: &[f32], told: impl FnOnce(&Volume) -> T) -> T {
+fn with<T>(values: &[f32], described: impl FnOnce(&Volume) -> T) -> T {
     let affine = DAffine3::from_mat3_translation(DMat3::IDENTITY * 0.5, DVec3::new(-16.0, -16.0, 0.0));
-    told(&Volume::new(Samples::F32(values), SIZE, [1, 64, 4096], affine).expect("a volume"))
+    described(&Volume::new(Samples::F32(values), SIZE, [1, 64, 4096], affine).expect("a volume"))
 }
 
 /// A vessel of 4 mm radius that runs downwards.

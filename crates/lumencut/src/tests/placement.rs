@@ -201,18 +201,18 @@ fn between_spaces_that_fit_alike_the_values_decide_where_they_are_evident() {
 #[test]
 fn fewer_than_twenty_points_decide_nothing() {
     let of = |like_lumen, of| LumenCount { like_lumen, of };
-    assert!(of(20, 20).is_evident_beside(of(6, 20)));
-    assert!(!of(19, 19).is_evident_beside(of(0, 19)));
+    assert!(of(20, 20).is_evident_over(of(6, 20)));
+    assert!(!of(19, 19).is_evident_over(of(0, 19)));
 }
 
 #[test]
 fn values_that_speak_for_the_mirrored_lines_are_told() {
     let (extent, points) = around_the_origin();
-    let told = |lps, ras| better_place(&points, &Judge { extent, lumen: &counts(lps, ras) });
+    let described = |lps, ras| better_place(&points, &Judge { extent, lumen: &counts(lps, ras) });
     let found = "of 100 sampled points, 20 look like lumen as read, but 80 with x and y negated (LPS and RAS mixed up?)";
     let meant = CoordinateSystem { space: Space::Ras, unit: Unit::Millimetre };
-    assert_eq!(told(20, 80), Some(Misplaced { found: found.into(), meant }));
-    assert_eq!((told(80, 20), told(30, 80), told(0, 49)), (None, None, None));
+    assert_eq!(described(20, 80), Some(Misplaced { found: found.into(), meant }));
+    assert_eq!((described(80, 20), described(30, 80), described(0, 49)), (None, None, None));
     // Lines that leave the volume when mirrored stay as read.
     let judge = Judge { extent: volume(), lumen: &counts(0, 100) };
     assert_eq!(better_place(&self::points(Space::Lps, Unit::Millimetre), &judge), None);
@@ -311,7 +311,8 @@ fn values_tell_the_unit_where_they_are_evident() {
         let lumen = |place| LumenCount { like_lumen: if place == truth { 90 } else { 20 }, of: 100 };
         let judge = Judge { extent, lumen: &lumen };
         for stated_space in [None, Some(truth.space)] {
-            let found = placement(&Known { stated_space, ..nothing() }, &points, Some(&judge)).expect("told");
+            let found =
+                placement(&Known { stated_space, ..nothing() }, &points, Some(&judge)).expect("described");
             assert_eq!(found.place, truth, "{}", found.decision);
             assert!(found.is_unusual || truth.unit == Unit::Millimetre && found.also.is_empty());
         }
@@ -321,11 +322,11 @@ fn values_tell_the_unit_where_they_are_evident() {
     let lumen = |place| LumenCount { like_lumen: if place == truth { 90 } else { 20 }, of: 100 };
     let judge = Judge { extent: cube_around(middle), lumen: &lumen };
     let known = Known { stated_space: Some(Space::Lps), ..nothing() };
-    let found = placement(&known, &line_of(600.0, middle, truth), Some(&judge)).expect("told");
-    let told = "the file states no unit; lps in mm (50 of 50 points inside, 60 mm across), lps in cm (50 of 50 points \
+    let found = placement(&known, &line_of(600.0, middle, truth), Some(&judge)).expect("described");
+    let described = "the file states no unit; lps in mm (50 of 50 points inside, 60 mm across), lps in cm (50 of 50 points \
                 inside, 600 mm across) fit the volume; 20 of 100 sampled points look like lumen in lps in mm, but 90 of \
                 100 sampled points look like lumen in lps in cm: read in cm";
-    assert_eq!((found.decision.as_str(), found.unit_from), (told, Origin::Values));
+    assert_eq!((found.decision.as_str(), found.unit_from), (described, Origin::Values));
     assert_eq!(found.confirmed_by, Statement { space: None, unit: Some(Unit::Centimetre) });
 }
 

@@ -9,7 +9,7 @@ mod lumens;
 mod masks;
 mod planes;
 mod pretty;
-mod telling;
+mod trace_report;
 mod tracing;
 mod true_sides;
 pub(crate) mod typescript;

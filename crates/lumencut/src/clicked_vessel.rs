@@ -11,7 +11,7 @@ const CLICK_MARGIN_MM: f64 = 2.0;
 const CLICK_MARGIN_PX: f64 = 4.0;
 
 /// Whether a click selects the vessel: in its lumen or just outside. `pixel_spacing` is the pixel side (mm).
-pub fn is_meant(vessel: &Vessel, point: DVec3, pixel_spacing: f64) -> bool {
+pub fn is_clicked(vessel: &Vessel, point: DVec3, pixel_spacing: f64) -> bool {
     let at = nearest_arc_length(vessel, point);
     let reach = CLICK_MARGIN_MM.max(CLICK_MARGIN_PX * pixel_spacing);
     point.distance(point_at(vessel.points(), vessel.arc_length(), at)) <= radius_at(vessel, at) + reach
@@ -42,7 +42,7 @@ mod tests {
         let vessel = Vessel::new(points, Some(vec![3.0; 3])).expect("a vessel");
         let at = |y: f64| DVec3::new(12.0, y, 0.0);
         assert!((nearest_arc_length(&vessel, at(9.0)) - 12.0).abs() < 1e-9);
-        assert!(is_meant(&vessel, at(4.9), 0.1) && !is_meant(&vessel, at(5.1), 0.1));
-        assert!(is_meant(&vessel, at(6.9), 1.0) && !is_meant(&vessel, at(7.1), 1.0));
+        assert!(is_clicked(&vessel, at(4.9), 0.1) && !is_clicked(&vessel, at(5.1), 0.1));
+        assert!(is_clicked(&vessel, at(6.9), 1.0) && !is_clicked(&vessel, at(7.1), 1.0));
     }
 }

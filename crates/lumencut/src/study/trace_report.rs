@@ -38,7 +38,7 @@ pub(crate) struct DoubtfulPlace {
 }
 
 impl Study {
-    pub(crate) fn told_of(&self, document: &Document, id: Option<u32>) -> Result<Option<Told>> {
+    pub(crate) fn trace_report(&self, document: &Document, id: Option<u32>) -> Result<Option<Told>> {
         let Some(vessel) = id.and_then(|id| document.vessel(id)) else { return Ok(None) };
         let line = self.lines.get(vessel.line)?.met();
         let others: Vec<&DocumentVessel> =

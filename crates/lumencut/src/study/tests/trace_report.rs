@@ -12,7 +12,7 @@ use super::edits::edited;
 use super::tracing::{holding, points};
 use crate::study::document::Document;
 use crate::study::open_study::Study;
-use crate::study::telling::Told;
+use crate::study::trace_report::Told;
 
 /// A 96 mm tube along z of radius 9 mm in fat, in 1 mm voxels with values from a function of z and noise of ±20.
 fn tube(lumen: impl Fn(f64) -> f64) -> Study {
