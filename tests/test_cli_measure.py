@@ -94,7 +94,7 @@ def test_a_marked_stenosis_with_all_outputs(files, tmp_path):
     assert "(NASCET): 3." in line
     assert "mm at 30.0 mm, reference 8." in line
     assert "mm at 10.0 mm, 50.0 mm" in line
-    assert "group of the field: 50 to 69 %" in result.stdout
+    assert "severity group: 50 to 69 %" in result.stdout
     read = json.loads((tmp_path / "p.json").read_text("utf-8"))
     assert read["settings"]["at_mm"] == 30
     assert read["vessels"][0]["stenosis"]["percent"] == pytest.approx(60, abs=5)
@@ -126,7 +126,7 @@ def test_beside_one_reference_another_one_is_offered_and_not_graded_with(files, 
     assert result.exit_code == 0
     graded = json.loads((tmp_path / "p.json").read_text("utf-8"))["vessels"][0]["stenosis"]
     assert [spot["arc_length_mm"] for spot in graded["references"]] == [50]
-    _, offered = report.read_text("utf-8").split("<h2>Suggestions, not looked at</h2>")
+    _, offered = report.read_text("utf-8").split("<h2>Suggestions, not confirmed</h2>")
     assert "reference before (suggestion)</td>" in offered
     assert "narrowest place" not in offered
 

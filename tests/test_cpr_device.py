@@ -64,7 +64,7 @@ def test_the_cpu_takes_over_where_the_gpu_has_no_room():
     words = "curved geometry: found [0-9]+ pixels"
     made = cpr(noise(), wave(), "straightened", 30, spacing, device="auto")
     assert made.size[0] * made.size[1] > 3_000_000
-    with pytest.warns(DeviceWarning, match=f"{words}.*; the CPU goes on"):
+    with pytest.warns(DeviceWarning, match=f"{words}.*; the CPU continues"):
         value = made.value
     np.testing.assert_array_equal(
         value, cpr(noise(), wave(), "straightened", 30, spacing, device="cpu").value

@@ -134,7 +134,7 @@ def test_what_is_too_large_falls_back_to_the_cpu_once(any_gpu):
     )
     renderer = Renderer(volume)
     assert renderer.device == any_gpu
-    with pytest.warns(DeviceWarning, match=r"found .*; expected at most .*; the CPU goes on") as told:
+    with pytest.warns(DeviceWarning, match=r"found .*; expected at most .*; the CPU continues") as told:
         found = renderer.render(camera, settings)
     assert told[0].filename == __file__
     assert renderer.device == "cpu"
@@ -329,5 +329,5 @@ def test_a_gpu_that_is_given_up_is_a_warning_in_one_line(any_gpu, tmp_path):
     result = CliRunner().invoke(main, [*words, "--verbose"])
     assert result.exit_code == 0, result.output
     assert result.stderr.count("lumencut: warning: ") == 1
-    assert "; the CPU goes on\n" in result.stderr
+    assert "; the CPU continues\n" in result.stderr
     assert "device: cpu\n" in result.stderr

@@ -300,7 +300,7 @@ def test_the_command_line_writes_a_folder_for_the_pacs(line, tmp_path):
         "Lumencut is not a medical device",
         "NASCET",
         "Aorta of Jane",
-        "Suggestions, not looked at",
+        "Suggestions, not confirmed",
     ):
         assert words in text
     first = {name: pydicom.dcmread(folder / name).SOPInstanceUID for name in names}

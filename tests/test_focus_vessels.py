@@ -110,7 +110,7 @@ def test_other_pictures_refuse_a_focus(
 ) -> None:
     (name,), settings = setting, Settings(**setting)  # type: ignore[arg-type]
     what = {"focus": "a focus", "focus_vessels": "chosen vessels"}[name]
-    message = f"{name}: found {what} for another picture than a cut surface; .*leave the {name} out"
+    message = f"{name}: found {what} for a picture that is not a cut surface; .*leave the {name} out"
     tree, vessel = scene.tree, scene.tree["back"]
     for picture in (
         lambda: mpcpr(scene.volume, tree, camera, settings, device="cpu"),

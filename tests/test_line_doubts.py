@@ -74,7 +74,7 @@ def write_scan(path: Path) -> Path:
 @pytest.mark.parametrize("name", DISORDER)
 def test_disorder_is_said_where_the_file_is_read_and_its_mend_helps(name, tmp_path):
     path = write_markups(tmp_path / "line.mrk.json", DISORDER[name])
-    with pytest.warns(LineWarning, match=r"line\.mrk\.json: .*another order; reorder=True") as heard:
+    with pytest.warns(LineWarning, match=r"line\.mrk\.json: .*wrong order; reorder=True") as heard:
         read_centerlines(path)
     assert len(heard) == 1
     assert heard[0].filename == __file__
@@ -94,13 +94,13 @@ def test_radii_and_the_direction_follow_the_points(tmp_path, caplog):
     tree = read_centerlines(path, "lps", unit="mm", reorder=True)
     np.testing.assert_array_equal(tree[0].points, LINE[::-1])
     np.testing.assert_allclose(tree[0].radius, RADIUS[::-1])
-    assert "3 of 70 points were put in another order" in caplog.text
+    assert "3 of 70 points were reordered" in caplog.text
 
 
 def test_a_list_of_points_that_was_parted_is_doubted(tmp_path):
     path = tmp_path / "line.csv"
     np.savetxt(path, np.roll(LINE, -2, axis=0), delimiter=",", header="x,y,z", comments="")
-    with pytest.warns(LineWarning, match="parted into 2 lines .*; reorder=True"):
+    with pytest.warns(LineWarning, match="split into 2 lines .*; reorder=True"):
         assert len(read_centerlines(path, "lps", unit="mm")) == 2
     tree = read_centerlines(path, "lps", unit="mm", reorder=True)
     np.testing.assert_array_equal(tree.points, LINE)
@@ -118,7 +118,7 @@ def test_an_order_in_doubt_is_refused(tmp_path):
 @pytest.mark.parametrize("name", ["first point last", "middle turned round", "stray"])
 def test_every_use_of_a_line_says_its_doubt_once(name):
     points = stray() if name == "stray" else DISORDER[name]
-    words = "point 20 at" if name == "stray" else "another order"
+    words = "point 20 at" if name == "stray" else "wrong order"
     scan = volume()
     uses = [
         lambda vessel: lumencut.measure(scan, vessel),
@@ -159,15 +159,15 @@ def test_the_command_line_says_it_and_takes_the_mend(tmp_path):
     for words in (["measure", ct, path, "-o", out], ["cpr", ct, path, "-o", str(tmp_path / "out.png")]):
         found = CliRunner().invoke(main, words)
         assert found.exit_code == 0, found.output
-        assert found.stderr.count("another order; --reorder puts the points of the file in order") == 1, words
+        assert found.stderr.count("wrong order; --reorder puts the points of the file in order") == 1, words
         mended = CliRunner().invoke(main, [*words, "--reorder"])
         assert mended.exit_code == 0, mended.output
-        assert "another order;" not in mended.stderr
-        assert "of 70 points were put in another order" in mended.stderr
+        assert "wrong order;" not in mended.stderr
+        assert "of 70 points were reordered" in mended.stderr
     found = CliRunner().invoke(main, ["info", ct, path])
     assert "! the vessel" in found.stdout
-    assert "another order; --reorder puts" in found.stdout
-    assert "another order;" not in CliRunner().invoke(main, ["info", path, "--reorder"]).stdout
+    assert "wrong order; --reorder puts" in found.stdout
+    assert "wrong order;" not in CliRunner().invoke(main, ["info", path, "--reorder"]).stdout
     refused = CliRunner().invoke(main, ["render", ct, "-o", str(tmp_path / "out.png"), "--reorder"])
     assert refused.exit_code == 2
     assert "--reorder does nothing without CENTERLINES" in refused.stderr
@@ -207,7 +207,7 @@ def test_a_batch_keeps_the_doubt_beside_the_study(tmp_path):
     assert ended.returncode == 0, ended.stderr
     with (tmp_path / "out/studies.csv").open(newline="", encoding="utf-8") as file:
         (row,) = csv.DictReader(file)
-    assert row["warnings"].count("another order") == 1
+    assert row["warnings"].count("wrong order") == 1
 
 
 def test_warnings_can_be_pickled():

@@ -211,7 +211,7 @@ def test_the_command_writes_it_and_makes_it_again(crusted, tmp_path):
     assert "lumen map of the wall of 1 vessel" in done.output
     recipe, _ = read_reformation_recipe(first)
     assert recipe.parameters["band"] == [-2.0, 2.0]
-    assert "Across: once around its wall" in recipe.axes
+    assert "Across: once around the wall" in recipe.axes
     done = runner.invoke(main, ["map", str(scan), str(lines), "-o", str(again), "--like", str(first)])
     assert done.exit_code == 0, done.output
     assert first.read_bytes() == again.read_bytes()

@@ -228,7 +228,7 @@ def test_a_stent_is_metal():
     # A strut blooms: no place within a stent is suggested, and the reason is told.
     assert profile.narrowest() is None
     (reason,) = profile.not_suggested()
-    assert "no section is safe (metal)" in reason
+    assert "no section is reliable (metal)" in reason
     assert "metal" in reason
 
 

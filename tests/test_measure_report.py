@@ -60,7 +60,7 @@ def test_no_percentage_without_method_references_and_mm(page):
     graded = (
         r"\d+ ± \d+ % of the diameter \(NASCET\): [\d.]+ ± [\d.]+ mm at 30\.0 mm, reference [\d.]+ mm at .*"
     )
-    group = r"Group of the field: 50 to 69 % \(groups of NASCET, .*\)"
+    group = r"Severity group: 50 to 69 % \(groups of NASCET, .*\)"
     assert len(lines) == 2
     assert re.fullmatch(graded, lines[0])
     assert re.fullmatch(group, lines[1])

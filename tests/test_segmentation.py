@@ -263,12 +263,12 @@ def test_another_frame_of_reference_or_grid_is_refused_by_name(tmp_path, scan):
         trace_mask(read_volume(save(data, tmp_path / "a.dcm")), volume)
     finer = np.diag([0.5, 0.5, 1.5, 1.0])
     path = save(segmentation(masks(finer), NAMES), tmp_path / "b.dcm")
-    with pytest.raises(VolumeError, match=r"voxels of 0.5 × 0.5 × 1.5 mm are none of the volume"):
+    with pytest.raises(VolumeError, match=r"voxels of 0.5 × 0.5 × 1.5 mm; expected the voxels of the volume"):
         trace_mask(read_volume(path), volume)
     beyond = grid().copy()
     beyond[2, 3] = 15.0
     path = save(segmentation(masks(beyond), NAMES), tmp_path / "c.dcm")
-    with pytest.raises(VolumeError, match="reaches beyond the volume"):
+    with pytest.raises(VolumeError, match="extends beyond the volume"):
         trace_mask(read_volume(path), volume)
 
 

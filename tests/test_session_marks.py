@@ -11,7 +11,7 @@ from lumencut.cli import main
 from scene_files import write_volume_of
 from test_session_file import MARKS, write_session
 
-ECST = "ECST needs the diameter that the vessel is assumed to have had there."
+ECST = "ECST needs the assumed original diameter at that place."
 
 #: States that the page saves, by name: each is a place at 30 mm that was graded one way and then another.
 STATES = {

@@ -135,7 +135,7 @@ def test_other_masks_of_a_part_are_placed_too_and_say_so(tmp_path, end):
     whole = Volume(labels.T, world_from_index=affine)
     assert_same_lines(tree, trace_mask(whole, volume))
     sizes = " × ".join(map(str, labels[cut].shape))
-    assert tree.notes[0].startswith(f"the mask has {sizes} of the 34 × 30 × 44 voxels of the volume: placed")
+    assert tree.notes[0].startswith(f"the mask covers {sizes} of the 34 × 30 × 44 voxels of the volume: placed")
     assert not any("placed" in note for note in trace_mask(whole, volume).notes)
 
 
@@ -192,9 +192,9 @@ def test_a_segmentation_beside_the_voxels_of_its_scan_is_refused_by_name(tmp_pat
     finer[:3, 0] *= 0.5
     beyond[2, 3] -= 1.25 * 3
     for name, grid, words in (
-        ("half", half, r"voxels lie 0\.4 mm beside those of the volume; expected .*; .*resample"),
-        ("finer", finer, r"voxels of 0\.4 × 0\.8 × 1\.25 mm are none of the volume; .*resample"),
-        ("beyond", beyond, r"reaches beyond the volume; expected voxels among the 34 × 30 × 44"),
+        ("half", half, r"voxels lie 0\.4 mm away from those of the volume; expected .*; .*resample"),
+        ("finer", finer, r"voxels of 0\.4 × 0\.8 × 1\.25 mm; expected the voxels of the volume.*resample"),
+        ("beyond", beyond, r"extends beyond the volume; expected voxels among the 34 × 30 × 44"),
     ):
         for path in (
             save_seg(tmp_path / f"{name}.seg.nrrd", labels[cut], grid, NAMED),
@@ -216,8 +216,8 @@ def test_a_cohort_takes_cropped_segmentations_and_checks_them_before(tmp_path):
     table.write_text("id,volume,mask,label\np1,ct.nii.gz,good.seg.nrrd,aorta\np2,ct.nii.gz,half.seg.nrrd,\n")
     checked = CliRunner().invoke(main, ["batch", str(table), "--check"])
     assert checked.exit_code != 0
-    assert "0.4 mm beside those of the volume" in checked.output
-    refused = [line for line in checked.output.splitlines() if "beside those of the volume" in line]
+    assert "0.4 mm away from those of the volume" in checked.output
+    refused = [line for line in checked.output.splitlines() if "away from those of the volume" in line]
     assert refused
     assert not any("p1: " in line for line in refused)
     table.write_text("id,volume,mask,label\np1,ct.nii.gz,good.seg.nrrd,aorta\n")

@@ -149,7 +149,7 @@ def test_what_turns_away_from_its_sides_says_so(ramps, tmp_path):
     made = straightened_volume(ramps[0], bow(), 16, 1.0)
     across, off = made.notes
     assert across == (
-        "the vessel runs across the body at its middle: its sections follow each other to the patient's left"
+        "the vessel runs across the body at its middle: its sections progress to the patient's left"
     )
     assert "up to 8" in off or "up to 9" in off
     assert made.sides == "SPL"

@@ -70,7 +70,7 @@ def test_a_volume_that_does_not_show_the_vessel_changes_nothing(what):
     }[what]
     tree = trace_mask(mask, Volume(values))
     assert tree == trace_mask(mask)
-    assert "middle and radius are known to about half a voxel (0.5 mm): the volume tells no better there" in (
+    assert "the centre and radius are accurate to about half a voxel (0.5 mm): the volume gives no better estimate there" in (
         tree.notes
     )
 

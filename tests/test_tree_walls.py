@@ -68,7 +68,7 @@ def test_a_level_that_is_given_is_pooled_too_and_none_is_where_none_is_asked(art
     given = profiles(volume, tree, [tree[2]], wall=(30, 20))[0].wall_source
     assert given.startswith("30 ± 20, given; ")
     assert "pooled with 2 other" in given
-    assert profiles(volume, tree, [tree[2]], wall="off")[0].wall_source == "not told apart, as asked"
+    assert profiles(volume, tree, [tree[2]], wall="off")[0].wall_source == "not separated, as requested"
 
 
 def test_walls_that_are_hidden_tell_nothing_and_are_told_nothing():
@@ -76,6 +76,6 @@ def test_walls_that_are_hidden_tell_nothing_and_are_told_nothing():
     volume, tree = tree_of(scenes)
     clear, hidden = profiles(volume, tree, tree)
     assert clear.wall_source == "45 ± 25 HU, as walls in CT"
-    assert hidden.wall_source == "not told apart: the surroundings are as bright"
+    assert hidden.wall_source == "not separated: the surroundings are as bright"
     for vessel, among in zip(tree, (clear, hidden), strict=True):
         assert same(measure(volume, vessel, fwhm=0.9), among)

@@ -54,7 +54,7 @@ def test_a_wall_with_fat_on_one_side_and_muscle_on_the_other(coronary):
 
 def test_walls_as_bright_as_muscle_are_not_told_apart():
     told = of(Scene(4.0, wall=MUSCLE, around=(MUSCLE,), seed=3))
-    assert told.wall_source == "not told apart: the surroundings are as bright"
+    assert told.wall_source == "not separated: the surroundings are as bright"
     assert np.isnan(told.wall).all()
     assert np.isnan(told.diameter_outer).all()
     assert np.mean(told.diameter_equivalent) == pytest.approx(4.0, abs=0.06)
@@ -90,13 +90,13 @@ def test_the_source_of_the_wall_is_told(coronary):
     volume, vessel = scene.volume(), scene.vessel()
     assert coronary.wall_source == "45 ± 25 HU, as walls in CT"
     assert of(scene, wall=(30, 10)).wall_source == "30 ± 10, given"
-    assert of(scene, wall="off").wall_source == "not told apart, as asked"
+    assert of(scene, wall="off").wall_source == "not separated, as requested"
     shares = Volume((volume.array - FAT) / 440, world_from_index=volume.world_from_index)
     told = measure(Volume(shares.array.clip(0), world_from_index=volume.world_from_index), vessel, fwhm=0.9)
-    assert told.wall_source == "not told apart: nothing says that the values are HU"
+    assert told.wall_source == "not separated: nothing says that the values are HU"
     dark = Volume(300 - volume.array, world_from_index=volume.world_from_index)
     told = measure(dark, vessel, fwhm=0.9, wall=(100, 30))
-    assert told.wall_source == "not told apart: the lumen is dark"
+    assert told.wall_source == "not separated: the lumen is dark"
     assert np.isnan(told.wall).all()
 
 

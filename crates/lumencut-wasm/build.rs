@@ -1,6 +1,6 @@
-//! Tells the linker that the workers of a page share the engine's memory.
+//! Links the engine with memory shared by the page's workers.
 
-/// What the workers need to start with the memory of another one.
+/// Symbols that a worker needs to start in shared memory.
 const EXPORTED: [&str; 5] = ["__wasm_init_tls", "__tls_size", "__tls_align", "__tls_base", "__heap_base"];
 
 fn main() {

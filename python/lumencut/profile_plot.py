@@ -80,7 +80,7 @@ def draw(axes: Axes, sections: Sections, marks: Sequence[Mark]) -> None:
     if np.isfinite(out).any():
         axes.plot(
             x, np.where(out < top, out, np.nan), ".", color=_LEFT_OUT, ms=3, mfc="none", mew=0.6,
-            label="left out: see the flags",
+            label="excluded: see the flags",
         )  # fmt: skip
     limit = 1.5 * sections.fwhm
     if limit < top:

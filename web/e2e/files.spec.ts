@@ -112,7 +112,7 @@ test('the millimetre that is assumed is kept in the session, and told with what 
   await expect(button(viewer, 'Undo')).toBeDisabled();
   await viewer.press('m');
   await expect(viewer.page.getByTestId('section-numbers')).toContainText('mm', { timeout: 30_000 });
-  const words = '1 mm is assumed between voxels: the scan does not say how far they lie apart.';
+  const words = 'The scan has no voxel spacing: 1 mm is assumed.';
   const numbers = 'Numbers of measured vessels';
   for (const file of [`${numbers} (CSV)`, `${numbers} (JSON)`, 'Report (HTML)']) {
     expect(`${await saved(viewer, file)}`).toContain(words);

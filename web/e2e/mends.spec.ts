@@ -81,7 +81,7 @@ test('points of a line in another order are noted, and put in order', async () =
   });
   await choose([line(order)]);
   await viewer.rest();
-  const notes = viewer.page.locator('details', { hasText: 'another order' });
+  const notes = viewer.page.locator('details', { hasText: 'wrong order' });
   const length = async () => (await viewer.report()).vessels?.map((vessel) => Math.round(vessel.length));
   const [disordered] = (await length()) ?? [];
   await notes.locator('summary').click();

@@ -57,7 +57,7 @@ test('a report without a percentage says so where a place is marked, and what no
   const html = readFileSync(await download.path(), 'utf-8');
   expect(html).toContain(words);
   expect(html).toMatch(/Saved on \d{4}-\d\d-\d\d \d\d:\d\d/);
-  const [looked = '', offered = ''] = html.split('Suggestions, not looked at');
+  const [looked = '', offered = ''] = html.split('Suggestions, not confirmed');
   expect(looked).toContain('marked place</td>');
   expect(looked).not.toContain('reference before');
   expect(offered).toContain('reference before (suggestion)</td>');

@@ -173,9 +173,9 @@ test('dropped together with its scan, the session brings everything back', async
 test('a session of another scan is refused in words, and nothing changes', async () => {
   await choose(viewer, tubes('later.nrrd', 5), fileNow());
   await expect(viewer.problem).toContainText(
-    /Found a session of a scan of 80 × 56 × 90 voxels in another place; expected a session of the scan that is open\./,
+    /Found a session of a scan of 80 × 56 × 90 voxels in another place; expected a session of the open scan\./,
   );
-  await expect(viewer.problem).toContainText('Open the scan that the session was made of');
+  await expect(viewer.problem).toContainText("Open the session's own scan");
   await viewer.screenshot('session-of-another-scan');
   await expect(rows(viewer)).toHaveCount(0);
   await openInstead();

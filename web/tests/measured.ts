@@ -26,7 +26,7 @@ export function madeProfile(length = 60): Profile {
     center: places.map((at): Vector => [0, 0, at]),
     fwhm: 1.2,
     fwhm_source: 'given',
-    wall_source: 'not told apart, as asked',
+    wall_source: 'not separated, as requested',
     narrowest: { at: length / 2, diameter: 4 },
     widest: { at: 10, diameter: 8.8 },
     not_suggested: [],

@@ -1,5 +1,5 @@
-//! `xtask MODULE FOLDER NAME`: makes of a module that cargo compiled for WebAssembly what a browser loads, in a folder:
-//! the module `NAME_bg.wasm` and its JavaScript and types, `NAME.js` and `NAME.d.ts`.
+//! `xtask MODULE FOLDER NAME`: converts a WebAssembly module compiled by cargo for the browser. It writes `NAME_bg.wasm`, `NAME.js`
+//! and `NAME.d.ts`.
 
 use std::process::ExitCode;
 

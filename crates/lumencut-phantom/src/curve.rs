@@ -1,4 +1,4 @@
-//! Smooth curves through anatomical way points, with a radius, by arc length.
+//! Smooth curves with radii through anatomical way points, by arc length.
 
 use std::f64::consts::TAU;
 
@@ -8,13 +8,11 @@ use lumencut_core::math::arc_length::LinePlace;
 
 use crate::random::uniform;
 
-/// A way point of a vessel: x, y, z (mm, LPS) and the radius there (mm).
+/// x, y, z (mm, LPS) and radius (mm).
 pub(crate) type WayPoint = [f64; 4];
 
-/// Samples of a curve between two neighbouring way points.
 const SAMPLES_PER_SPAN: usize = 64;
 
-/// A finely sampled curve with radii, addressed by arc length.
 #[derive(Clone, Debug)]
 pub(crate) struct Curve {
     points: Vec<DVec3>,
@@ -23,15 +21,14 @@ pub(crate) struct Curve {
 }
 
 impl Curve {
-    /// The centripetal Catmull-Rom spline through at least two way points; it starts and ends exactly at
-    /// the first and the last.
+    /// The centripetal Catmull-Rom spline through at least two way points, exact at both ends.
     pub(crate) fn through(way: &[WayPoint]) -> Self {
         let place = |i: usize| DVec3::new(way[i][0], way[i][1], way[i][2]);
         let last = way.len() - 1;
         let mut points = vec![place(0)];
         let mut radius = vec![way[0][3]];
         for i in 0..last {
-            // Beyond the ends the curve goes on as its own mirror image.
+            // Beyond its ends the curve continues as its own mirror image.
             let before = if i == 0 { place(0) * 2.0 - place(1) } else { place(i - 1) };
             let after = if i + 1 == last { place(last) * 2.0 - place(last - 1) } else { place(i + 2) };
             let span = [before, place(i), place(i + 1), after];
@@ -46,7 +43,7 @@ impl Curve {
         Self::of(points, radius)
     }
 
-    /// The polyline through `points` as it is.
+    /// The polyline through `points`.
     pub(crate) fn of(points: Vec<DVec3>, radius: Vec<f64>) -> Self {
         let mut arc = Vec::with_capacity(points.len());
         let mut length = 0.0;
@@ -59,7 +56,7 @@ impl Curve {
         Self { points, radius, arc }
     }
 
-    /// The curve with gentle bends of up to about `amplitude` mm, none at its two ends.
+    /// The curve with slight bends of about `amplitude` mm, none at its ends.
     pub(crate) fn winding(self, amplitude: f64, seed: u64) -> Self {
         let length = self.length();
         let waves = (length / 45.0).max(0.5);
@@ -84,12 +81,12 @@ impl Curve {
         Self::of(points, self.radius)
     }
 
-    /// The length of the curve (mm).
+    /// Length (mm).
     pub(crate) fn length(&self) -> f64 {
         self.arc[self.arc.len() - 1]
     }
 
-    /// Point and radius at arc length `s` (mm), exactly the end points at the ends.
+    /// Point and radius at arc length `s` (mm), exact at both ends.
     pub(crate) fn at(&self, s: f64) -> (DVec3, f64) {
         let place = LinePlace::at(&self.arc, s);
         (place.point(&self.points), place.value(&self.radius))
@@ -109,7 +106,7 @@ impl Curve {
     }
 }
 
-/// The centripetal Catmull-Rom spline between the two middle points, `t` in [0, 1] (Barry and Goldman).
+/// The centripetal Catmull-Rom spline between the middle points, `t` in [0, 1] (Barry and Goldman).
 fn catmull_rom(p: [DVec3; 4], t: f64) -> DVec3 {
     let knot = |i: usize| p[i].distance(p[i + 1]).sqrt().max(1e-9);
     let k = [0.0, knot(0), knot(0) + knot(1), knot(0) + knot(1) + knot(2)];

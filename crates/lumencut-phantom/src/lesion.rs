@@ -1,4 +1,4 @@
-//! What is wrong with a vessel: stenoses and plaques, as truth and as shape.
+//! Lesions of vessels, stenoses and plaques: as truth and as shape.
 
 use std::f64::consts::{PI, TAU};
 
@@ -6,58 +6,54 @@ use glam::DVec3;
 
 use crate::curve::Curve;
 
-/// What a plaque is made of.
+/// The composition of a plaque.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PlaqueKind {
-    /// Non-calcified plaque between the lumen and the healthy lumen's border.
+    /// Non-calcified, between the lumen and the healthy lumen's border.
     Soft,
-    /// Calcification.
+    /// Calcified.
     Calcified,
 }
 
-/// A narrowing of the lumen, concentric with the centerline.
-///
-/// The lumen has its least radius over the middle two fifths of the length and widens to the reference
-/// radius along half a cosine on either side.
+/// A concentric stenosis: narrowest over the middle two fifths, with half-cosine transitions to the reference radius.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stenosis {
-    /// Id of the vessel.
+    /// Vessel id.
     pub vessel: usize,
-    /// Arc length of its middle along the vessel (mm).
+    /// Arc length of its middle (mm).
     pub arc_length: f64,
-    /// Its length along the vessel (mm).
+    /// Length (mm).
     pub length: f64,
-    /// Reduction of the diameter at its middle (percent of the reference diameter).
+    /// Diameter reduction at its middle (percent of the reference).
     pub percent: f64,
 }
 
 /// A plaque in the wall of a vessel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Plaque {
-    /// Id of the vessel.
+    /// Vessel id.
     pub vessel: usize,
-    /// Arc length of its middle along the vessel (mm).
+    /// Arc length of its middle (mm).
     pub arc_length: f64,
-    /// What it is made of.
+    /// Composition.
     pub kind: PlaqueKind,
-    /// Where around the vessel its middle lies (radians): 0 is the direction across the vessel nearest
-    /// to anterior (to superior where the vessel itself runs anteriorly), growing right-handed about the
-    /// direction in which the vessel runs.
+    /// Direction of its middle around the vessel (radians), right-handed about the vessel's direction; 0 is nearest to anterior,
+    /// or to superior if the vessel runs anteriorly.
     pub angle: f64,
-    /// Its length along the vessel (mm).
+    /// Length (mm).
     pub length: f64,
-    /// Its extent around the vessel (radians), 2π for a whole ring.
+    /// Angular extent (radians); 2π for a ring.
     pub angular_extent: f64,
-    /// How thick it is across the wall at its middle (mm).
+    /// Thickness at its middle (mm).
     pub thickness: f64,
-    /// World position of its middle (mm, LPS); on the centerline for a whole ring.
+    /// World position of its middle (mm, LPS); on the centerline for a ring.
     pub position: DVec3,
 }
 
-/// The share of a stenosis along which the lumen stays at its narrowest.
+/// The fraction of a stenosis at its narrowest.
 const PLATEAU: f64 = 0.4;
 
-/// How far a stenosis has closed (0 … 1 of its full percentage) at `offset` mm from its middle.
+/// The progress of narrowing (0 to 1) at `offset` mm from the middle.
 pub(crate) fn narrowing(offset: f64, length: f64) -> f64 {
     let u = 2.0 * offset.abs() / length;
     if u >= 1.0 {
@@ -67,7 +63,7 @@ pub(crate) fn narrowing(offset: f64, length: f64) -> f64 {
     0.5 + 0.5 * (PI * v).cos()
 }
 
-/// Unit vector across a vessel with tangent `tangent` at `angle` as [`Plaque::angle`] defines it.
+/// Unit vector across a vessel at `angle`, as in [`Plaque::angle`].
 pub(crate) fn across(tangent: DVec3, angle: f64) -> DVec3 {
     let anterior = DVec3::NEG_Y;
     let zero = if tangent.dot(anterior).abs() < 0.95 { anterior } else { DVec3::Z };
@@ -75,7 +71,6 @@ pub(crate) fn across(tangent: DVec3, angle: f64) -> DVec3 {
     zero * angle.cos() + tangent.cross(zero) * angle.sin()
 }
 
-/// A calcification before it has found its vessel; lengths as in [`Plaque`], arc length along the curve.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Calcification {
     pub(crate) arc_length: f64,
@@ -85,7 +80,6 @@ pub(crate) struct Calcification {
     pub(crate) thickness: f64,
 }
 
-/// A line with a radius at each end: what calcifications are made of.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Rod {
     pub(crate) ends: [DVec3; 2],
@@ -93,18 +87,18 @@ pub(crate) struct Rod {
 }
 
 impl Calcification {
-    /// Where its middle lies (mm, LPS): against the outside of a lumen of radius `lumen`.
+    /// The position of its middle (mm, LPS): outside a lumen of radius `lumen`.
     pub(crate) fn position(&self, curve: &Curve, lumen: f64) -> DVec3 {
         let direction = across(curve.tangent(self.arc_length), self.angle);
         curve.at(self.arc_length).0 + direction * (lumen + self.thickness / 2.0)
     }
 
-    /// A sheet of rods against the outside of the lumen, thinner towards its rim.
+    /// A sheet of rods on the outside of the lumen, thinner towards its rim.
     pub(crate) fn rods(&self, curve: &Curve, lumen: impl Fn(f64) -> f64) -> Vec<Rod> {
         let radius = lumen(self.arc_length) + self.thickness / 2.0;
         let steps = (radius * self.angular_extent / (0.5 * self.thickness)).ceil().max(2.0) as usize;
         let pieces = (self.length / 1.5).ceil().max(2.0) as usize;
-        // From −1 to 1, so that the rods' own ends stay within the stated extent.
+        // From −1 to 1, so that rod ends stay within the stated extent.
         let grid = |n: usize, of: usize| 2.0 * n as f64 / of as f64 - 1.0;
         let rim = 0.2 * self.thickness;
         let arc_half = (self.angular_extent / 2.0 - rim / radius).max(0.0);
@@ -117,7 +111,7 @@ impl Calcification {
         };
         let mut rods = Vec::with_capacity(steps * pieces);
         for v in (0..=steps).map(|n| grid(n, steps)) {
-            // The outline is an ellipse, not a rectangle.
+            // The outline is an ellipse.
             let reach = (1.0 - 0.8 * v * v).sqrt();
             for piece in 0..pieces {
                 let (a, ra) = knob(reach * grid(piece, pieces), v);
@@ -129,7 +123,7 @@ impl Calcification {
     }
 }
 
-/// The whole turn that a concentric plaque takes.
+/// A full turn: a concentric plaque.
 pub(crate) const WHOLE_RING: f64 = TAU;
 
 #[cfg(test)]

@@ -1,14 +1,11 @@
-//! Scenes made from formulas, with the truth beside them.
+//! Synthetic scenes with known truth.
 //!
-//! Small phantoms have answers in closed form: [`straight_tube`], [`helix`], [`y_junction`], [`crossing`],
-//! [`trefoil`], [`collinear_run`], [`stenosis`], [`calcified_wall`]. Three workloads have the sizes of the
-//! paper's Table 2: [`aorta`], [`runoff`], [`cervical`]; their anatomy is drawn from way points and simple
-//! solids, and looks enough like CT to be read like one.
+//! Small phantoms have closed-form answers: [`straight_tube`], [`helix`], [`y_junction`], [`crossing`], [`trefoil`],
+//! [`collinear_run`], [`stenosis`], [`calcified_wall`]. Three workloads have the sizes of the paper's Table 2: [`aorta`],
+//! [`runoff`], [`cervical`]; their anatomy of way points and simple solids resembles CT.
 //!
-//! In every phantom the lumen has 350 HU, the vessel wall 60 HU, soft plaque 40 HU, calcifications
-//! 1000 HU; edges are ramps one voxel wide whose middle lies on the true surface. A lumen is the union of
-//! its vessel's segments, each a rod whose radius runs linearly from one point's to the next one's, with
-//! round ends.
+//! Lumen has 350 HU, vessel wall 60 HU, soft plaque 40 HU, calcification 1000 HU. Edges are ramps one voxel wide, centred on the
+//! true surface. A lumen is a union of round-ended segments with linearly varying radius.
 
 mod anatomy;
 mod curve;
@@ -33,41 +30,36 @@ pub use small::{
 };
 pub use workload::{AORTA, CERVICAL, RUNOFF, Workload, aorta, cervical, runoff};
 
-/// A volume and its vessel tree, with everything known about them.
+/// A volume and its vessel tree, with the truth.
 #[derive(Clone, Debug)]
 pub struct Phantom {
-    /// What it is called, the same as the function that makes it.
+    /// The name of its function.
     pub name: &'static str,
-    /// The voxels (HU), i fastest, then j, then k.
+    /// Voxels (HU), i fastest.
     pub voxels: Vec<i16>,
-    /// Number of voxels along (i, j, k).
+    /// Voxels along (i, j, k).
     pub size: [usize; 3],
     /// World position (mm, LPS) of a continuous index.
     pub world_from_index: DAffine3,
-    /// The vessels with the true radius of their lumen (mm).
+    /// The vessels with their true lumen radius (mm).
     pub tree: VesselTree,
-    /// The name of each vessel.
+    /// Vessel names.
     pub vessel_names: Vec<String>,
-    /// The radius of each vessel's healthy lumen (mm), point by point.
+    /// Radius of the healthy lumen at each point (mm).
     pub reference_radius: Vec<Vec<f64>>,
-    /// Every narrowing of a lumen.
+    /// All stenoses.
     pub stenoses: Vec<Stenosis>,
-    /// Every plaque.
+    /// All plaques.
     pub plaques: Vec<Plaque>,
 }
 
 impl Phantom {
-    /// The phantom's volume.
-    ///
-    /// # Errors
-    /// None for a phantom as it was made; [`lumencut_core::error::ErrorKind::Volume`] where its fields were
-    /// changed to contradict each other.
+    /// The volume.
     pub fn volume(&self) -> Result<Volume<'_>> {
         let [ni, nj, _] = self.size;
         Volume::new(Voxels::I16(&self.voxels), self.size, [1, ni, ni * nj], self.world_from_index)
     }
 
-    /// Paints the scene and puts the truth beside it.
     fn of(
         name: &'static str,
         (grid, scene): (&paint::Grid, &paint::Scene),
@@ -93,7 +85,7 @@ impl Phantom {
     }
 }
 
-/// How thick a phantom draws the wall of a vessel whose healthy lumen has radius `reference` (mm).
+/// Wall thickness for a healthy lumen of radius `reference` (mm).
 pub fn wall_thickness(reference: f64) -> f64 {
     0.5 + 0.08 * reference
 }
@@ -109,7 +101,6 @@ mod tests {
 
     const WORKLOADS: [(Workload, usize); 3] = [(aorta, 800), (runoff, 2200), (cervical, 1100)];
 
-    /// The voxel nearest to a world point.
     fn hu(phantom: &Phantom, x: f64, y: f64, z: f64) -> i16 {
         let index = phantom.world_from_index.inverse().transform_point3(DVec3::new(x, y, z)).round();
         let [i, j, k] = index.to_array().map(|n| n as usize);
@@ -177,7 +168,7 @@ mod tests {
         let stop = || asked.fetch_add(1, std::sync::atomic::Ordering::Relaxed) >= 3;
         let error = AORTA.make(0, 0.1, &stop).unwrap_err();
         assert_eq!(error.kind, ErrorKind::Interrupted);
-        // Slices that other threads had begun are all that is asked for later.
+        // Only slices already started on other threads still ask.
         assert!(asked.into_inner() < 26);
     }
 

@@ -1,4 +1,4 @@
-//! Trunks, branches and bridges between them, cut at their junctions into unbranched vessels.
+//! Trunks, branches and bridges, cut at junctions into unbranched vessels.
 
 use glam::DVec3;
 
@@ -6,18 +6,16 @@ use crate::curve::{Curve, WayPoint};
 use crate::lesion::{Calcification, Plaque, PlaqueKind, Rod, Stenosis, WHOLE_RING, narrowing};
 use crate::random::{hash, uniform};
 
-/// A vessel with everything known about it.
 #[derive(Clone, Debug)]
 pub(crate) struct KnownVessel {
     pub(crate) name: String,
     pub(crate) points: Vec<DVec3>,
-    /// True radius of the lumen at each point (mm).
+    /// True lumen radius at each point (mm).
     pub(crate) lumen: Vec<f64>,
     /// Radius of the healthy lumen at each point (mm).
     pub(crate) reference: Vec<f64>,
 }
 
-/// Vessels and what is wrong with them, ready to be painted.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Vasculature {
     pub(crate) vessels: Vec<KnownVessel>,
@@ -26,14 +24,13 @@ pub(crate) struct Vasculature {
     pub(crate) calcium: Vec<Rod>,
 }
 
-/// A line in a [`Network`], by its place in it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct TrunkId(usize);
 
 struct Trunk {
     name: String,
     curve: Curve,
-    /// Arc lengths at which other trunks meet this one.
+    /// Arc lengths of junctions with other trunks.
     junctions: Vec<f64>,
     /// (arc length of the middle, length, percent of the diameter).
     stenoses: Vec<[f64; 3]>,
@@ -41,7 +38,7 @@ struct Trunk {
 }
 
 impl Trunk {
-    /// How far the lumen is narrowed at arc length `s`: 0 open, 1 closed.
+    /// The narrowing at arc length `s`: 0 open, 1 closed.
     fn narrowed(&self, s: f64) -> f64 {
         let narrowed =
             |[middle, length, percent]: &[f64; 3]| percent / 100.0 * narrowing(s - middle, *length);
@@ -53,7 +50,6 @@ impl Trunk {
     }
 }
 
-/// Anatomy under construction.
 pub(crate) struct Network {
     seed: u64,
     trunks: Vec<Trunk>,
@@ -64,7 +60,7 @@ impl Network {
         Self { seed, trunks: Vec::new() }
     }
 
-    /// A line through way points, with bends of about `winding` mm that depend on the seed.
+    /// A line through way points, with seeded bends of about `winding` mm.
     pub(crate) fn trunk(&mut self, name: &str, way: &[WayPoint], winding: f64) -> TrunkId {
         let seed = hash(self.seed, self.trunks.len() as u64);
         self.trunks.push(Trunk {
@@ -77,15 +73,14 @@ impl Network {
         TrunkId(self.trunks.len() - 1)
     }
 
-    /// A line that starts on `parent`, where that comes nearest to the first way point.
+    /// A line that starts at the point of `parent` nearest to the first way point.
     pub(crate) fn branch(&mut self, parent: TrunkId, name: &str, way: &[WayPoint], winding: f64) -> TrunkId {
         let mut way = way.to_vec();
         self.attach(parent, &mut way[0]);
         self.trunk(name, &way, winding)
     }
 
-    /// A line that starts on `from` and ends on `to`, where these come nearest to its first and last way
-    /// points.
+    /// A line from the nearest point of `from` to that of `to`.
     pub(crate) fn bridge(
         &mut self,
         from: TrunkId,
@@ -101,7 +96,7 @@ impl Network {
         self.trunk(name, &way, winding)
     }
 
-    /// Moves `way` onto `parent` and remembers the junction.
+    /// Moves `way` onto `parent` and records the junction.
     fn attach(&mut self, parent: TrunkId, way: &mut WayPoint) {
         let parent = &mut self.trunks[parent.0];
         let s = parent.curve.nearest_arc_length(DVec3::new(way[0], way[1], way[2]));
@@ -112,25 +107,25 @@ impl Network {
         }
     }
 
-    /// A narrowing by `percent` of the diameter, `length` mm long, at `fraction` of the way along a trunk.
+    /// A stenosis of `percent`, `length` mm long, at `fraction` of a trunk.
     pub(crate) fn stenosis(&mut self, trunk: TrunkId, fraction: f64, length: f64, percent: f64) {
         let trunk = &mut self.trunks[trunk.0];
         trunk.stenoses.push([fraction * trunk.curve.length(), length, percent]);
     }
 
-    /// A calcification at `fraction` of the way along a trunk.
+    /// A calcification at `fraction` of a trunk.
     pub(crate) fn calcify(&mut self, trunk: TrunkId, fraction: f64, shape: Calcification) {
         let trunk = &mut self.trunks[trunk.0];
         let arc_length = fraction * trunk.curve.length();
         trunk.calcifications.push(Calcification { arc_length, ..shape });
     }
 
-    /// `count` calcifications of random place and size between two fractions of a trunk.
+    /// `count` random calcifications between two fractions of a trunk.
     pub(crate) fn scatter_calcium(&mut self, trunk: TrunkId, count: u64, between: [f64; 2]) {
         let seed = hash(self.seed, 1000 + trunk.0 as u64);
         for n in 0..count {
             let random = |what: u64, low: f64, high: f64| low + (high - low) * uniform(seed, 8 * n + what);
-            // One per equal stretch, so that they do not pile up.
+            // One per equal interval, to avoid clusters.
             let along = (n as f64 + random(0, 0.2, 0.8)) / count as f64;
             let shape = Calcification {
                 arc_length: 0.0,
@@ -143,7 +138,7 @@ impl Network {
         }
     }
 
-    /// The unbranched vessels with about `segments` segments in all, evenly spaced.
+    /// The unbranched vessels, with about `segments` evenly spaced segments in all.
     pub(crate) fn finish(mut self, segments: usize) -> Vasculature {
         let length: f64 = self.trunks.iter().map(|t| t.curve.length()).sum();
         let per_mm = segments as f64 / length;
@@ -166,7 +161,7 @@ fn cut(trunk: &Trunk, cuts: &[f64], per_mm: f64, made: &mut Vasculature) {
         let [from, to] = [ends[0], ends[1]];
         let name = if pieces == 1 { trunk.name.clone() } else { format!("{} {}", trunk.name, n + 1) };
         let steps = (((to - from) * per_mm).round() as usize).max(2);
-        // The very numbers of the cuts at both ends, so that neighbours share their end points exactly.
+        // Exact cut positions, so that neighbours share their end points.
         let place = |j: usize| if j == steps { to } else { from + (to - from) * j as f64 / steps as f64 };
         let places: Vec<f64> = (0..=steps).map(place).collect();
         let vessel = KnownVessel {
@@ -181,7 +176,6 @@ fn cut(trunk: &Trunk, cuts: &[f64], per_mm: f64, made: &mut Vasculature) {
     }
 }
 
-/// A vessel on the trunk it was cut from.
 struct Piece<'a> {
     trunk: &'a Trunk,
     from: f64,
@@ -191,7 +185,7 @@ struct Piece<'a> {
 }
 
 impl Piece<'_> {
-    /// Adds the lesions whose middle lies on this piece; the end belongs to the next one, if there is one.
+    /// Adds the lesions centred on this piece; its end belongs to the next piece, if any.
     fn add_lesions(&self, last: bool, made: &mut Vasculature) {
         let mine = |s: f64| s >= self.from && (s < self.to || last);
         for [s, length, percent] in self.trunk.stenoses.iter().copied().filter(|s| mine(s[0])) {
@@ -224,7 +218,7 @@ impl Piece<'_> {
         }
     }
 
-    /// Arc length along the vessel's own points of the place at `s` on the trunk.
+    /// Arc length on the vessel's points for arc length `s` on the trunk.
     fn arc_length(&self, s: f64) -> f64 {
         let steps = self.points.len() - 1;
         let place = (s - self.from) / (self.to - self.from) * steps as f64;

@@ -1,4 +1,4 @@
-//! Solids and vessels into voxels, slice by slice, each slice on its own thread.
+//! Paints solids and vessels into voxels, one slice per thread.
 
 use glam::{DAffine3, DVec3, Vec2, Vec3};
 use lumencut_core::error::{Error, ErrorKind, Result};
@@ -12,7 +12,6 @@ use crate::shape::{Cut, distance_to_line};
 use crate::tissue::{AIR, CALCIUM, FAT, LUMEN, Patterns, SOFT_PLAQUE, Solid, VESSEL_WALL, mix};
 use crate::wall_thickness;
 
-/// An axis-aligned grid in world space.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Grid {
     pub(crate) size: [usize; 3],
@@ -31,37 +30,27 @@ impl Grid {
     }
 }
 
-/// Everything that a volume shows.
 pub(crate) struct Scene {
-    /// Painted in this order, the later over the earlier.
+    /// In painting order: later solids cover earlier ones.
     pub(crate) solids: Vec<Solid>,
-    /// What surrounds the solids (HU).
     pub(crate) background: f32,
     pub(crate) seed: u64,
-    /// Standard deviation of the noise (HU).
     pub(crate) noise: f32,
 }
 
-/// Signed distances of one pixel to lumen, healthy lumen, outer wall and calcium (mm, negative inside).
+/// Signed distances to lumen, healthy lumen, outer wall and calcium (mm, negative inside).
 type Layers = [f32; 4];
 
-/// A tapered line that sets some of the layers of the pixels around it.
 struct Stroke {
     ends: [Vec3; 2],
-    /// Radius of each layer at each end.
     radius: [Layers; 2],
 }
 
-/// Farther than anything reaches.
 const FAR: f32 = 1e6;
 
-/// Two shapes of one solid flow into each other within this distance (mm).
+/// Shapes of one solid blend within this distance (mm).
 const SOFT_UNION: f32 = 3.0;
 
-/// Paints the scene; the outcome depends on nothing but the arguments.
-///
-/// # Errors
-/// [`ErrorKind::Volume`] where there is no memory for the voxels, [`ErrorKind::Interrupted`] once the caller asks to stop.
 pub(crate) fn paint(grid: &Grid, scene: &Scene, vasculature: &Vasculature, stop: Stop) -> Result<Vec<i16>> {
     let strokes = strokes(vasculature);
     let painter = Painter::new(grid, scene, &strokes);
@@ -88,7 +77,6 @@ pub(crate) fn paint(grid: &Grid, scene: &Scene, vasculature: &Vasculature, stop:
     Ok(voxels)
 }
 
-/// The buffers of one thread.
 struct Scratch {
     hu: Vec<f32>,
     distance: Vec<f32>,
@@ -105,9 +93,8 @@ struct Painter<'a> {
     grid: &'a Grid,
     scene: &'a Scene,
     strokes: &'a [Stroke],
-    /// The strokes that reach each slice.
     by_slice: Vec<Vec<u32>>,
-    /// Width of the soft edge that stands for the partial volume of a voxel (mm).
+    /// Width of the soft edge for partial volume (mm).
     edge: f32,
 }
 
@@ -147,7 +134,7 @@ impl<'a> Painter<'a> {
         Vec2::new((origin.x + spacing.x * i as f64) as f32, (origin.y + spacing.y * j as f64) as f32)
     }
 
-    /// Runs `visit` with (pixel, world place) over the pixels of a rectangle (mm).
+    /// Calls `visit` with (pixel, world position) over a rectangle (mm).
     #[inline(always)]
     fn each_pixel(&self, [low, high]: [Vec2; 2], z: f32, mut visit: impl FnMut(usize, Vec3)) {
         let range = |axis: usize| {
@@ -174,7 +161,7 @@ impl<'a> Painter<'a> {
         }
         for (_, rectangle) in &cuts {
             self.each_pixel(*rectangle, z, |n, p| {
-                // A pixel in several rectangles is painted once, because its distance is used up.
+                // Consumes the distance: a pixel in several rectangles is painted once.
                 let distance = std::mem::replace(&mut scratch.distance[n], FAR) + solid.inset;
                 let cover = self.cover(distance);
                 if cover > 0.0 {
@@ -185,7 +172,7 @@ impl<'a> Painter<'a> {
         }
     }
 
-    /// The share of a voxel inside a surface at signed distance `distance`.
+    /// The fraction of a voxel inside a surface at signed distance `distance`.
     #[inline(always)]
     fn cover(&self, distance: f32) -> f32 {
         (0.5 - distance / self.edge).clamp(0.0, 1.0)
@@ -212,11 +199,10 @@ impl<'a> Painter<'a> {
         }
     }
 
-    /// Adds the noise and rounds.
     fn write(&self, k: usize, slice: &mut [i16], hu: &[f32]) {
         let seed = hash(self.scene.seed, 0xC0_FFEE + k as u64);
         for (n, (voxel, hu)) in slice.iter_mut().zip(hu).enumerate() {
-            // Scanners show less noise where nothing absorbs.
+            // Scanners have less noise without absorption.
             let noise = if *hu < 5.0 * FAT { 0.6 * self.scene.noise } else { self.scene.noise };
             let noisy = hu + noise * normal(seed, n as u64);
             *voxel = noisy.round().clamp(AIR - 24.0, 3071.0) as i16;
@@ -225,7 +211,7 @@ impl<'a> Painter<'a> {
 }
 
 impl Stroke {
-    /// The box that holds everything up to `reach` mm outside the stroke.
+    /// The bounding box up to `reach` mm outside the stroke.
     fn bounds(&self, reach: f32) -> (Vec3, Vec3) {
         let radius = self.radius.as_flattened().iter().copied().fold(0.0, f32::max) + reach;
         let [a, b] = self.ends;
@@ -241,14 +227,12 @@ impl Stroke {
     }
 }
 
-/// The smaller of two distances, rounded where they are nearly equal.
 #[inline(always)]
 fn soft_minimum(a: f32, b: f32) -> f32 {
     let overlap = (SOFT_UNION - (a - b).abs()).max(0.0) / SOFT_UNION;
     a.min(b) - 0.25 * SOFT_UNION * overlap * overlap
 }
 
-/// One stroke per segment of every vessel, and one per rod of calcium.
 fn strokes(vasculature: &Vasculature) -> Vec<Stroke> {
     let segment = |vessel: &KnownVessel, i: usize| {
         let layers = |i: usize| {

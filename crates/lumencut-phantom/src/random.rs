@@ -1,7 +1,6 @@
-//! Randomness without state: every value is a hash of a seed and a place, so that neither the order of
-//! evaluation nor the number of threads changes a phantom.
+//! Stateless randomness: hashes of seed and place, so that neither evaluation order nor threads change a phantom.
 
-/// A well mixed hash of two numbers (the finaliser of SplitMix64 over a Weyl sequence).
+/// A hash of two numbers (SplitMix64's finaliser over a Weyl sequence).
 #[inline(always)]
 pub fn hash(seed: u64, place: u64) -> u64 {
     let mut x = seed ^ place.wrapping_mul(0x9E37_79B9_7F4A_7C15);
@@ -16,13 +15,12 @@ pub fn uniform(seed: u64, place: u64) -> f64 {
     (hash(seed, place) >> 11) as f64 / (1u64 << 53) as f64
 }
 
-/// A number of mean 0 and standard deviation 1, close to normal within ±4.9: the sum of the eight bytes
-/// of a hash, which is a single multiplication.
+/// Nearly normal within ±4.9, mean 0, standard deviation 1: the sum of a hash's eight bytes by one multiplication.
 #[inline(always)]
 pub(crate) fn normal(seed: u64, place: u64) -> f32 {
     const BYTES: u64 = 0x00FF_00FF_00FF_00FF;
     const MEAN: f32 = 8.0 * 127.5;
-    // Variance of a uniform byte is (256² − 1) / 12; eight of them add up.
+    // The variance of a uniform byte is (256² − 1) / 12; eight add up.
     const DEVIATION: f32 = 209.020_73;
     let h = hash(seed, place);
     let pairs = (h & BYTES) + ((h >> 8) & BYTES);
@@ -30,7 +28,7 @@ pub(crate) fn normal(seed: u64, place: u64) -> f32 {
     (sum as f32 - MEAN) / DEVIATION
 }
 
-/// Smooth noise in [0, 1] over one slice: random values on a lattice, interpolated with a smooth step.
+/// Smooth noise in [0, 1] on one slice: a random lattice with smoothstep interpolation.
 pub(crate) struct SmoothNoise {
     origin: [f32; 2],
     per_mm: f32,
@@ -40,8 +38,7 @@ pub(crate) struct SmoothNoise {
 }
 
 impl SmoothNoise {
-    /// Noise that varies over `wavelength` mm in the plane and over `wavelength_z` mm across slices, for
-    /// the slice at height `z` and the rectangle from `low` to `high` (mm).
+    /// Noise with wavelengths (mm) in plane and across slices, for height `z` and the rectangle from `low` to `high` (mm).
     pub(crate) fn new(
         seed: u64,
         wavelength: f32,
@@ -78,7 +75,7 @@ impl SmoothNoise {
     }
 }
 
-/// 0 below 0, 1 above 1, and a curve without kinks between.
+/// Smoothstep from 0 to 1.
 #[inline(always)]
 pub(crate) fn smooth_step(t: f32) -> f32 {
     let t = t.clamp(0.0, 1.0);

@@ -1,8 +1,8 @@
-//! The simple solids that the body is made of, by their signed distance (mm, negative inside).
+//! Simple solids by signed distance (mm, negative inside).
 
 use glam::{Vec2, Vec3};
 
-/// An ellipse across the body at height `z`; a [`Shape::Profile`] runs smoothly from one to the next.
+/// An axial ellipse at height `z`; a [`Shape::Profile`] interpolates them smoothly.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Section {
     pub(crate) z: f32,
@@ -13,25 +13,19 @@ pub(crate) struct Section {
 /// A solid in world space (mm, LPS).
 #[derive(Clone, Debug)]
 pub(crate) enum Shape {
-    /// Half axes along x, y, z.
     Ellipsoid { center: Vec3, axes: Vec3 },
-    /// A line between two points with a radius at each.
     Rod { ends: [Vec3; 2], radius: [f32; 2] },
-    /// A triangle with rounded rims.
     Plate { corners: [Vec3; 3], radius: f32 },
-    /// Ellipses stacked along z, in the order of z.
     Profile(Vec<Section>),
 }
 
-/// A shape as it meets one slice.
 pub(crate) enum Cut<'a> {
     Solid(&'a Shape),
     Ellipse { center: Vec2, axes: Vec2 },
 }
 
 impl Shape {
-    /// The shape at height `z`, with the rectangle that holds everything up to `reach` mm outside it;
-    /// `None` where it stays farther away.
+    /// The cross-section at height `z`, with a rectangle up to `reach` mm outside; `None` if farther away.
     pub(crate) fn cut(&self, z: f32, reach: f32) -> Option<(Cut<'_>, [Vec2; 2])> {
         if let Shape::Profile(sections) = self {
             let (center, axes) = section_at(sections, z)?;
@@ -57,7 +51,7 @@ impl Shape {
 }
 
 impl Cut<'_> {
-    /// Signed distance of `p`, exact for rods of one radius and plates, close to the surface for the rest.
+    /// Signed distance of `p`: exact for plates and rods of one radius, else accurate near the surface.
     #[inline(always)]
     pub(crate) fn distance(&self, p: Vec3) -> f32 {
         match self {
@@ -79,13 +73,13 @@ impl Cut<'_> {
     }
 }
 
-/// Distance to an ellipse or ellipsoid from |q / axes| and |q / axes²|: one Newton step from the surface.
+/// Distance to an ellipse or ellipsoid by one Newton step, from the norms of q / axes and q / axes².
 #[inline(always)]
 fn round_distance(scaled: f32, slope: f32) -> f32 {
     scaled * (scaled - 1.0) / slope.max(1e-9)
 }
 
-/// Distance of `p` from the line a–b, and where along it (0 … 1) its foot lies.
+/// Distance of `p` from the line a–b, and the position of its foot (0 to 1).
 #[inline(always)]
 pub(crate) fn distance_to_line(p: Vec3, a: Vec3, b: Vec3) -> (f32, f32) {
     let (e, q) = (b - a, p - a);
@@ -103,7 +97,7 @@ fn distance_to_triangle(p: Vec3, [a, b, c]: &[Vec3; 3]) -> f32 {
     edge(a, b).min(edge(b, c)).min(edge(c, a))
 }
 
-/// The ellipse at height `z`, or `None` outside the stack.
+/// The ellipse at height `z`, or `None` outside.
 fn section_at(sections: &[Section], z: f32) -> Option<(Vec2, Vec2)> {
     let above = sections.iter().position(|s| s.z >= z)?;
     let b = sections[above];
@@ -117,7 +111,7 @@ fn section_at(sections: &[Section], z: f32) -> Option<(Vec2, Vec2)> {
     Some((blend(|s| s.center), blend(|s| s.axes).max(Vec2::splat(0.5))))
 }
 
-/// Cubic between the two middle values, with slopes from their neighbours, at `t` in [0, 1].
+/// Cubic Hermite interpolation between the middle values, `t` in [0, 1].
 fn hermite(v: [(f32, Vec2); 4], t: f32) -> Vec2 {
     let gap = v[2].0 - v[1].0;
     let slope = |i: usize, j: usize| (v[j].1 - v[i].1) * (gap / (v[j].0 - v[i].0).max(1e-6));

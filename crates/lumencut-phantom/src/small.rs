@@ -1,4 +1,4 @@
-//! Small phantoms whose answers can be written down: tubes in fat, without noise, voxels of 0.5 mm.
+//! Small phantoms with closed-form answers: tubes in fat, noise-free, voxels of 0.5 mm.
 
 use std::f64::consts::{PI, TAU};
 
@@ -12,24 +12,18 @@ use crate::paint::{Grid, Scene};
 use crate::tissue::FAT;
 use crate::{Phantom, wall_thickness};
 
-/// The side of a voxel (mm).
+/// Voxel side (mm).
 const SPACING: f64 = 0.5;
 
-/// Fat around the outermost vessel wall (mm).
+/// Fat around the outermost wall (mm).
 const MARGIN: f64 = 10.0;
 
-/// One tube of radius 4 mm along z, from (0, 0, −30) to (0, 0, 30), 60 segments of 1 mm.
-///
-/// # Errors
-/// None with the arguments there are; the type is that of all phantoms.
+/// A tube of radius 4 mm from (0, 0, −30) to (0, 0, 30), 60 segments.
 pub fn straight_tube() -> Result<Phantom> {
     phantom("straight_tube", vec![line("tube", DVec3::NEG_Z * 30.0, DVec3::Z * 30.0, 60, 4.0)])
 }
 
-/// One tube of radius 3 mm along (20 cos t, 20 sin t, 30 t / 2π − 30), two turns, 240 segments.
-///
-/// # Errors
-/// As for [`straight_tube`].
+/// A tube of radius 3 mm along (20 cos t, 20 sin t, 30 t / 2π − 30), two turns, 240 segments.
 pub fn helix() -> Result<Phantom> {
     let place = |u: f64| {
         let t = 2.0 * TAU * u;
@@ -38,36 +32,25 @@ pub fn helix() -> Result<Phantom> {
     phantom("helix", vec![sampled("helix", place, 240, 3.0)])
 }
 
-/// Three tubes that share the end point (0, 0, 0): a trunk of radius 5 mm from (0, 0, −30) and two
-/// branches of radius 4 mm to (±20, 0, 30).
-///
-/// # Errors
-/// As for [`straight_tube`].
+/// Three tubes that meet at (0, 0, 0): a trunk of radius 5 mm from (0, 0, −30), two branches of radius 4 mm to (±20, 0, 30).
 pub fn y_junction() -> Result<Phantom> {
     let branch = |name: &str, x: f64| line(name, DVec3::ZERO, DVec3::new(x, 0.0, 30.0), 36, 4.0);
     let trunk = line("trunk", DVec3::NEG_Z * 30.0, DVec3::ZERO, 30, 5.0);
     phantom("y_junction", vec![trunk, branch("right branch", -20.0), branch("left branch", 20.0)])
 }
 
-/// Two straight tubes of radius 3 mm that cross in the anterior view, 20 mm apart in depth: one along x
-/// at y = −10 (in front), one along z at y = 10 (behind).
-///
-/// # Errors
-/// As for [`straight_tube`].
+/// Two straight tubes of radius 3 mm that cross in the anterior view: along x at y = −10 (in front), along z at y = 10.
 pub fn crossing() -> Result<Phantom> {
     let front = line("front", DVec3::new(-25.0, -10.0, 0.0), DVec3::new(25.0, -10.0, 0.0), 50, 3.0);
     let back = line("back", DVec3::new(0.0, 10.0, -25.0), DVec3::new(0.0, 10.0, 25.0), 50, 3.0);
     phantom("crossing", vec![front, back])
 }
 
-/// A closed trefoil knot of radius 3 mm: 10·(sin t + 2 sin 2t, −sin 3t, cos t − 2 cos 2t), 300 segments;
-/// it crosses itself three times in the anterior view, and its last point is its first.
-///
-/// # Errors
-/// As for [`straight_tube`].
+/// A closed trefoil knot of radius 3 mm: 10·(sin t + 2 sin 2t, −sin 3t, cos t − 2 cos 2t), 300 segments. It crosses itself three
+/// times in the anterior view.
 pub fn trefoil() -> Result<Phantom> {
     let place = |u: f64| {
-        // The same number at both ends, so that the knot closes exactly.
+        // The same parameter at both ends closes the knot exactly.
         let t = if u < 1.0 { TAU * u } else { 0.0 };
         let x = t.sin() + 2.0 * (2.0 * t).sin();
         let z = t.cos() - 2.0 * (2.0 * t).cos();
@@ -76,11 +59,8 @@ pub fn trefoil() -> Result<Phantom> {
     phantom("trefoil", vec![sampled("knot", place, 300, 3.0)])
 }
 
-/// Two tubes of radius 3 mm with segments along the axis of the anterior view: "bend" runs up along z,
-/// then 40 mm backwards along y, then up again; "end-on" runs wholly along y and is a point in that view.
-///
-/// # Errors
-/// As for [`straight_tube`].
+/// Two tubes of radius 3 mm with segments along the anterior viewing direction: "bend" runs up, 40 mm backwards along y, and up;
+/// "end-on" runs along y.
 pub fn collinear_run() -> Result<Phantom> {
     let leg = |from: DVec3, to: DVec3| line("bend", from, to, 30, 3.0);
     let (low, high) = (DVec3::new(-15.0, -20.0, 0.0), DVec3::new(-15.0, 20.0, 0.0));
@@ -94,8 +74,8 @@ pub fn collinear_run() -> Result<Phantom> {
     phantom("collinear_run", vec![bend, end_on])
 }
 
-/// One tube of radius 4 mm along z, from z = −30 to 30, 120 segments, whose diameter is reduced by
-/// `percent` in the middle of 16 mm around z = 0 (see [`Stenosis`]); soft plaque fills the difference.
+/// A tube of radius 4 mm from z = −30 to 30, 120 segments, narrowed by `percent` over 16 mm around z = 0 (see [`Stenosis`]) by
+/// soft plaque.
 ///
 /// # Errors
 /// [`ErrorKind::Settings`] for a percentage outside [0, 100).
@@ -128,11 +108,8 @@ pub fn stenosis(percent: f64) -> Result<Phantom> {
     made("stenosis", vasculature)
 }
 
-/// One tube of radius 4 mm along z, from z = −30 to 30, with a calcification 2 mm thick, 8 mm long and
-/// one radian wide on the outside of the lumen at z = 0, towards the patient's left (angle π/2).
-///
-/// # Errors
-/// As for [`straight_tube`].
+/// A tube of radius 4 mm from z = −30 to 30 with a calcification outside the lumen at z = 0: 2 mm thick, 8 mm long, one radian
+/// wide, to the patient's left (π/2).
 pub fn calcified_wall() -> Result<Phantom> {
     let tube = line("tube", DVec3::NEG_Z * 30.0, DVec3::Z * 30.0, 60, 4.0);
     let calcium =
@@ -157,13 +134,12 @@ pub fn calcified_wall() -> Result<Phantom> {
     made("calcified_wall", vasculature)
 }
 
-/// A straight vessel of constant radius in `segments` equal segments.
 fn line(name: &str, from: DVec3, to: DVec3, segments: usize, radius: f64) -> KnownVessel {
     let place = |u: f64| if u < 1.0 { from + (to - from) * u } else { to };
     sampled(name, place, segments, radius)
 }
 
-/// A vessel of constant radius through `place` at equal steps of its parameter from 0 to 1.
+/// A vessel of constant radius through `place` at equal parameter steps from 0 to 1.
 fn sampled(name: &str, place: impl Fn(f64) -> DVec3, segments: usize, radius: f64) -> KnownVessel {
     let points = (0..=segments).map(|i| place(i as f64 / segments as f64)).collect();
     let radius = vec![radius; segments + 1];
@@ -174,7 +150,6 @@ fn phantom(name: &'static str, vessels: Vec<KnownVessel>) -> Result<Phantom> {
     made(name, Vasculature { vessels, ..Vasculature::default() })
 }
 
-/// The phantom in a box of fat that just holds it.
 fn made(name: &'static str, vasculature: Vasculature) -> Result<Phantom> {
     let (mut low, mut high) = (DVec3::MAX, DVec3::MIN);
     for vessel in &vasculature.vessels {
@@ -184,7 +159,7 @@ fn made(name: &'static str, vasculature: Vasculature) -> Result<Phantom> {
         }
     }
     let size = ((high - low) / SPACING).ceil().to_array().map(|n| n as usize + 1);
-    // The grid's middle is that of the box, so that symmetric phantoms stay symmetric.
+    // Centred, so that symmetric phantoms stay symmetric.
     let extent = DVec3::from_array(size.map(|n| (n - 1) as f64)) * SPACING;
     let grid = Grid { size, spacing: DVec3::splat(SPACING), origin: (low + high - extent) / 2.0 };
     let scene = Scene { solids: Vec::new(), background: FAT, seed: 0, noise: 0.0 };

@@ -1,48 +1,41 @@
-//! What the solids of the body look like in CT (HU).
+//! The CT appearance of solids (HU).
 
 use glam::Vec2;
 
 use crate::random::{SmoothNoise, hash, smooth_step};
 use crate::shape::Shape;
 
-/// Air.
 pub(crate) const AIR: f32 = -1000.0;
-/// Fat.
 pub(crate) const FAT: f32 = -100.0;
-/// Muscle, in the arterial phase.
 pub(crate) const MUSCLE: f32 = 55.0;
-/// The lumen, filled with contrast medium.
 pub(crate) const LUMEN: f32 = 350.0;
-/// The wall of a vessel.
 pub(crate) const VESSEL_WALL: f32 = 60.0;
-/// Non-calcified plaque.
 pub(crate) const SOFT_PLAQUE: f32 = 40.0;
-/// Calcification.
 pub(crate) const CALCIUM: f32 = 1000.0;
 const CORTICAL_BONE: f32 = 900.0;
 
-/// What a solid is filled with.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Tissue {
-    /// One value throughout.
     Even(f32),
-    /// One value, mottled by ± the second.
     Mottled(f32, f32),
-    /// Fat with strands of connective tissue.
     Fat,
-    /// Muscle bellies with seams of fat between them.
     Muscle,
-    /// Mesenteric fat with loops of bowel, some with gas.
+    /// Mesenteric fat with bowel loops, some with gas.
     Bowel,
-    /// A cortex of some mm around marrow of some HU.
-    Bone { cortex: f32, marrow: f32 },
-    /// An organ with an enhanced rim of some mm.
-    Rim { width: f32, rim: f32, core: f32 },
-    /// Aerated lung with its vessels.
+    /// A cortex (mm) around marrow (HU).
+    Bone {
+        cortex: f32,
+        marrow: f32,
+    },
+    /// An organ with an enhanced rim (mm).
+    Rim {
+        width: f32,
+        rim: f32,
+        core: f32,
+    },
     Lung,
 }
 
-/// The random patterns of one slice.
 pub(crate) struct Patterns {
     loops: SmoothNoise,
     seams: SmoothNoise,
@@ -60,7 +53,7 @@ impl Patterns {
 }
 
 impl Tissue {
-    /// The value at (x, y), `distance` mm from the surface of the solid (negative inside).
+    /// The value at (x, y), at signed distance `distance` (mm, negative inside).
     #[inline(always)]
     pub(crate) fn hu(self, distance: f32, x: f32, y: f32, patterns: &Patterns) -> f32 {
         match self {
@@ -74,7 +67,7 @@ impl Tissue {
             Tissue::Muscle => {
                 let seam = (patterns.seams.at(x, y) - 0.5).abs() / 0.035;
                 let grain = 14.0 * (patterns.fine.at(x, y) - 0.5);
-                // Seams fade in and out, as the planes between muscles do.
+                // Seams fade in and out, like the planes between muscles.
                 let faded = smooth_step((patterns.loops.at(x, y) - 0.3) / 0.35);
                 let seam = 1.0 - faded * (1.0 - smooth_step(seam));
                 mix(FAT + 25.0, MUSCLE + grain, seam)
@@ -96,7 +89,7 @@ impl Tissue {
     }
 }
 
-/// Bowel loops where the pattern `n` runs high, gas in the middle of a few.
+/// Loops where the pattern `n` is high, with gas in some.
 #[inline(always)]
 fn bowel(n: f32, fine: f32) -> f32 {
     let fat = FAT - 5.0 + 10.0 * fine;
@@ -112,7 +105,7 @@ pub(crate) fn mix(a: f32, b: f32, t: f32) -> f32 {
     a + t * (b - a)
 }
 
-/// One organ: shapes that grow together softly, shrunk by `inset` mm on all sides.
+/// One organ: softly blended shapes, shrunk by `inset` mm.
 #[derive(Clone, Debug)]
 pub(crate) struct Solid {
     pub(crate) shapes: Vec<Shape>,
@@ -125,7 +118,7 @@ impl Solid {
         Self { shapes, inset: 0.0, tissue }
     }
 
-    /// The same shapes, `inset` mm smaller on all sides and filled with something else.
+    /// The same shapes, shrunk by `inset` mm, with another filling.
     pub(crate) fn within(shapes: &[Shape], inset: f32, tissue: Tissue) -> Self {
         Self { shapes: shapes.to_vec(), inset, tissue }
     }

@@ -1,4 +1,4 @@
-//! The three workloads: how large they are, what they show and how they are painted.
+//! The three workloads: size, content and painting.
 
 use glam::DVec3;
 use lumencut_core::error::{Error, ErrorKind, Result};
@@ -8,10 +8,10 @@ use crate::Phantom;
 use crate::anatomy::{self, Anatomy};
 use crate::paint::{Grid, Scene};
 
-/// The noise of the workloads (standard deviation, HU).
+/// Noise of the workloads (standard deviation, HU).
 const NOISE: f32 = 14.0;
 
-/// What a workload looks like at scale 1.
+/// A workload at scale 1.
 pub struct Workload {
     name: &'static str,
     size: [usize; 3],
@@ -23,11 +23,8 @@ pub struct Workload {
     anatomy: fn(u64, usize) -> Anatomy,
 }
 
-/// Abdominal aorta with coeliac, mesenteric, renal and iliac arteries: 512×512×256 voxels of
-/// 0.75×0.75×1 mm, about 800 segments.
-///
-/// `seed` varies the bends of the vessels, the calcifications and the noise. `scale` multiplies the number
-/// of voxels along each axis; the field of view and the vessel tree stay the same.
+/// Abdominal aorta with coeliac, mesenteric, renal and iliac arteries: 512×512×256 voxels of 0.75×0.75×1 mm, about 800 segments.
+/// `seed` varies bends, calcifications and noise; `scale` multiplies the voxels along each axis in the same field of view.
 ///
 /// # Errors
 /// [`ErrorKind::Settings`] for a scale outside [0.02, 2].
@@ -35,25 +32,14 @@ pub fn aorta(seed: u64, scale: f64) -> Result<Phantom> {
     AORTA.make(seed, scale, &|| false)
 }
 
-/// Arteries of the lower extremities, from the abdominal aorta to the feet, with a femoro-femoral
-/// cross-over bypass around an occlusive left iliac stenosis: 512×512×1305 voxels of 0.75×0.75×1 mm, about
-/// 2,200 segments. The bypass closes a cycle in the vessel tree.
-///
-/// `seed` and `scale` as for [`aorta`].
-///
-/// # Errors
-/// As for [`aorta`].
+/// Leg arteries from the abdominal aorta to the feet, with a femoro-femoral bypass around an occlusive left iliac stenosis, which
+/// closes a cycle: 512×512×1305 voxels of 0.75×0.75×1 mm, about 2,200 segments. Parameters as for [`aorta`].
 pub fn runoff(seed: u64, scale: f64) -> Result<Phantom> {
     RUNOFF.make(seed, scale, &|| false)
 }
 
-/// Cervical arteries from the aortic arch to the circle of Willis: 512×512×575 voxels of 0.75×0.75×0.7 mm,
-/// about 1,100 segments. Both vertebral arteries meet in the basilar artery.
-///
-/// `seed` and `scale` as for [`aorta`].
-///
-/// # Errors
-/// As for [`aorta`].
+/// Arteries from the aortic arch to the circle of Willis; both vertebral arteries join in the basilar: 512×512×575 voxels of
+/// 0.75×0.75×0.7 mm, about 1,100 segments. Parameters as for [`aorta`].
 pub fn cervical(seed: u64, scale: f64) -> Result<Phantom> {
     CERVICAL.make(seed, scale, &|| false)
 }
@@ -90,9 +76,6 @@ pub const CERVICAL: Workload = Workload {
 
 impl Workload {
     /// The phantom; `seed` and `scale` as for [`aorta`].
-    ///
-    /// # Errors
-    /// As for [`aorta`], and [`ErrorKind::Interrupted`] once the caller asks to stop.
     pub fn make(&self, seed: u64, scale: f64, stop: Stop) -> Result<Phantom> {
         let grid = self.grid(scale)?;
         let Anatomy { vasculature, solids, background } = (self.anatomy)(seed, self.segments);
@@ -100,7 +83,7 @@ impl Workload {
         Phantom::of(self.name, (&grid, &scene), vasculature, stop)
     }
 
-    /// The same field of view in `scale` times as many voxels along each axis.
+    /// The same field of view with `scale` times as many voxels along each axis.
     fn grid(&self, scale: f64) -> Result<Grid> {
         if !(0.02..=2.0).contains(&scale) {
             let found = format!("{scale}");

@@ -6,9 +6,8 @@ use pyo3::prelude::*;
 
 use crate::errors::to_python;
 
-/// The attributes of `lumencut.Camera`.
 #[derive(FromPyObject)]
-pub struct CameraArgument {
+pub(crate) struct CameraArgument {
     center: [f64; 3],
     direction: [f64; 3],
     up: [f64; 3],
@@ -17,17 +16,16 @@ pub struct CameraArgument {
 }
 
 impl CameraArgument {
-    /// The camera of the core.
-    pub fn camera(&self) -> PyResult<Camera> {
+    pub(crate) fn camera(&self) -> PyResult<Camera> {
         let [center, direction, up] = [self.center, self.direction, self.up].map(DVec3::from_array);
         Camera::new(center, direction, up, self.size, self.pixel_spacing).map_err(to_python)
     }
 }
 
-/// Checks a camera and returns its unit vectors (direction, right, up).
+/// Checks a camera; returns its unit vectors (direction, right, up).
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
-pub fn check_camera(camera: CameraArgument) -> PyResult<[[f64; 3]; 3]> {
+pub(crate) fn check_camera(camera: CameraArgument) -> PyResult<[[f64; 3]; 3]> {
     let camera = camera.camera()?;
     Ok([camera.direction(), camera.right(), camera.up()].map(|v| v.to_array()))
 }

@@ -12,7 +12,7 @@ use crate::tree::{VesselArrays, points_of};
 
 type Vessel<'py> = (Bound<'py, PyArray2<f64>>, Option<Bound<'py, PyArray1<f64>>>, Option<String>);
 
-/// The lines of a centerline file in its own space and unit.
+/// The lines of a centerline file, in the file's space and unit.
 #[pyclass(frozen, module = "lumencut._lumencut")]
 pub struct CenterlineFile {
     name: String,
@@ -21,45 +21,42 @@ pub struct CenterlineFile {
 
 #[pymethods]
 impl CenterlineFile {
-    /// Reads the content of the file `name`.
+    /// Parses the file `name`.
     #[new]
     fn new(py: Python<'_>, content: &[u8], name: String) -> PyResult<Self> {
         let lines = py.detach(|| lumencut::centerlines::read(content, &name)).map_err(raised)?;
         Ok(Self { name, lines })
     }
 
-    /// The name of the format.
     #[getter]
     fn format(&self) -> &'static str {
         self.lines.format
     }
 
-    /// `"lps"`, `"ras"`, or None where the file states no space.
+    /// `"lps"`, `"ras"`, or None if not stated.
     #[getter]
     fn space(&self) -> Option<&'static str> {
         self.lines.space.map(Space::name)
     }
 
-    /// `"um"`, `"mm"`, `"cm"`, `"dm"`, `"m"`, or None where the file states no unit.
+    /// `"um"`, `"mm"`, `"cm"`, `"dm"`, `"m"`, or None if not stated.
     #[getter]
     fn unit(&self) -> Option<&'static str> {
         self.lines.unit.map(Unit::name)
     }
 
-    /// The unit that files of the format usually have.
+    /// The usual unit of the format.
     #[getter]
     fn conventional_unit(&self) -> &'static str {
         self.lines.conventional_unit.unwrap_or(Unit::Millimetre).name()
     }
 
-    /// What is doubtful where a list of points was parted into lines.
     fn parted_doubts<'py>(&self, py: Python<'py>) -> PyResult<Vec<Doubt<'py>>> {
         told(py, py.detach(|| parted_doubt(&self.lines)).into_iter().collect())
     }
 
-    /// `(vessels, notes)`: the vessels that the lines form, each `(points (n, 3), radius (n,) or None, name or
-    /// None)`, in mm in the file's space, where one unit of the file is `mm_per_unit`. With `reorder` the points of each line
-    /// are put into their order first.
+    /// `(vessels, notes)`: each vessel `(points (n, 3), radius (n,) or None, name or None)` in mm in the file's space, for
+    /// `mm_per_unit`. `reorder` sorts the points of each line first.
     fn vessels<'py>(
         &self,
         py: Python<'py>,
@@ -74,7 +71,7 @@ impl CenterlineFile {
     }
 }
 
-/// What is doubtful about a line: the number of its vessel, that of another one beside it, what was found, and what mends it.
+/// A doubt about a line: vessel index, the other vessel if two lie side by side, finding, and mend.
 type Doubt<'py> = (usize, Option<usize>, String, Bound<'py, PyAny>);
 
 fn told<'py>(py: Python<'py>, doubts: Vec<LineDoubt>) -> PyResult<Vec<Doubt<'py>>> {
@@ -85,13 +82,13 @@ fn told<'py>(py: Python<'py>, doubts: Vec<LineDoubt>) -> PyResult<Vec<Doubt<'py>
     doubts.into_iter().map(told).collect()
 }
 
-/// A vessel by its points (n, 3) and radii (n,), and its name.
+/// Points (n, 3), radii (n,), and name.
 type NamedVessel<'py> = (VesselArrays<'py>, Option<String>);
 
-/// What is doubtful about vessels: the order of the points of each, and with `beside` also those that lie side by side.
+/// Doubts about the point order of vessels and, with `beside`, about pairs side by side.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
-pub fn line_doubts<'py>(
+pub(crate) fn line_doubts<'py>(
     py: Python<'py>,
     vessels: Vec<NamedVessel<'py>>,
     beside: bool,
@@ -113,8 +110,7 @@ pub fn line_doubts<'py>(
     told(py, doubts)
 }
 
-/// The exception that stands for an error of a file.
-pub fn raised(error: Error) -> PyErr {
+pub(crate) fn raised(error: Error) -> PyErr {
     let Error { subject, found, expected, mend, mended_by } = error;
     let mended_by = mended_by.map(|mend| Mend::from(*mend));
     mended("FormatError", [&subject, &found, &expected, &mend], mended_by.as_ref())

@@ -1,4 +1,4 @@
-//! The layout of a vessel as a CPR, and pictures of values.
+//! The CPR of a vessel as a layout, and pictures of values.
 
 use std::sync::Arc;
 
@@ -22,17 +22,15 @@ use crate::settings::Checked;
 use crate::tree::points_of;
 use crate::watching::computed;
 
-/// Upwards, an angle, and towards the viewer.
 type ViewArgument = ([f64; 3], f64, Option<[f64; 3]>);
 
-/// Where the pixels of a CPR of one vessel look.
+/// The sampled positions of a CPR of one vessel.
 #[pyclass(frozen, extends = Layout, module = "lumencut._lumencut")]
 pub struct Cpr(pub cpr::Cpr);
 
 #[pymethods]
 impl Cpr {
-    /// The layout of the points (n, 3) of a vessel. A view is upwards, an angle (radians) and towards the viewer; pixels are
-    /// the width of the image and the side of each (mm).
+    /// The layout of a vessel's points (n, 3) in a view; `pixels` are image width and pixel side (mm).
     #[new]
     #[pyo3(signature = (points, smoothing, mode, view, pixels))]
     #[allow(clippy::needless_pass_by_value)]
@@ -59,13 +57,13 @@ impl Cpr {
         Bound::new(py, self.0.rotated(angle).map(Self::with_layout).map_err(to_python)?)
     }
 
-    /// The same straightened vessel, each section seen from an angle of its own: angles (radians) at arc lengths (mm).
+    /// The same straightened vessel with angles (radians) that vary along it (mm).
     fn rolled<'py>(&self, py: Python<'py>, at: Vec<f64>, angle: Vec<f64>) -> PyResult<Bound<'py, Self>> {
         let rolled = Roll::new(at, angle).and_then(|roll| self.0.rolled(roll));
         Bound::new(py, rolled.map(Self::with_layout).map_err(to_python)?)
     }
 
-    /// The world points (n, 3) of places in the space around the straightened vessel: across, ahead, along (mm).
+    /// World points (n, 3) of positions in straightened space: across, ahead, along (mm).
     #[allow(clippy::needless_pass_by_value)]
     fn world_from_straightened<'py>(
         &self,
@@ -75,7 +73,7 @@ impl Cpr {
         self.straightened(py, &places, |space, place| space.world_from_straightened(place))
     }
 
-    /// Where world points (n, 3) lie in the space around the straightened vessel: across, ahead, along (mm).
+    /// Positions of world points (n, 3) in straightened space: across, ahead, along (mm).
     #[allow(clippy::needless_pass_by_value)]
     fn straightened_from_world<'py>(
         &self,
@@ -85,8 +83,7 @@ impl Cpr {
         self.straightened(py, &points, |space, point| space.straightened_from_world(point))
     }
 
-    /// The directions (LPS) of i, j and k that a straightened volume of so long voxels (mm) states, and the mark of its files,
-    /// by whether the scan states its orientation.
+    /// The stated directions (LPS) of i, j and k of a straightened volume with this step (mm), and the mark for its files.
     fn straightened_sides(&self, step: f64, is_stated: bool) -> PyResult<([[f64; 3]; 3], String)> {
         let sides = StraightenedSides::of(self.space()?, step, is_stated);
         Ok((sides.axes().map(|axis| axis.to_array()), sides.mark()))
@@ -119,10 +116,10 @@ impl Cpr {
     }
 }
 
-/// The picture, shape (H, W, 4), of values (H, W) in the window and opacity of the settings.
+/// The picture (H, W, 4) of values (H, W) with the window and opacity of the settings.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
-pub fn picture<'py>(
+pub(crate) fn picture<'py>(
     py: Python<'py>,
     value: PyReadonlyArray2<'py, f32>,
     settings: &Bound<'py, Checked>,
@@ -134,15 +131,14 @@ pub fn picture<'py>(
     PyArray1::from_vec(py, image.into_flattened()).reshape([height, width, 4])
 }
 
-/// The level and width in which a feature of CFA is shown, by its name and level, where the volume is shown in those given.
 #[pyfunction]
 #[pyo3(signature = (feature, level, window))]
-pub fn feature_window(feature: &str, level: Option<f64>, window: [f64; 2]) -> PyResult<[f64; 2]> {
+pub(crate) fn feature_window(feature: &str, level: Option<f64>, window: [f64; 2]) -> PyResult<[f64; 2]> {
     Feature::named(feature, level).map(|feature| feature.window(window)).map_err(to_python)
 }
 
-/// The letters of the sides that the mark of a straightened volume states, and what its readers must know; None for another text.
+/// The side letters and warnings in the mark of a straightened volume; None for another text.
 #[pyfunction]
-pub fn straightened_mark(text: &str) -> Option<(String, Vec<String>)> {
+pub(crate) fn straightened_mark(text: &str) -> Option<(String, Vec<String>)> {
     StraightenedSides::read(text).map(|sides| (sides.letters().to_owned(), sides.notes()))
 }

@@ -4,9 +4,9 @@ use lumencut::devices::devices as found_devices;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-/// The GPUs of this machine, the ones to take first in front, as dictionaries.
+/// The GPUs of this machine as dictionaries, preferred ones first.
 #[pyfunction]
-pub fn devices(py: Python<'_>) -> PyResult<Vec<Bound<'_, PyDict>>> {
+pub(crate) fn devices(py: Python<'_>) -> PyResult<Vec<Bound<'_, PyDict>>> {
     let found = py.detach(|| pollster::block_on(found_devices()));
     let described = found.into_iter().map(|device| {
         let fields = PyDict::new(py);

@@ -1,4 +1,4 @@
-//! Rust errors as the exception classes of `lumencut.errors`: one exhaustive match over the causes.
+//! Rust errors as exceptions of `lumencut.errors`, by an exhaustive match over the kinds.
 
 use std::ffi::CString;
 
@@ -8,9 +8,8 @@ use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
-/// The exception that stands for `error`.
 #[allow(clippy::needless_pass_by_value)]
-pub fn to_python(error: Error) -> PyErr {
+pub(crate) fn to_python(error: Error) -> PyErr {
     let class = match error.kind {
         ErrorKind::Volume => "VolumeError",
         ErrorKind::VesselTree => "VesselTreeError",
@@ -25,13 +24,12 @@ pub fn to_python(error: Error) -> PyErr {
     mended(class, [&subject, &found, &expected, &mend], mended_by.map(Mend::from).as_ref())
 }
 
-/// An instance of the class of `lumencut.errors` with this name, with advice that no host acts on.
-pub fn exception(class: &str, subject: &str, found: &str, expected: &str, advice: &str) -> PyErr {
+pub(crate) fn exception(class: &str, subject: &str, found: &str, expected: &str, advice: &str) -> PyErr {
     mended(class, [subject, found, expected, advice], None)
 }
 
-/// The same: its subject, what was found and expected, and advice; and what mends it beside the advice.
-pub fn mended(class: &str, texts: [&str; 4], mended_by: Option<&Mend>) -> PyErr {
+/// An exception of subject, finding, expectation and advice, with a mend.
+pub(crate) fn mended(class: &str, texts: [&str; 4], mended_by: Option<&Mend>) -> PyErr {
     Python::attach(|py| made(py, class, texts, mended_by).map_or_else(|error| error, PyErr::from_value))
 }
 
@@ -45,19 +43,20 @@ fn made<'py>(
     py.import("lumencut.errors")?.getattr(class)?.call1((subject, found, expected, mend))
 }
 
-/// Advice and a mend as a text that hosts can word.
-pub fn advised<'py>(py: Python<'py>, advice: &str, mended_by: Option<&Mend>) -> PyResult<Bound<'py, PyAny>> {
+pub(crate) fn advised<'py>(
+    py: Python<'py>,
+    advice: &str,
+    mended_by: Option<&Mend>,
+) -> PyResult<Bound<'py, PyAny>> {
     let mends: Vec<_> = mended_by.iter().map(|mend| (mend.name(), mend.values())).collect();
     py.import("lumencut.mends")?.getattr("told")?.call1((advice, mends))
 }
 
-/// Adds the names of all mends.
-pub fn add_names(module: &Bound<'_, PyModule>) -> PyResult<()> {
+pub(crate) fn add_names(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("MENDS", PyTuple::new(module.py(), mends::names())?)
 }
 
-/// Warns whoever called the function of the package that called this module.
-pub fn warn(py: Python<'_>, category: &str, text: &str) -> PyResult<()> {
+pub(crate) fn warn(py: Python<'_>, category: &str, text: &str) -> PyResult<()> {
     let category = py.import("lumencut.errors")?.getattr(category)?;
     let text = CString::new(text).map_err(|error| PyValueError::new_err(error.to_string()))?;
     PyErr::warn(py, &category, &text, 2)

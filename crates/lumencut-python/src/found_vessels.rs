@@ -1,4 +1,4 @@
-//! Vessels that are found, without a seed or from one, for `lumencut.finding` and `lumencut.seed_tracing`.
+//! Finds vessels automatically or from a seed, for `lumencut.finding` and `lumencut.seed_tracing`.
 
 use glam::DVec3;
 use lumencut::error::Result;
@@ -15,18 +15,17 @@ use crate::pool;
 use crate::volume::VolumeArgument;
 use crate::watching::{SHARES, Watched, interruptible};
 
-/// Points (n, 3), radii (n,), confidence (n,), and why the vessel is doubtful, empty where it is not.
+/// Points (n, 3), radii (n,), confidence (n,), and the reason for doubt (may be empty).
 type FoundArrays<'py> =
     (Bound<'py, PyArray2<f64>>, Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>, &'static str);
 
-/// The vessels, the doubtful ones last; the numbers of the sure ones that hang together; what is to be told.
+/// Vessels (doubtful ones last), indices of connected confident ones, and notes.
 type FoundParts<'py> = (Vec<FoundArrays<'py>>, Vec<Vec<usize>>, Vec<String>);
 
-/// All vessels of a volume.
 #[pyfunction]
 #[pyo3(signature = (volume, smallest_radius, told=None))]
 #[allow(clippy::needless_pass_by_value)]
-pub fn find_vessels<'py>(
+pub(crate) fn find_vessels<'py>(
     py: Python<'py>,
     volume: VolumeArgument<'py>,
     smallest_radius: f64,
@@ -38,11 +37,11 @@ pub fn find_vessels<'py>(
     })
 }
 
-/// The vessels that hang together with the one that a seed (mm, LPS) lies in.
+/// The vessels connected to a seed (mm, LPS).
 #[pyfunction]
 #[pyo3(signature = (volume, seed, smallest_radius, told=None))]
 #[allow(clippy::needless_pass_by_value)]
-pub fn trace_from<'py>(
+pub(crate) fn trace_from<'py>(
     py: Python<'py>,
     volume: VolumeArgument<'py>,
     seed: [f64; 3],
@@ -55,7 +54,7 @@ pub fn trace_from<'py>(
     })
 }
 
-/// What is found in a volume, while `told` hears how far it is and Ctrl-C stops it.
+/// Runs a search that reports progress to `told` and stops at Ctrl-C.
 fn watched<'py>(
     py: Python<'py>,
     volume: &VolumeArgument<'py>,

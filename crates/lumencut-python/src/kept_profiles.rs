@@ -1,9 +1,9 @@
-//! Profiles of the vessels of one scan, each measured once.
+//! The cached profiles of one scan.
 
 use std::slice;
 use std::sync::{Arc, Mutex, PoisonError};
 
-use lumencut::kept_profiles::{Asking, KeptProfiles as Core, Scan};
+use lumencut::kept_profiles::{KeptProfiles as Core, MeasureParameters, Scan};
 use lumencut::measure::watched::watched as counted;
 use lumencut::vessel_tree::Vessel;
 use pyo3::prelude::*;
@@ -27,8 +27,7 @@ impl KeptProfiles {
         Self(Mutex::new(Core::default()))
     }
 
-    /// The profile of a vessel, its points (n, 3) and radii (n,), measured where it was not asked for like this before. While it
-    /// runs, `told` is called as that of [`crate::measuring::measure`].
+    /// The profile of a vessel, points (n, 3) and radii (n,), measured if needed; `told` as in [`crate::measuring::measure`].
     #[pyo3(signature = (volume, tree, measured, step, fwhm=None, wall=None, told=None))]
     #[allow(clippy::needless_pass_by_value, clippy::too_many_arguments)]
     fn profile<'py>(
@@ -55,7 +54,7 @@ impl KeptProfiles {
             let kept = &mut *kept;
             let found = pool::install(|| {
                 counted(progress, (slice::from_ref(vessel), step), stop, |stop| {
-                    let asking = Asking { step, fwhm, wall: wall_request(wall), stop };
+                    let asking = MeasureParameters { step, fwhm, wall: wall_request(wall), stop };
                     kept.of(vessel.clone(), vessel, Scan { volume, tree }, &asking)
                 })
             })?;

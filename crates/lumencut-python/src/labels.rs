@@ -1,34 +1,34 @@
-//! What stands around a picture: the letters of the patient's sides, and the scale bar.
+//! Labels around a picture: patient-side letters and scale bar.
 
 use glam::DVec3;
 use lumencut::letters::{self, EdgeLetters};
 use lumencut::scale_bar::ScaleBar;
 use pyo3::prelude::*;
 
-/// The letters of the sides of the patient that a direction (LPS) points to, the main one first.
+/// Letters of the sides a direction (LPS) points to, the main one first.
 #[pyfunction]
-pub fn sides(direction: [f64; 3]) -> String {
+pub(crate) fn sides(direction: [f64; 3]) -> String {
     letters::sides(DVec3::from_array(direction))
 }
 
-/// The letters at the edges of a picture by their names; its columns rise along `right`, its rows along `down` (LPS).
+/// Edge letters by name, for columns along `right` and rows along `down` (LPS).
 #[pyfunction]
-pub fn edge_letters(right: [f64; 3], down: [f64; 3]) -> Vec<(&'static str, String)> {
+pub(crate) fn edge_letters(right: [f64; 3], down: [f64; 3]) -> Vec<(&'static str, String)> {
     let found = EdgeLetters::new(DVec3::from_array(right), DVec3::from_array(down));
     vec![("left", found.left), ("right", found.right), ("top", found.top), ("bottom", found.bottom)]
 }
 
-/// The sides that three axes of a grid (LPS) run to, a letter each, and by how much one is off its side at most (radians).
+/// One side letter per grid axis (LPS), and the largest deviation (radians).
 #[pyfunction]
-pub fn grid_letters(directions: [[f64; 3]; 3]) -> (String, f64) {
+pub(crate) fn grid_letters(directions: [[f64; 3]; 3]) -> (String, f64) {
     let directions = directions.map(DVec3::from_array);
     let sides = letters::nearest_axes(directions);
     let off = directions.iter().zip(sides).map(|(one, side)| one.angle_between(side)).fold(0.0, f64::max);
     (letters::grid_letters(directions), off)
 }
 
-/// Length (mm), words and pixels of the scale bar of a picture of this width (pixels) and side of a pixel (mm).
+/// Length (mm), label and pixels of the scale bar, for picture width (pixels) and pixel side (mm).
 #[pyfunction]
-pub fn scale_bar(width: f64, pixel_spacing: f64) -> Option<(f64, String, f64)> {
+pub(crate) fn scale_bar(width: f64, pixel_spacing: f64) -> Option<(f64, String, f64)> {
     ScaleBar::new(width, pixel_spacing).map(|bar| (bar.length, bar.words, bar.pixels))
 }

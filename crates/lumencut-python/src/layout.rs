@@ -1,4 +1,4 @@
-//! Reformations that lay vessels out as an image, as Python has them.
+//! Reformations laid out as an image, for Python.
 
 use std::sync::Arc;
 
@@ -12,43 +12,41 @@ use rayon::prelude::*;
 use crate::tree::points_of;
 use crate::watching::computed;
 
-/// Where the pixels of a reformation look; the base of those that know more.
+/// The sampled positions of a reformation; base class of the specific ones.
 #[pyclass(frozen, subclass, module = "lumencut._lumencut")]
 pub struct Layout(pub Arc<dyn reformations::Layout>);
 
 #[pymethods]
 impl Layout {
-    /// Width and height in pixels.
     #[getter]
     fn size(&self) -> [usize; 2] {
         self.0.size()
     }
 
-    /// The side of a pixel (mm).
     #[getter]
     fn pixel_spacing(&self) -> f64 {
         self.0.pixel_spacing()
     }
 
-    /// The world point of each pixel (mm, LPS), shape (H, W, 3).
+    /// World point of each pixel (mm, LPS), shape (H, W, 3).
     fn position<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<f64>>> {
         let curved = computed(py, |stop| self.0.curved(stop))?;
         let [width, height] = self.0.size();
         numbers_of(py, curved.position()).reshape([height, width, 3])
     }
 
-    /// The arc length of the vessel (mm), shape (H,) where rows run along one vessel, else (H * W,).
+    /// Arc length (mm), shape (H,) if rows run along one vessel, else (H * W,).
     fn arc_length<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
         Ok(PyArray1::from_vec(py, computed(py, |stop| self.0.arc_length(stop))?))
     }
 
-    /// Which pixels are folded, shape (H, W).
+    /// Folded pixels, shape (H, W).
     fn folded<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<bool>>> {
         let [width, height] = self.0.size();
         PyArray1::from_vec(py, computed(py, |stop| self.0.folded(stop))?).reshape([height, width])
     }
 
-    /// The world points (n, 3) (mm, LPS) of places in the image (n, 2): column and row.
+    /// World points (n, 3) (mm, LPS) of image positions (n, 2): column and row.
     #[allow(clippy::needless_pass_by_value)]
     fn world_from_pixel<'py>(
         &self,
@@ -62,7 +60,7 @@ impl Layout {
         numbers_of(py, &points).reshape([points.len(), 3])
     }
 
-    /// Where world points (n, 3) (mm, LPS) lie in the image, column and row, shape (n, 2).
+    /// Column and row (n, 2) of world points (n, 3) (mm, LPS).
     #[allow(clippy::needless_pass_by_value)]
     fn pixel_from_world<'py>(
         &self,
@@ -77,7 +75,6 @@ impl Layout {
     }
 }
 
-/// The numbers of points, one after the other.
-pub fn numbers_of<'py>(py: Python<'py>, points: &[DVec3]) -> Bound<'py, PyArray1<f64>> {
+pub(crate) fn numbers_of<'py>(py: Python<'py>, points: &[DVec3]) -> Bound<'py, PyArray1<f64>> {
     PyArray1::from_vec(py, points.iter().flat_map(DVec3::to_array).collect())
 }

@@ -1,4 +1,4 @@
-//! Vessels cut and joined.
+//! Cuts and joins vessels.
 
 use lumencut::study::line_edits;
 use lumencut::study::lines::Line;
@@ -9,16 +9,15 @@ use pyo3::prelude::*;
 use crate::errors::to_python;
 use crate::tree::{flat_arrays, points_of};
 
-/// Points (n, 3), radii (n,), confidence (n,) and which points were bridged (n,) of one vessel.
+/// Points (n, 3), radii (n,), confidence (n,) and bridged points (n,) of a vessel.
 #[derive(FromPyObject)]
-pub struct LineArrays<'py>(
+pub(crate) struct LineArrays<'py>(
     PyReadonlyArray2<'py, f64>,
     Option<PyReadonlyArray1<'py, f64>>,
     Option<PyReadonlyArray1<'py, f64>>,
     Option<PyReadonlyArray1<'py, bool>>,
 );
 
-/// The same, made by this module.
 type NewLineArrays<'py> = (
     Bound<'py, PyArray2<f64>>,
     Option<Bound<'py, PyArray1<f64>>>,
@@ -38,18 +37,21 @@ impl LineArrays<'_> {
     }
 }
 
-/// Both parts of a vessel that is cut at an arc length (mm).
+/// The two parts of a vessel cut at an arc length (mm).
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
-pub fn cut<'py>(py: Python<'py>, vessel: LineArrays<'py>, at: f64) -> PyResult<Vec<NewLineArrays<'py>>> {
+pub(crate) fn cut<'py>(
+    py: Python<'py>,
+    vessel: LineArrays<'py>,
+    at: f64,
+) -> PyResult<Vec<NewLineArrays<'py>>> {
     let parts = line_edits::cut(&vessel.line()?, at).map_err(to_python)?;
     parts.iter().map(|part| arrays(py, part)).collect()
 }
 
-/// Two vessels as one, joined at the ends that are nearest to each other.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
-pub fn join<'py>(
+pub(crate) fn join<'py>(
     py: Python<'py>,
     first: LineArrays<'py>,
     second: LineArrays<'py>,
@@ -57,10 +59,9 @@ pub fn join<'py>(
     arrays(py, &line_edits::join(&first.line()?, &second.line()?).map_err(to_python)?)
 }
 
-/// The name of the second part of a vessel that is cut, beside names that are taken.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
-pub fn part_name(taken: Vec<String>, whole: &str) -> String {
+pub(crate) fn part_name(taken: Vec<String>, whole: &str) -> String {
     names::part_name(&taken, whole)
 }
 

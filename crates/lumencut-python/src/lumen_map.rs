@@ -1,4 +1,4 @@
-//! Lumen maps, as Python has them.
+//! Lumen maps for Python.
 
 use std::sync::Arc;
 
@@ -23,10 +23,10 @@ use crate::tree::{VesselArrays, vessel as vessel_of};
 use crate::volume::VolumeArgument;
 use crate::watching::computed;
 
-/// An ostium: the id of its vessel, the arc length (mm), the point (mm, LPS), and column and row in the map.
+/// An ostium: vessel id, arc length (mm), point (mm, LPS), column and row.
 type OstiumRow = (usize, f64, [f64; 3], [f64; 2]);
 
-/// The wall around a vessel, which maps of all kinds share.
+/// The wall around a vessel, shared by its maps.
 #[pyclass(frozen, module = "lumencut._lumencut")]
 pub struct LumenWall {
     path: Arc<CenterlinePath>,
@@ -36,7 +36,7 @@ pub struct LumenWall {
 
 #[pymethods]
 impl LumenWall {
-    /// The wall of a vessel, its points (n, 3) and radii (n,), that is seen with `up` upwards, by its profile where it has one.
+    /// The wall of a vessel, points (n, 3) and radii (n,), seen with `up` upwards; from its profile if given.
     #[new]
     #[pyo3(signature = (volume, vessel, smoothing, up, profile=None))]
     #[allow(clippy::needless_pass_by_value)]
@@ -53,7 +53,7 @@ impl LumenWall {
         let view = View { up: DVec3::from_array(up), angle: 0.0, normal: None };
         let profile = profile.map(|profile| Arc::clone(&profile.get().0));
         let found = || -> Result<Self> {
-            // The path has no radii of its own.
+            // The path has no radii.
             let line = Vessel::new(vessel.points().to_vec(), None)?;
             let path = Arc::new(CenterlinePath::new(&line, smoothing)?);
             let straightened = Straightened::new(Arc::clone(&path), &view)?;
@@ -63,19 +63,19 @@ impl LumenWall {
         py.detach(|| pool::install(found))?.map_err(to_python)
     }
 
-    /// The level from which on something at the wall is calcium or metal, where the vessel was measured.
+    /// The least level of calcium or metal, if the vessel was measured.
     #[getter]
     fn calcium_level(&self) -> Option<f64> {
         self.found.levels.map(maps::calcium_level)
     }
 
-    /// The radius at which columns are true (mm).
+    /// The radius at which columns are true to scale (mm).
     #[getter]
     fn mean_radius(&self) -> f64 {
         self.found.mean_radius
     }
 
-    /// Arc lengths (mm) and at each the angle (radians) about the vessel from which its narrowest or widest side is cut.
+    /// Arc lengths (mm), and the angle (radians) of the narrowest or widest side at each.
     fn roll<'py>(&self, py: Python<'py>, side: &str) -> PyResult<[Bound<'py, PyArray1<f64>>; 2]> {
         let side = Side::named("roll of the CPR", side).map_err(to_python)?;
         let length = self.path.length();
@@ -83,8 +83,8 @@ impl LumenWall {
         Ok([roll.places(), roll.angles()].map(|values| PyArray1::from_slice(py, values)))
     }
 
-    /// A map of the wall: the side of a pixel (mm), the direction of its middle (radians; None turns calcium there), how much of
-    /// the other side is repeated (radians), from where to where beyond the wall it is about (mm), and the level of calcium.
+    /// A map of the wall: pixel side (mm), direction of the middle (radians; None centres calcium), overlap (radians), band
+    /// beyond the wall (mm), and calcium level.
     #[allow(clippy::needless_pass_by_value)]
     fn map<'py>(
         &self,
@@ -107,40 +107,38 @@ impl LumenWall {
     }
 }
 
-/// The wall of a vessel, unrolled.
+/// The unrolled wall of a vessel.
 #[pyclass(frozen, extends = Layout, module = "lumencut._lumencut")]
 pub struct LumenMap(lumen_map::LumenMap);
 
 #[pymethods]
 impl LumenMap {
-    /// The direction of the middle column (radians).
+    /// Direction of the middle column (radians).
     #[getter]
     fn angle(&self) -> f64 {
         self.0.parameters().angle
     }
 
-    /// How many columns on each side repeat the other side.
     #[getter]
     fn overlap(&self) -> usize {
         self.0.overlap()
     }
 
-    /// The radius of the wall at each pixel (mm), shape (H, W).
+    /// Wall radius (mm), shape (H, W).
     fn wall<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         self.shaped(py, computed(py, |stop| self.0.wall(stop))?)
     }
 
-    /// Which pixels lie in the opening of a branch, shape (H, W).
     fn open<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<bool>>> {
         self.shaped(py, computed(py, |stop| self.0.open(stop))?)
     }
 
-    /// How bright the wall is at each pixel, lit from the middle of the vessel (0 to 1), shape (H, W).
+    /// Shading of the wall, lit from the middle (0 to 1), shape (H, W).
     fn shades<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f32>>> {
         self.shaped(py, computed(py, |stop| self.0.shades(stop))?)
     }
 
-    /// How much of a band beyond the wall (mm) is brighter than a level (mm), shape (H, W).
+    /// Thickness above a level within a band beyond the wall (mm), shape (H, W).
     #[allow(clippy::needless_pass_by_value)]
     fn thickness<'py>(
         &self,
@@ -155,7 +153,6 @@ impl LumenMap {
         self.shaped(py, thick)
     }
 
-    /// Where the vessels of a tree open into this one.
     #[allow(clippy::needless_pass_by_value)]
     fn ostia(&self, tree: Vec<VesselArrays<'_>>) -> PyResult<Vec<OstiumRow>> {
         let vessels = tree.iter().map(vessel_of).collect::<PyResult<Vec<_>>>()?;

@@ -1,4 +1,4 @@
-//! What a reader marked on a vessel, and what the facade tells of it.
+//! A reader's marks on a vessel, and their results.
 
 use lumencut::measure::groups::Territory;
 use lumencut::measure::stenosis::{Compared, Method};
@@ -9,9 +9,8 @@ use pyo3::prelude::*;
 use crate::errors::to_python;
 use crate::measuring::{Profile, Stenosis};
 
-/// The attributes of `lumencut.measured_vessel.Marked`.
 #[derive(FromPyObject)]
-pub struct MarkedParts {
+pub(crate) struct MarkedParts {
     at: Option<f64>,
     references: Vec<f64>,
     method: String,
@@ -22,8 +21,7 @@ pub struct MarkedParts {
 }
 
 impl MarkedParts {
-    /// The same for the facade.
-    pub fn marked(&self) -> PyResult<Marked> {
+    pub(crate) fn marked(&self) -> PyResult<Marked> {
         let method = Method::named("method of the stenosis", &self.method).map_err(to_python)?;
         let territory = self.group.as_ref().map(|name| Territory::named("vessel of the group", name));
         let compared = Compared {
@@ -36,40 +34,35 @@ impl MarkedParts {
     }
 }
 
-/// What is told of a place that a reader marked.
 #[pyclass(frozen, module = "lumencut._lumencut")]
 pub struct Grade(pub profile_marks::Grade);
 
 #[pymethods]
 impl Grade {
-    /// The stenosis; None where it is not graded.
     #[getter]
     fn stenosis(&self) -> Option<Stenosis> {
         self.0.stenosis().cloned().map(Stenosis)
     }
 
-    /// The group of the field with its source.
     #[getter]
     fn group(&self) -> Option<&str> {
         self.0.group()
     }
 
-    /// Why it is not graded.
     #[getter]
     fn not_graded(&self) -> Option<&str> {
         self.0.not_graded()
     }
 
-    /// All of it in lines.
     #[getter]
     fn lines(&self) -> Vec<String> {
         self.0.lines()
     }
 }
 
-/// What is told of the place that a reader marked on a vessel; None where nothing is marked.
+/// The result at the marked place; None without one.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
-pub fn grade(profile: &Profile, marked: MarkedParts) -> PyResult<Option<Grade>> {
+pub(crate) fn grade(profile: &Profile, marked: MarkedParts) -> PyResult<Option<Grade>> {
     Ok(marked.marked()?.grade(&profile.0).map(Grade))
 }

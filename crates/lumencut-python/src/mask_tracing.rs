@@ -1,5 +1,4 @@
-//! Centerlines of masks, and the connections between two centerlines, for `lumencut.mask_tracing` and
-//! `lumencut.centerline_comparison`.
+//! Traces masks and compares centerlines, for `lumencut.mask_tracing` and `lumencut.centerline_comparison`.
 
 use glam::{DAffine3, DMat3, DVec3};
 use lumencut::mask_grid::{Grid, place_of, place_within, placed_note};
@@ -20,22 +19,22 @@ use crate::tree::points_of;
 use crate::volume::VolumeArgument;
 use crate::watching::{SHARES, Watched, interruptible};
 
-/// Points (n, 3), radii (n,), confidence (n,) or none (0,), the label, and whether it bridges a gap.
+/// Points (n, 3), radii (n,), confidence (n,) or (0,), label, and whether it bridges a gap.
 type TracedArrays<'py> =
     (Bound<'py, PyArray2<f64>>, Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>, i64, bool);
 
 type Place = (f64, f64, f64);
 
-/// How long a branch must be to stay (radii of its parent), the step between points and the widest gap to bridge (mm).
+/// Least branch length (radii of the parent), point step and widest bridged gap (mm).
 type Lengths = (f64, f64, f64);
 
-/// Width (mm), the ids of the vessels and the points on both sides, whether it was bridged.
+/// Width (mm), vessel ids and points on both sides, and whether it was bridged.
 type GapParts = (f64, (usize, usize), (Place, Place), bool);
 
-/// The connections between two lines of points (n, 3), (m, 3) as indices of their points, shape (n + m - 1, 2).
+/// Correspondence of two lines (n, 3), (m, 3) as point indices, shape (n + m - 1, 2).
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
-pub fn correspondence<'py>(
+pub(crate) fn correspondence<'py>(
     py: Python<'py>,
     first: PyReadonlyArray2<'py, f64>,
     second: PyReadonlyArray2<'py, f64>,
@@ -46,16 +45,14 @@ pub fn correspondence<'py>(
     Ok(PyArray2::from_owned_array(py, pairs))
 }
 
-/// The number of voxels along (i, j, k), and the affine from index to world, row by row.
 type GridParts = ([usize; 3], [[f64; 4]; 3]);
 
-/// For each axis of the mask that of the volume; for each axis of the volume whether that of the mask runs the same way,
-/// and the least index of the mask; what is told of it.
+/// The volume axis of each mask axis; per volume axis the direction and the lowest mask index; a note.
 type PlaceParts = ([usize; 3], [bool; 3], [usize; 3], String);
 
-/// The place of a mask among the voxels of its volume, none where it has their grid and need not be placed.
+/// The position of a mask in its volume; None if their grids are equal.
 #[pyfunction]
-pub fn place_mask(mask: GridParts, volume: GridParts, always: bool) -> PyResult<Option<PlaceParts>> {
+pub(crate) fn place_mask(mask: GridParts, volume: GridParts, always: bool) -> PyResult<Option<PlaceParts>> {
     let [own, every] = [mask, volume].map(|(size, rows)| {
         let column = |axis: usize| DVec3::from_array(rows.map(|row| row[axis]));
         let matrix3 = DMat3::from_cols(column(0), column(1), column(2));
@@ -66,11 +63,11 @@ pub fn place_mask(mask: GridParts, volume: GridParts, always: bool) -> PyResult<
     Ok(place.map_err(to_python)?.map(|place| (place.axes, place.forward, place.low, note)))
 }
 
-/// The vessels of a mask, refined by the grey values of a volume where there is one, with what else was found, by name.
+/// The vessels of a mask, refined by a volume's grey values if given, with details by name.
 #[pyfunction]
 #[pyo3(signature = (mask, volume, labels, lengths, told=None))]
 #[allow(clippy::needless_pass_by_value)]
-pub fn trace_mask<'py>(
+pub(crate) fn trace_mask<'py>(
     py: Python<'py>,
     mask: VolumeArgument<'py>,
     volume: Option<VolumeArgument<'py>>,

@@ -1,4 +1,4 @@
-//! Vessels measured: without the GIL, and stopped by Ctrl-C.
+//! Measures vessels without the GIL; Ctrl-C stops it.
 
 use std::slice;
 use std::sync::Arc;
@@ -34,9 +34,8 @@ use crate::volume::VolumeArgument;
 use crate::wall_request::wall_request;
 use crate::watching::told_while;
 
-/// The flags of sections (name, bit, word, meaning, and the colours on paper and on a dark screen of each), the methods of
-/// stenoses and views with their words, and defaults.
-pub fn add_names(module: &Bound<'_, PyModule>) -> PyResult<()> {
+/// Adds the flags (name, bit, word, meaning, colours on paper and screen), methods with labels, and defaults.
+pub(crate) fn add_names(module: &Bound<'_, PyModule>) -> PyResult<()> {
     let row = |flag: &FlagLook| (flag.name, flag.bit, flag.word, flag.meaning, flag.paper, flag.screen);
     module.add("MEASURING_FLAGS", FLAGS.iter().map(row).collect::<Vec<_>>())?;
     let word = |(name, method): &(&'static str, Method)| (*name, measure_words::of_method(*method));
@@ -46,7 +45,7 @@ pub fn add_names(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("DEFAULTS", defaults().into_py_dict(module.py())?)
 }
 
-/// What counts where nobody asks for something else, by name: mm, but radii of the parent for the shortest branch.
+/// Defaults by name: mm, but radii of the parent for the shortest branch.
 fn defaults() -> [(&'static str, f64); 4] {
     [
         ("measuring_step", measuring::STEP),
@@ -56,17 +55,16 @@ fn defaults() -> [(&'static str, f64); 4] {
     ]
 }
 
-/// The lumen of one vessel by arc length, and how the scan was made.
+/// The lumen of a vessel by arc length, and how the scan was made.
 #[pyclass(frozen, module = "lumencut._lumencut")]
 pub struct Profile(pub Arc<profile::Profile>, pub ScanDetails);
 
-/// The profile of a vessel, its points (n, 3) and radii (n,), among the vessels of its tree: with what the tree `told` before,
-/// or what it tells now, or without one under a point spread of a width (mm) or the one that the vessel itself tells. While it runs, `progress` is called now and
-/// then with how much is done, in parts of the whole.
+/// The profile of a vessel, points (n, 3) and radii (n,), in its tree. `told` are earlier tree-wide estimates; without a tree the
+/// point spread is the given width (mm) or estimated from the vessel. `progress` receives the share done.
 #[pyfunction]
 #[pyo3(signature = (volume, measured, step, fwhm=None, tree=None, wall=None, told=None, progress=None))]
 #[allow(clippy::needless_pass_by_value, clippy::too_many_arguments)]
-pub fn measure<'py>(
+pub(crate) fn measure<'py>(
     py: Python<'py>,
     volume: VolumeArgument<'py>,
     measured: VesselArrays<'py>,
@@ -102,7 +100,6 @@ pub fn measure<'py>(
 
 #[pymethods]
 impl Profile {
-    /// Numbers by name, each of shape (n,).
     fn numbers<'py>(&self, py: Python<'py>) -> Vec<(&'static str, Bound<'py, PyArray1<f64>>)> {
         let profile = &self.0;
         let array = |values: &[f64]| PyArray1::from_slice(py, values);
@@ -126,7 +123,6 @@ impl Profile {
         ]
     }
 
-    /// What the uncertainty is made of, by name, each of shape (n,).
     fn uncertainty_parts<'py>(&self, py: Python<'py>) -> Vec<(&'static str, Bound<'py, PyArray1<f64>>)> {
         let parts = &self.0.uncertainty_parts;
         Part::ALL
@@ -135,30 +131,28 @@ impl Profile {
             .collect()
     }
 
-    /// Whether walls were told apart, and by which level, in words.
     #[getter]
     fn wall_source(&self) -> String {
         measure_words::of_wall(&self.0.wall_source)
     }
 
-    /// Bits of flags, shape (n,).
     #[getter]
     fn flags<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<u32>> {
         PyArray1::from_slice(py, &self.0.flags)
     }
 
-    /// Which sections count for what is largest, narrowest or suggested, shape (n,).
+    /// Sections that count for largest, narrowest and suggested places, shape (n,).
     #[getter]
     fn counts<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<bool>> {
         PyArray1::from_iter(py, (0..self.0.len()).map(|n| self.0.counts(n)))
     }
 
-    /// The number of the section that is nearest to an arc length (mm), the first of two.
+    /// Index of the section nearest to an arc length (mm); the first of two.
     fn nearest(&self, at: f64) -> usize {
         self.0.nearest_section(at)
     }
 
-    /// The middle of the lumen (mm, LPS), shape (n, 3).
+    /// Lumen centre (mm, LPS), shape (n, 3).
     #[getter]
     fn center<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         points(py, &self.0.center)
@@ -170,14 +164,14 @@ impl Profile {
         points(py, &self.0.normal)
     }
 
-    /// Unit vectors to the right and downwards in the plane of each section, shape (n, 2, 3).
+    /// Unit vectors right and down in each section, shape (n, 2, 3).
     #[getter]
     fn axes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<f64>>> {
         let flat = self.0.axes.iter().flatten().flat_map(DVec3::to_array).collect();
         PyArray1::from_vec(py, flat).reshape([self.0.axes.len(), 2, 3])
     }
 
-    /// The points of the wall (mm, LPS), shape (n, rays, 3); NaN where there is none.
+    /// Wall points (mm, LPS), shape (n, rays, 3); NaN if missing.
     #[getter]
     fn contour<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<f64>>> {
         let rays = self.0.contour.iter().map(Vec::len).max().unwrap_or(0);
@@ -190,21 +184,20 @@ impl Profile {
         PyArray1::from_vec(py, flat).reshape([self.0.contour.len(), rays, 3])
     }
 
-    /// Levels of lumen and background in the volume's unit, shape (n, 2).
+    /// Levels of lumen and background, shape (n, 2).
     #[getter]
     fn levels<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let flat = self.0.levels.iter().flatten().copied().collect();
         PyArray1::from_vec(py, flat).reshape([self.0.levels.len(), 2])
     }
 
-    /// The noise of a voxel in the volume's unit.
+    /// Noise of a voxel in the volume's unit.
     #[getter]
     fn noise(&self) -> f64 {
         self.0.noise
     }
 
-    /// The stenosis at an arc length (mm) by a method, beside references (arc lengths, mm), the assumed original diameter and
-    /// that of a vessel to compare with (mm).
+    /// The stenosis at an arc length (mm): method, references (mm), assumed original and comparison diameters (mm).
     #[pyo3(signature = (at, method, reference, original=None, comparison=None))]
     fn stenosis(
         &self,
@@ -225,62 +218,60 @@ impl Profile {
         self.0.narrowest().map(pair)
     }
 
-    /// The place of the longest diameter: arc length and diameter (mm).
+    /// The largest diameter: arc length and diameter (mm).
     fn widest(&self) -> Option<(f64, f64)> {
         self.0.widest().map(pair)
     }
 
-    /// The longest diameter as it is offered to readers: arc length and diameter (mm).
+    /// The largest diameter as suggested to readers: arc length and diameter (mm).
     fn offered_widest(&self) -> Option<(f64, f64)> {
         self.0.offered_widest().map(pair)
     }
 
-    /// Places before and after an arc length (mm) to compare it with: arc length and diameter (mm) of each.
+    /// Suggested references before and after an arc length (mm): arc length and diameter (mm).
     fn suggested_references(&self, at: f64) -> PyResult<[Option<(f64, f64)>; 2]> {
         let spots = self.0.suggested_references(at).map_err(to_python)?;
         Ok(spots.map(|spot| spot.map(pair)))
     }
 
-    /// The diameter at an arc length (mm), and its standard deviation (mm).
+    /// Diameter at an arc length, and its standard deviation (mm).
     fn diameter_at(&self, at: f64) -> PyResult<(f64, f64)> {
         self.0.diameter_at(at).map_err(to_python)
     }
 
-    /// The length between two arc lengths (mm): along the vessel, and straight.
+    /// Length of a stretch along the vessel, and straight (mm).
     fn stretch(&self, ends: [f64; 2]) -> PyResult<(f64, f64)> {
         self.0.stretch(ends).map(|stretch| (stretch.length, stretch.straight)).map_err(to_python)
     }
 
-    /// The direction of a stretch between two arc lengths (mm).
     fn direction(&self, ends: [f64; 2]) -> PyResult<[f64; 3]> {
         self.0.direction(ends).map(|direction| direction.to_array()).map_err(to_python)
     }
 
-    /// The angle between two stretches (radians).
+    /// Angle between two stretches (radians).
     fn angle_between(&self, first: [f64; 2], second: [f64; 2]) -> PyResult<f64> {
         self.0.angle_between(first, second).map_err(to_python)
     }
 
-    /// Rotation (LAO) and angulation (cranial) of a C-arm that sees a stretch in its whole length (radians).
+    /// LAO and cranial angle of a C-arm that shows a stretch unforeshortened (radians).
     #[pyo3(signature = (ends, lao=None))]
     fn c_arm(&self, ends: [f64; 2], lao: Option<f64>) -> PyResult<(f64, f64)> {
         self.0.c_arm(ends, lao).map(|arm| (arm.lao, arm.cranial)).map_err(to_python)
     }
 
-    /// The full width at half maximum of the point spread (mm), and where it is from.
+    /// FWHM of the point spread (mm), and its source.
     #[getter]
     fn fwhm(&self) -> (f64, String) {
         (self.0.fwhm, measure_words::of_source(&self.0.fwhm_source))
     }
 }
 
-/// A graded stenosis.
 #[pyclass(frozen, module = "lumencut._lumencut")]
 pub struct Stenosis(pub stenosis::Stenosis);
 
 #[pymethods]
 impl Stenosis {
-    /// Percent, place, diameter, uncertainty and reference (mm), and the uncertainty of the percentage.
+    /// Percent, place, diameter, uncertainty, reference (mm), and uncertainty of the percentage.
     fn numbers(&self) -> (f64, f64, f64, f64, f64, f64) {
         let graded = &self.0;
         let unsure = graded.percent_uncertainty;
@@ -293,29 +284,24 @@ impl Stenosis {
         self.0.references.iter().map(|[at, diameter]| (*at, *diameter)).collect()
     }
 
-    /// The name of the method.
     #[getter]
     fn method(&self) -> &'static str {
         self.0.method.name()
     }
 
-    /// What makes the percentage doubtful, a sentence each.
     #[getter]
     fn doubts(&self) -> Vec<String> {
         measure_words::of_doubts(&self.0.doubts)
     }
 
-    /// The percentage in one line.
     fn words(&self) -> String {
         measure_words::of_stenosis(&self.0)
     }
 
-    /// The percentage and its doubts in one line.
     fn doubtful_words(&self) -> String {
         measure_words::of_doubtful_stenosis(&self.0)
     }
 
-    /// The group of the field and its source.
     fn group(&self, vessel: &str) -> PyResult<String> {
         let group =
             Territory::named("vessel of the group", vessel).and_then(|territory| self.0.group(territory));
@@ -323,14 +309,14 @@ impl Stenosis {
     }
 }
 
-/// Values (H, W), places (H, W, 3), the normal and the arc length (mm) of a section.
+/// Values (H, W), positions (H, W, 3), normal and arc length (mm) of a section.
 type SectionParts<'py> = (Bound<'py, PyArray2<f32>>, Bound<'py, PyArray3<f64>>, [f64; 3], f64);
 
-/// A section of a vessel, its points (n, 3) and radii (n,), at an arc length; the nearest one of its profile where that is given.
+/// The section of a vessel, points (n, 3) and radii (n,), at an arc length; the nearest one of a given profile.
 #[pyfunction]
 #[pyo3(signature = (volume, measured, at, image, profile=None))]
 #[allow(clippy::needless_pass_by_value)]
-pub fn cross_section<'py>(
+pub(crate) fn cross_section<'py>(
     py: Python<'py>,
     volume: VolumeArgument<'py>,
     measured: VesselArrays<'py>,
@@ -351,15 +337,13 @@ pub fn cross_section<'py>(
     Ok((value, positions, place.normal.to_array(), place.at))
 }
 
-/// The radius of one vessel, shape (n,), how many points were measured, and how many were not.
 type RadiusParts<'py> = (Option<Bound<'py, PyArray1<f64>>>, usize, usize);
 
-/// The measured radii of the vessels of a tree, each of points (n, 3) and radii (n,). While it runs, `told` is called as that of
-/// [`measure`].
+/// Measured radii of a tree's vessels, points (n, 3) and radii (n,); `told` as in [`measure`].
 #[pyfunction]
 #[pyo3(signature = (volume, vessels, step, fwhm=None, wall=None, told=None))]
 #[allow(clippy::needless_pass_by_value)]
-pub fn measured_radii<'py>(
+pub(crate) fn measured_radii<'py>(
     py: Python<'py>,
     volume: VolumeArgument<'py>,
     vessels: Vec<VesselArrays<'py>>,

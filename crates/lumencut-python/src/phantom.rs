@@ -1,4 +1,4 @@
-//! Phantoms for Python: the voxels move into numpy, the truth becomes plain dictionaries.
+//! Phantoms for Python: voxels as NumPy arrays, the truth as dictionaries.
 
 use lumencut::error::{Error, ErrorKind, Result};
 use lumencut::stop::Stop;
@@ -9,10 +9,10 @@ use pyo3::types::{PyDict, PyList};
 
 use crate::watching::computed;
 
-/// The phantom called `name`; `percent` is read by the stenosis alone, `seed` and `scale` by the workloads.
+/// The phantom `name`; only the stenosis uses `percent`, only workloads `seed` and `scale`.
 #[pyfunction]
 #[pyo3(signature = (name, *, percent = 50.0, seed = 0, scale = 1.0))]
-pub fn make_phantom<'py>(
+pub(crate) fn make_phantom<'py>(
     py: Python<'py>,
     name: &str,
     percent: f64,

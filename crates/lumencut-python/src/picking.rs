@@ -1,8 +1,8 @@
-//! What a pixel of a picture means.
+//! Picks points in pictures.
 
 use glam::DVec3;
+use lumencut::clicked_vessel;
 use lumencut::cut_at::cut_at;
-use lumencut::meant_vessel;
 use lumencut::method::Method;
 use lumencut::pipeline::CpuRenderer;
 use lumencut::study::brightest::brightest_on_ray;
@@ -15,10 +15,10 @@ use crate::settings::Checked;
 use crate::tree::{self, VesselArrays};
 use crate::volume::VolumeArgument;
 
-/// The brightest place (mm, LPS) on the ray of a pixel (column, row), between two depths (mm).
+/// The brightest place (mm, LPS) on the ray of a pixel (column, row) between two depths (mm).
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
-pub fn brightest(
+pub(crate) fn brightest(
     py: Python<'_>,
     volume: VolumeArgument<'_>,
     camera: CameraArgument,
@@ -32,20 +32,23 @@ pub fn brightest(
     Ok(place.to_array())
 }
 
-/// The arc length (mm) on a vessel that is nearest to a point, and whether a click there means the vessel, in a view with pixels
-/// of this side (mm).
+/// The arc length (mm) on a vessel nearest to a point, and whether a click there selects the vessel, for a pixel side (mm).
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
-pub fn meant_place(vessel: VesselArrays<'_>, point: [f64; 3], pixel_spacing: f64) -> PyResult<(f64, bool)> {
+pub(crate) fn meant_place(
+    vessel: VesselArrays<'_>,
+    point: [f64; 3],
+    pixel_spacing: f64,
+) -> PyResult<(f64, bool)> {
     let (vessel, point) = (tree::vessel(&vessel)?, DVec3::from_array(point));
-    let at = meant_vessel::nearest_arc_length(&vessel, point);
-    Ok((at, meant_vessel::is_meant(&vessel, point, pixel_spacing)))
+    let at = clicked_vessel::nearest_arc_length(&vessel, point);
+    Ok((at, clicked_vessel::is_clicked(&vessel, point, pixel_spacing)))
 }
 
-/// Whether the pixel (column, row) of a view of a renderer shows the cut surface rather than what a focus leaves around it.
+/// Whether a pixel (column, row) shows the cut surface rather than a focus's surroundings.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
-pub fn shows_cut(
+pub(crate) fn shows_cut(
     renderer: &Bound<'_, Renderer>,
     volume: VolumeArgument<'_>,
     camera: CameraArgument,

@@ -16,8 +16,7 @@ use crate::centerlines::raised;
 use crate::tree::points_of;
 use crate::volume::{GridArgument, VolumeArgument};
 
-/// A space by its name.
-pub struct SpaceArgument(Space);
+pub(crate) struct SpaceArgument(Space);
 
 impl FromPyObject<'_, '_> for SpaceArgument {
     type Error = PyErr;
@@ -29,8 +28,7 @@ impl FromPyObject<'_, '_> for SpaceArgument {
     }
 }
 
-/// A unit by its name.
-pub struct UnitArgument(Unit);
+pub(crate) struct UnitArgument(Unit);
 
 impl FromPyObject<'_, '_> for UnitArgument {
     type Error = PyErr;
@@ -42,9 +40,9 @@ impl FromPyObject<'_, '_> for UnitArgument {
     }
 }
 
-/// What is known of a file's coordinates: what the caller asks for, and the attributes of `lumencut.placement.Stated`.
+/// Knowledge about a file's coordinates: the caller's request, and the attributes of `lumencut.placement.Stated`.
 #[derive(FromPyObject)]
-pub struct KnownArgument {
+pub(crate) struct KnownArgument {
     #[pyo3(item)]
     asked_space: Option<SpaceArgument>,
     #[pyo3(item)]
@@ -69,8 +67,8 @@ impl KnownArgument {
     }
 }
 
-/// Millimetres per unit, what brings each space to LPS, and the extents (mm) that pass for vessels of a body.
-pub fn add_names(module: &Bound<'_, PyModule>) -> PyResult<()> {
+/// Adds millimetres per unit, signs from each space to LPS, and plausible extents of vessels (mm).
+pub(crate) fn add_names(module: &Bound<'_, PyModule>) -> PyResult<()> {
     let (units, spaces) = (PyDict::new(module.py()), PyDict::new(module.py()));
     for unit in Unit::ALL {
         units.set_item(unit.name(), unit.in_mm())?;
@@ -85,7 +83,7 @@ pub fn add_names(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("LARGEST_EXTENT", LARGEST)
 }
 
-/// Asks what a decision needs of a volume: its extent, and its values along points (n, 3) with radii (n,).
+/// Runs `work` with a judge: the extent of a volume, and its values along points (n, 3) with radii (n,).
 fn judged<T: Send>(
     py: Python<'_>,
     (points, radii): (&[DVec3], &PyReadonlyArray1<'_, f64>),
@@ -102,12 +100,12 @@ fn judged<T: Send>(
     Ok(py.detach(|| decide(&Judge { extent: Extent::from(&volume), lumen: &lumen })))
 }
 
-/// How the points (n, 3) with radii (n,), NaN where unknown, of the file `subject` are to be understood: the attributes of
+/// The placement of the file `subject` with points (n, 3) and radii (n,), NaN if unknown: the attributes of
 /// `lumencut.placement.Placement`.
 #[pyfunction]
 #[pyo3(signature = (subject, points, radii, known, volume))]
 #[allow(clippy::needless_pass_by_value)]
-pub fn placement<'py>(
+pub(crate) fn placement<'py>(
     py: Python<'py>,
     subject: &str,
     points: PyReadonlyArray2<'py, f64>,
@@ -140,19 +138,17 @@ pub fn placement<'py>(
     Ok(fields)
 }
 
-/// The names of the space and of the unit that are stated.
 fn names_of(stated: Statement) -> (Option<&'static str>, Option<&'static str>) {
     (stated.space.map(Space::name), stated.unit.map(Unit::name))
 }
 
-/// A better place: what was found, and the names of its space and unit.
 type Better = (String, (&'static str, &'static str));
 
-/// What is to be said of points (n, 3) (mm, LPS) with radii (n,) (mm), NaN where unknown, that another space or unit brings
-/// into a volume, or that look like lumen in another space alone; and the place that fits, where they were read as LPS in mm.
+/// A better place for points (n, 3) (mm, LPS) with radii (n,) (mm), NaN if unknown, that fit the volume or its lumen better
+/// elsewhere; assumes they were read as LPS in mm.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
-pub fn better_place(
+pub(crate) fn better_place(
     py: Python<'_>,
     points: PyReadonlyArray2<'_, f64>,
     radii: PyReadonlyArray1<'_, f64>,
@@ -163,10 +159,10 @@ pub fn better_place(
     Ok(better.map(|better| (better.found, (better.meant.space.name(), better.meant.unit.name()))))
 }
 
-/// Whether points (n, 3) (mm, LPS) miss a volume in whatever space and unit they might be meant.
+/// Whether points (n, 3) (mm, LPS) miss a volume in every space and unit.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
-pub fn fits_nowhere(
+pub(crate) fn fits_nowhere(
     py: Python<'_>,
     points: PyReadonlyArray2<'_, f64>,
     volume: GridArgument,

@@ -1,5 +1,4 @@
-//! The threads that compute. A forked process inherits its parent's pool without the threads in it and would wait
-//! for them forever: it makes a pool of its own.
+//! The thread pool. A forked process inherits its parent's pool without threads and would wait forever, so it makes its own.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -8,7 +7,6 @@ use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
-/// A pool, how many threads were wanted for it, and the process that they run in.
 struct Made {
     process: u32,
     wanted: usize,
@@ -17,23 +15,21 @@ struct Made {
 
 static POOL: Mutex<Option<Made>> = Mutex::new(None);
 
-/// How many threads are wanted; 0 stands for as many as the processor runs at once.
+/// The requested number of threads; 0 for all of the processor.
 static WANTED: AtomicUsize = AtomicUsize::new(0);
 
-/// From now on this number of threads computes; 0 stands for as many as the processor runs at once.
+/// Sets the number of threads; 0 for all of the processor.
 #[pyfunction]
-pub fn set_threads(count: usize) {
+pub(crate) fn set_threads(count: usize) {
     WANTED.store(count, Ordering::Relaxed);
 }
 
-/// How many threads compute.
 #[pyfunction]
-pub fn threads() -> PyResult<usize> {
+pub(crate) fn threads() -> PyResult<usize> {
     pool().map(|pool| pool.current_num_threads())
 }
 
-/// Runs `work` on the threads of this process.
-pub fn install<T: Send>(work: impl FnOnce() -> T + Send) -> PyResult<T> {
+pub(crate) fn install<T: Send>(work: impl FnOnce() -> T + Send) -> PyResult<T> {
     let pool = pool()?;
     Ok(pool.install(work))
 }

@@ -1,4 +1,4 @@
-//! What profiles leave behind, as the facade decides it for every host: words, marked places, tables and JSON.
+//! Outputs of profiles: words, marked places, tables and JSON.
 
 use lumencut::measure::stretch::CArm;
 use lumencut::measure_words;
@@ -13,12 +13,11 @@ use crate::errors::to_python;
 use crate::marked::{Grade, MarkedParts};
 use crate::measuring::Profile;
 
-/// What every file of profiles says of itself.
-pub fn add_names(module: &Bound<'_, PyModule>) -> PyResult<()> {
+pub(crate) fn add_names(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("MEASURING_NOTICE", NOTICE)
 }
 
-/// What was asked for, as the options of the command line have it.
+/// The request, as options of the command line.
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
 pub struct Options {
@@ -47,11 +46,9 @@ impl From<Options> for Asked {
     }
 }
 
-/// Id, name and profile of a vessel, and what is told of the place that is marked on it.
-pub type MeasuredParts = (String, Option<String>, Py<Profile>, Option<Py<Grade>>);
+pub(crate) type MeasuredParts = (String, Option<String>, Py<Profile>, Option<Py<Grade>>);
 
-/// The vessel of the facade.
-pub fn row((id, name, profile, grade): &MeasuredParts) -> Measured<'_> {
+pub(crate) fn row((id, name, profile, grade): &MeasuredParts) -> Measured<'_> {
     Measured {
         id: id.clone(),
         name: name.clone(),
@@ -66,85 +63,80 @@ fn rows(measured: &[MeasuredParts]) -> Vec<Measured<'_>> {
     measured.iter().map(row).collect()
 }
 
-/// One profile as CSV.
 #[pyfunction]
-pub fn profile_csv(profile: &Profile) -> String {
+pub(crate) fn profile_csv(profile: &Profile) -> String {
     profile_table::profile_csv(&profile.0, &profile.1)
 }
 
-/// Measured vessels as CSV.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
-pub fn vessels_csv(measured: Vec<MeasuredParts>) -> String {
+pub(crate) fn vessels_csv(measured: Vec<MeasuredParts>) -> String {
     profile_table::vessels_csv(&rows(&measured))
 }
 
-/// One profile as JSON.
 #[pyfunction]
-pub fn profile_json(profile: &Profile) -> String {
+pub(crate) fn profile_json(profile: &Profile) -> String {
     profile_record::profile_json(&profile.0, &profile.1)
 }
 
-/// Measured vessels as JSON, with the options that they were measured by.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
-pub fn vessels_json(options: Options, measured: Vec<MeasuredParts>) -> String {
+pub(crate) fn vessels_json(options: Options, measured: Vec<MeasuredParts>) -> String {
     profile_record::vessels_json(&options.into(), &rows(&measured))
 }
 
-/// The name of a place to look at, its arc length and diameter (mm), and whether it is a suggestion.
+/// Name, arc length and diameter (mm) of a place to review, and whether it is suggested.
 type MarkParts = (&'static str, f64, f64, bool);
 
 fn parts_of(marks: &[Mark]) -> Vec<MarkParts> {
     marks.iter().map(|mark| (mark.name, mark.at, mark.diameter, mark.is_suggestion)).collect()
 }
 
-/// The places to look at on a vessel on which a reader marked some, without those where nothing was measured.
+/// The places to review on a vessel with marks; without unmeasured ones.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
-pub fn marked_places(profile: &Profile, marked: MarkedParts) -> PyResult<Vec<MarkParts>> {
+pub(crate) fn marked_places(profile: &Profile, marked: MarkedParts) -> PyResult<Vec<MarkParts>> {
     Ok(parts_of(&marked.marked()?.places(&profile.0)))
 }
 
-/// Why the narrowest place, or any reference, is not suggested beside what a reader marked (arc lengths, mm): a sentence each.
+/// Why no narrowest place or reference is suggested, given the marks (arc lengths, mm): one sentence each.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
-pub fn not_suggested_places(profile: &Profile, at: Option<f64>, references: Vec<f64>) -> Vec<String> {
+pub(crate) fn not_suggested_places(profile: &Profile, at: Option<f64>, references: Vec<f64>) -> Vec<String> {
     not_suggested::not_suggested(&profile.0, at, &references)
 }
 
-/// What of a vessel was not measured, and why: a sentence for each stretch.
 #[pyfunction]
-pub fn not_measured_stretches(profile: &Profile) -> Vec<String> {
+pub(crate) fn not_measured_stretches(profile: &Profile) -> Vec<String> {
     not_measured::not_measured(&profile.0).into_iter().map(|stretch| stretch.words).collect()
 }
 
-/// Places to look at.
 #[pyfunction]
 #[pyo3(signature = (profile, at, references))]
 #[allow(clippy::needless_pass_by_value)]
-pub fn profile_marks(profile: &Profile, at: Option<f64>, references: Vec<f64>) -> PyResult<Vec<MarkParts>> {
+pub(crate) fn profile_marks(
+    profile: &Profile,
+    at: Option<f64>,
+    references: Vec<f64>,
+) -> PyResult<Vec<MarkParts>> {
     marks(&profile.0, at, &references).map(|found| parts_of(&found)).map_err(to_python)
 }
 
-/// The flags that are set as words.
 #[pyfunction]
-pub fn flag_words(flags: u32) -> Vec<String> {
+pub(crate) fn flag_words(flags: u32) -> Vec<String> {
     measure_words::of_flags(flags)
 }
 
-/// The angles of a C-arm (radians) as they stand on it.
+/// C-arm angles (radians) as displayed on it.
 #[pyfunction]
-pub fn c_arm_words(lao: f64, cranial: f64) -> String {
+pub(crate) fn c_arm_words(lao: f64, cranial: f64) -> String {
     measure_words::of_c_arm(&CArm { lao, cranial })
 }
 
-/// How a scan was made: the attributes of `lumencut.ScanDetails`, in their order.
 type ScanParts = (Option<String>, Option<String>, Option<String>, Option<f64>, Option<String>);
 
-/// How the scan was made that a profile was measured in.
 #[pyfunction]
-pub fn scan_of(profile: &Profile) -> ScanParts {
+pub(crate) fn scan_of(profile: &Profile) -> ScanParts {
     let ScanDetails { series_number, series_description, phase, slice_thickness_mm, kernel } =
         profile.1.clone();
     (series_number, series_description, phase, slice_thickness_mm, kernel)

@@ -1,4 +1,4 @@
-//! What the pictures of reformations have in common, as Python has it: words, colours, and lengths that nobody gave.
+//! Shared by pictures of reformations: captions, colours and default lengths.
 
 use lumencut::axes_words::Axes;
 use lumencut::error::{Error, ErrorKind};
@@ -9,11 +9,11 @@ use pyo3::prelude::*;
 
 use crate::errors::to_python;
 
-/// What rows and columns of a reformation are, in words: `untangled`, `uncurled` by an amount, `spiral by arc` by its pitch (mm),
-/// `spiral by angle`, and `map` by the radius at which its columns are true (mm).
+/// The caption of a reformation: `untangled`, `uncurled` (amount), `spiral by arc` (pitch, mm), `spiral by angle`, `map` (radius
+/// true to scale, mm).
 #[pyfunction]
 #[pyo3(signature = (reformation, number=0.0))]
-pub fn axes_words(reformation: &str, number: f64) -> PyResult<String> {
+pub(crate) fn axes_words(reformation: &str, number: f64) -> PyResult<String> {
     let axes = match reformation {
         "untangled" => Axes::Untangled,
         "uncurled" => Axes::Uncurled(number),
@@ -29,10 +29,10 @@ pub fn axes_words(reformation: &str, number: f64) -> PyResult<String> {
     Ok(axes.words())
 }
 
-/// The colours (RGBA) of values (H, W) between two ends; transparent where they are not finite.
+/// RGBA colours of values (H, W) between two ends; transparent if not finite.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
-pub fn coloured<'py>(
+pub(crate) fn coloured<'py>(
     py: Python<'py>,
     value: PyReadonlyArray2<'py, f32>,
     ends: [f64; 2],
@@ -46,23 +46,28 @@ pub fn coloured<'py>(
     PyArray1::from_vec(py, pixels).reshape([height, width, 4])
 }
 
-/// The value (mm) at which colours of lengths (H, W) end.
+/// The upper end (mm) of a colour scale for lengths (H, W).
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
-pub fn scale_end(value: PyReadonlyArray2<'_, f32>) -> f64 {
+pub(crate) fn scale_end(value: PyReadonlyArray2<'_, f32>) -> f64 {
     let values: Vec<f32> = value.as_array().iter().copied().collect();
     value_colours::scale_end(&values)
 }
 
-/// How far from a vessel the windings of a spiral CPR reach (mm), by its largest radius (mm).
+/// The reach of a spiral CPR (mm), for a largest radius (mm).
 #[pyfunction]
-pub fn spiral_reach(largest: f64) -> f64 {
+pub(crate) fn spiral_reach(largest: f64) -> f64 {
     spiral_lengths::spiral_reach(largest)
 }
 
-/// The pitch of a spiral CPR (mm), by the usual radius, the smallest side of a voxel, the radius that it reaches, the side of a pixel
-/// (mm), and the most columns.
+/// The pitch of a spiral CPR (mm) from usual radius, smallest voxel side, reach, pixel side (mm), and largest number of columns.
 #[pyfunction]
-pub fn spiral_pitch(usual: f64, smallest_side: f64, radius: f64, pixel_spacing: f64, columns: f64) -> f64 {
+pub(crate) fn spiral_pitch(
+    usual: f64,
+    smallest_side: f64,
+    radius: f64,
+    pixel_spacing: f64,
+    columns: f64,
+) -> f64 {
     spiral_lengths::spiral_pitch(usual, smallest_side, Room { radius, pixel_spacing, columns })
 }

@@ -1,4 +1,4 @@
-//! The renderer: runs without the GIL, and stops at Ctrl-C.
+//! The renderer: runs without the GIL; Ctrl-C stops it.
 
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
@@ -35,8 +35,7 @@ use crate::tree::{VesselArrays, tree};
 use crate::volume::VolumeArgument;
 use crate::watching::{SHARES, Watched, interruptible};
 
-/// Renders views of one tree, or of a volume alone; every view is of the same volume. Renderers of the same volume with
-/// other trees share what computes and what is known of the volume.
+/// Renders views of a tree or a volume. Renderers of one volume share the device and what is known about the volume.
 #[pyclass(frozen, module = "lumencut._lumencut")]
 pub struct Renderer {
     backend: Arc<Mutex<Backend>>,
@@ -57,21 +56,19 @@ impl Renderer {
         Ok(Self { backend: Arc::new(Mutex::new(backend)), volume: VolumeKey::default(), tree })
     }
 
-    /// A renderer of the same volume, on the same device, with another tree.
     #[allow(clippy::needless_pass_by_value)]
     fn with_tree(&self, vessels: Option<Vec<VesselArrays<'_>>>) -> PyResult<Self> {
         let tree = leveled(vessels)?;
         Ok(Self { backend: Arc::clone(&self.backend), volume: self.volume.clone(), tree })
     }
 
-    /// What computes: "cpu", or the name of the GPU.
     #[getter]
     fn device(&self, py: Python<'_>) -> String {
         py.detach(|| self.backend.lock().unwrap_or_else(PoisonError::into_inner).name().to_owned())
     }
 
-    /// What else is known of the cut surface of a view, by name: the arc length between the two places that each pixel blends
-    /// (mm, infinite between different vessels), and the strength of the silhouettes. The CPU computes it.
+    /// Details of a cut surface, computed on the CPU: the arc length between the two blended positions of each pixel (mm,
+    /// infinite across vessels), and the silhouette strength.
     #[allow(clippy::needless_pass_by_value)]
     fn details<'py>(
         &self,
@@ -96,7 +93,7 @@ impl Renderer {
         Ok(all)
     }
 
-    /// The strength of the silhouettes of a view by a reformation, which the CPU computes.
+    /// The silhouette strength of a reformation, computed on the CPU.
     #[allow(clippy::needless_pass_by_value)]
     fn strength<'py>(
         &self,
@@ -121,9 +118,8 @@ impl Renderer {
         PyArray1::from_vec(py, strength).reshape([height, width])
     }
 
-    /// The buffers of one view by name, those that are asked for: those of the cut surface where there are vessels, those
-    /// of the picture where there is a volume. Without a `method` it is the cut surface's.
-    /// While it renders, `told` is called now and then with how much is done, in `SHARES` parts of the whole.
+    /// The requested buffers of a view: of the cut surface if there are vessels, of the picture if there is a volume. `method`
+    /// defaults to the cut surface. `told` receives progress in `SHARES`.
     #[pyo3(signature = (volume, camera, settings, images=None, told=None, method=None))]
     #[allow(clippy::needless_pass_by_value, clippy::too_many_arguments)]
     fn render<'py>(
@@ -152,9 +148,8 @@ impl Renderer {
         let (frame, given_up) = interruptible(py, watched.as_ref(), |stop| {
             let progress = watched.as_ref().map(|watched| watched.progress);
             let request = Request { camera: &camera, settings, images, stop, progress };
-            // Locked outside the pool: one of its threads, waiting for a part of this view, could take up another
-            // view and wait for the lock that it holds itself.
-            // A rendering that stopped early leaves nothing behind that the next one does not write anew.
+            // Locked outside the pool: a pool thread waiting for part of this view could start another view and wait for its own
+            // lock. An interrupted rendering leaves nothing that the next does not overwrite.
             let mut locked = self.backend.lock().unwrap_or_else(PoisonError::into_inner);
             let backend = &mut *locked;
             pool::install(|| pollster::block_on(backend.render_by(method, &scene, &request)))?
@@ -167,8 +162,7 @@ impl Renderer {
         buffers(py, frame)
     }
 
-    /// The images that are asked for, by name, of a volume where the pixels of a reformation look. The picture is transparent
-    /// outside the volume.
+    /// The requested images of a volume at the positions of a reformation; the picture is transparent outside the volume.
     #[allow(clippy::needless_pass_by_value)]
     fn look<'py>(
         &self,
@@ -182,7 +176,7 @@ impl Renderer {
         let images = image_set(&images)?;
         let borrowed = volume.borrow()?;
         let volume = SharedVolume::new(volume.volume(&borrowed)?, self.volume.clone());
-        // What is shown does not ask for a camera.
+        // A dummy: the images need no camera.
         let camera = Camera::new(DVec3::ZERO, DVec3::Y, DVec3::Z, [1, 1], 1.0).map_err(to_python)?;
         let (frame, given_up) = interruptible(py, None, |stop| {
             let request = Request { images, stop, ..Request::new(&camera, settings) };
@@ -195,8 +189,8 @@ impl Renderer {
         buffers(py, py.detach(|| frame.transparent_outside()))
     }
 
-    /// The values of a CFA of a straightened CPR, shape (H, W), and how many directions a half circle has. A feature has a name
-    /// and, where it is a share, a level; the side of a pixel is in mm.
+    /// The CFA of a straightened CPR, shape (H, W), and the number of directions of a half circle. `level` is for shares; pixel
+    /// side in mm.
     #[allow(clippy::needless_pass_by_value)]
     fn aggregate<'py>(
         &self,
@@ -211,7 +205,7 @@ impl Renderer {
         let (Cpr(cpr), Checked(settings)) = (cpr.get(), settings.get());
         let borrowed = volume.borrow()?;
         let volume = SharedVolume::new(volume.volume(&borrowed)?, self.volume.clone());
-        // What is shown does not ask for a camera.
+        // A dummy: the images need no camera.
         let camera = Camera::new(DVec3::ZERO, DVec3::Y, DVec3::Z, [1, 1], 1.0).map_err(to_python)?;
         let (value, given_up) = interruptible(py, None, |stop| {
             let images = ImageSet::of(&[Image::Value]);
@@ -235,7 +229,7 @@ impl Renderer {
     }
 }
 
-/// A frame that knows where the pixels of a reformation look, and how long it took to find out.
+/// A frame with the positions of a reformation, and the time to find them.
 fn places(layout: &dyn lumencut::reformations::Layout, stop: Stop<'_>) -> lumencut::error::Result<Frame> {
     let start = Instant::now();
     let mut frame = Frame::of(Geometry::Curved(layout.curved(stop)?));
@@ -244,9 +238,9 @@ fn places(layout: &dyn lumencut::reformations::Layout, stop: Stop<'_>) -> lumenc
     Ok(frame)
 }
 
-/// A method by its name and its numbers: ("mpcpr",), or ("cr", radius offset, arc-length threshold) in pixels.
+/// A method: ("mpcpr",), or ("cr", radius offset, arc-length threshold) in pixels.
 #[derive(FromPyObject)]
-pub enum MethodArgument {
+pub(crate) enum MethodArgument {
     Cr(String, f64, f64),
     Plain((String,)),
 }
@@ -269,30 +263,25 @@ impl MethodArgument {
 }
 
 impl Renderer {
-    /// What it renders, with its volume.
     pub fn scene<'a>(&self, volume: Volume<'a>) -> Scene<'a> {
         Scene { volume: Some(SharedVolume::new(volume, self.volume.clone())), tree: self.tree.clone() }
     }
 }
 
-/// A tree for renderers.
 fn leveled(vessels: Option<Vec<VesselArrays<'_>>>) -> PyResult<Option<Arc<LeveledTree>>> {
     let tree = vessels.map(|vessels| tree(&vessels)).transpose()?;
     Ok(tree.map(|tree| Arc::new(LeveledTree::new(tree))))
 }
 
-/// The images of these names.
 fn image_set(names: &[String]) -> PyResult<ImageSet> {
     let images = names.iter().map(|name| Image::of_frame(name));
     images.collect::<lumencut::error::Result<Vec<_>>>().map(|images| ImageSet::of(&images)).map_err(to_python)
 }
 
-/// Warns where a GPU was given up.
 fn say_that_the_cpu_goes_on(py: Python<'_>, given_up: Option<Error>) -> PyResult<()> {
-    given_up.map_or(Ok(()), |error| warn(py, "DeviceWarning", &format!("{error}; the CPU goes on")))
+    given_up.map_or(Ok(()), |error| warn(py, "DeviceWarning", &format!("{error}; the CPU continues")))
 }
 
-/// The buffers that a frame has as arrays, moved and not copied.
 fn buffers(py: Python<'_>, frame: Frame) -> PyResult<Bound<'_, PyDict>> {
     let [width, height] = frame.size();
     let shape = [height, width];
@@ -301,7 +290,7 @@ fn buffers(py: Python<'_>, frame: Frame) -> PyResult<Bound<'_, PyDict>> {
         Geometry::Orthographic { depth, .. } => depth,
         Geometry::Curved(_) => Vec::new(),
     };
-    // What a reformation shows nothing of lies beyond every scene.
+    // Empty pixels of a reformation lie beyond every scene.
     let shown = |depth: f32| if depth < FAR { depth } else { f32::NAN };
     let depth = if frame.folded.is_empty() { depth } else { depth.into_iter().map(shown).collect() };
     for (name, numbers) in [("depth", depth), ("distance", frame.distance), ("value", frame.value)] {

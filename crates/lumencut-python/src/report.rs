@@ -1,4 +1,4 @@
-//! The report of measured vessels: what Python made pictures of, for the facade.
+//! The report of measured vessels, with pictures from Python.
 
 use lumencut::report::{self, Lengths, Plan, ReportMark, Shown, Stated, Strip, VesselPage};
 use pyo3::prelude::*;
@@ -7,7 +7,7 @@ use crate::errors::to_python;
 use crate::measuring::Profile;
 use crate::profile_files::{MeasuredParts, Options, row};
 
-/// A place: what it is, its arc length (mm), and whether it is a suggestion.
+/// Name, arc length (mm), and whether it is suggested.
 type PlaceParts = (String, f64, bool);
 
 fn marks(places: &[PlaceParts]) -> Vec<ReportMark> {
@@ -19,21 +19,21 @@ fn marks(places: &[PlaceParts]) -> Vec<ReportMark> {
     places.iter().map(mark).collect()
 }
 
-/// A vessel with its places, its straightened picture (PNG in base64, columns and rows, mm) and the pictures of its sections.
+/// A vessel with its places, straightened picture (base64 PNG, size, mm) and section pictures.
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
-pub struct PageParts {
+pub(crate) struct PageParts {
     measured: MeasuredParts,
     places: Vec<PlaceParts>,
     strip: (String, [usize; 2], f64),
     sections: Vec<String>,
 }
 
-/// The pictures of a vessel that its report asks for: width and side of a pixel of the straightened vessel (mm), arc lengths of
-/// the sections and the side of their pictures (mm).
+/// The pictures for a report: width and pixel side of the straightened vessel (mm), arc lengths of sections and their picture
+/// side (mm).
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
-pub fn report_plan(profile: &Profile, places: Vec<PlaceParts>) -> (f64, f64, Vec<f64>, f64) {
+pub(crate) fn report_plan(profile: &Profile, places: Vec<PlaceParts>) -> (f64, f64, Vec<f64>, f64) {
     let Plan { width, spacing, places, side } = report::plan(&profile.0, &marks(&places));
     (width, spacing, places.iter().map(|place| place.at).collect(), side)
 }
@@ -50,10 +50,10 @@ fn page(parts: &PageParts) -> VesselPage<'_> {
     }
 }
 
-/// The report as HTML, from the options that vessels were measured by, and level and width of the window of pictures.
+/// The report as HTML, from the options, level and width, and pages.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
-pub fn report_html(options: Options, window: [f64; 2], pages: Vec<PageParts>) -> PyResult<String> {
+pub(crate) fn report_html(options: Options, window: [f64; 2], pages: Vec<PageParts>) -> PyResult<String> {
     let shown = Shown {
         scan: None,
         saved: None,

@@ -1,11 +1,10 @@
-//! How a scan was made, between Python and the facade.
+//! How a scan was made, converted for the facade.
 
 use lumencut::scan_details::ScanDetails;
 use pyo3::prelude::*;
 
-/// `lumencut.ScanDetails`.
 #[derive(FromPyObject)]
-pub struct ScanArgument {
+pub(crate) struct ScanArgument {
     series_number: Option<String>,
     series_description: Option<String>,
     phase: Option<String>,
@@ -14,8 +13,7 @@ pub struct ScanArgument {
 }
 
 impl ScanArgument {
-    /// The same for the facade.
-    pub fn details(&self) -> ScanDetails {
+    pub(crate) fn details(&self) -> ScanDetails {
         ScanDetails {
             series_number: self.series_number.clone(),
             series_description: self.series_description.clone(),
@@ -26,9 +24,8 @@ impl ScanArgument {
     }
 }
 
-/// How a scan was made, in words.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
-pub fn scan_words(scan: ScanArgument) -> String {
+pub(crate) fn scan_words(scan: ScanArgument) -> String {
     scan.details().words()
 }

@@ -5,15 +5,14 @@ use pyo3::prelude::*;
 
 use crate::centerlines::raised;
 
-/// Whether the content of a file is that of a session file.
 #[pyfunction]
-pub fn is_session_file(py: Python<'_>, content: &[u8]) -> bool {
+pub(crate) fn is_session_file(py: Python<'_>, content: &[u8]) -> bool {
     py.detach(|| session_file::is_session(content))
 }
 
-/// What the content of the session file `name` holds beside the lines of its vessels, checked, as JSON.
+/// The content of the session file `name` except lines, checked, as JSON.
 #[pyfunction]
-pub fn read_session_file(py: Python<'_>, content: &[u8], name: &str) -> PyResult<String> {
+pub(crate) fn read_session_file(py: Python<'_>, content: &[u8], name: &str) -> PyResult<String> {
     let file = py.detach(|| session_file::read_session(content, name)).map_err(raised)?;
     file.session.json().map_err(raised)
 }

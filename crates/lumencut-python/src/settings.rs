@@ -1,4 +1,4 @@
-//! The table of settings for Python, and the settings read from the attributes of `lumencut.Settings`.
+//! The table of settings for Python, and `lumencut.Settings` converted for the core.
 
 use lumencut::method::refuse_focus;
 use lumencut::named::Named;
@@ -10,7 +10,6 @@ use pyo3::types::{PyDict, PyTuple};
 use crate::errors::to_python;
 use crate::values::value;
 
-/// A row of the table of settings.
 #[pyclass(frozen, get_all, name = "Setting", module = "lumencut._lumencut")]
 struct Row {
     kind: &'static str,
@@ -40,7 +39,7 @@ impl Row {
     }
 }
 
-/// The value of a setting as Python has it: a focus as its two lengths, a slab as its thickness and its mode; what is left open is None.
+/// A setting's value for Python: a focus as two lengths, a slab as thickness and mode, None if unset.
 fn plain(py: Python<'_>, default: Value) -> PyResult<Py<PyAny>> {
     match default {
         Value::Flag(flag) => flag.into_py_any(py),
@@ -55,8 +54,8 @@ fn plain(py: Python<'_>, default: Value) -> PyResult<Py<PyAny>> {
     }
 }
 
-/// Adds the table of settings, by name, to the module, in what the paper's rules differ from the defaults, and what looks choose.
-pub fn add_table(module: &Bound<'_, PyModule>) -> PyResult<()> {
+/// Adds the table of settings, the paper's differences from the defaults, and the looks.
+pub(crate) fn add_table(module: &Bound<'_, PyModule>) -> PyResult<()> {
     let rows = PyDict::new(module.py());
     for setting in table() {
         rows.set_item(setting.name, Row::new(module.py(), setting)?)?;
@@ -74,7 +73,6 @@ pub fn add_table(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("LOOK_SENTENCES", sentences)
 }
 
-/// The values of some settings by their names.
 fn values<'py>(py: Python<'py>, chosen: Vec<(&'static str, Value)>) -> PyResult<Bound<'py, PyDict>> {
     let all = PyDict::new(py);
     for (name, value) in chosen {
@@ -83,8 +81,7 @@ fn values<'py>(py: Python<'py>, chosen: Vec<(&'static str, Value)>) -> PyResult<
     Ok(all)
 }
 
-/// The settings that the attributes of `lumencut.Settings` stand for: checked when they are made, and read by every
-/// view.
+/// The settings of `lumencut.Settings`, checked once and read by every view.
 #[pyclass(frozen, name = "Settings", module = "lumencut._lumencut")]
 pub struct Checked(pub Settings);
 
@@ -100,7 +97,6 @@ impl Checked {
         choices.settings().map(Self).map_err(to_python)
     }
 
-    /// Refuses what pictures by another method than the cut surface have no place for.
     fn refuse_focus(&self) -> PyResult<()> {
         refuse_focus(&self.0).map_err(to_python)
     }

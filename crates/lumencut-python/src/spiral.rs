@@ -1,4 +1,4 @@
-//! Spiral CPRs, as Python has them.
+//! Spiral CPRs for Python.
 
 use std::sync::Arc;
 
@@ -15,14 +15,14 @@ use crate::errors::to_python;
 use crate::layout::Layout;
 use crate::tree::points_of;
 
-/// A vessel whose sections are wound up.
+/// A vessel with sections unrolled along spirals.
 #[pyclass(frozen, extends = Layout, module = "lumencut._lumencut")]
 pub struct Spiral;
 
 #[pymethods]
 impl Spiral {
-    /// The spiral CPR of the points (n, 3) of a vessel, seen with `up` upwards: pitch, radius and side of a pixel (mm), how samples
-    /// lie on the spirals, and the angle by which sections are turned (radians).
+    /// The spiral CPR of points (n, 3), seen with `up` upwards: pitch, radius and pixel side (mm), sampling, and rotation of
+    /// sections (radians).
     #[new]
     #[allow(clippy::needless_pass_by_value)]
     fn new(

@@ -1,4 +1,4 @@
-//! Profiles and stenoses as plain values, for pickles, and made again from them.
+//! Profiles and stenoses as plain values, for pickles.
 
 use std::sync::Arc;
 
@@ -12,7 +12,6 @@ use crate::errors::to_python;
 use crate::measuring::{Profile, Stenosis};
 use crate::scan_details::ScanArgument;
 
-/// Columns by name, flags, and where the point spread and the wall are from.
 type Stored<'py> = (
     Vec<(String, Bound<'py, PyArray1<f64>>)>,
     Bound<'py, PyArray1<u32>>,
@@ -20,7 +19,6 @@ type Stored<'py> = (
     (String, Vec<f64>),
 );
 
-/// The same from Python.
 type Given<'py> = (
     Vec<(String, PyReadonlyArray1<'py, f64>)>,
     PyReadonlyArray1<'py, u32>,
@@ -28,18 +26,16 @@ type Given<'py> = (
     (String, Vec<f64>),
 );
 
-/// A profile as plain values.
 #[pyfunction]
-pub fn stored_profile<'py>(py: Python<'py>, profile: &Profile) -> Stored<'py> {
+pub(crate) fn stored_profile<'py>(py: Python<'py>, profile: &Profile) -> Stored<'py> {
     let StoredProfile { columns, flags, fwhm_source, wall_source } = StoredProfile::of(&profile.0);
     let columns = columns.into_iter().map(|(name, numbers)| (name, PyArray1::from_vec(py, numbers)));
     (columns.collect(), PyArray1::from_vec(py, flags), fwhm_source, wall_source)
 }
 
-/// The profile of plain values, and of how the scan was made.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
-pub fn restored_profile(stored: Given<'_>, scan: ScanArgument) -> PyResult<Profile> {
+pub(crate) fn restored_profile(stored: Given<'_>, scan: ScanArgument) -> PyResult<Profile> {
     let (columns, flags, fwhm_source, wall_source) = stored;
     let columns = columns.into_iter().map(|(name, numbers)| (name, numbers.as_array().to_vec()));
     let flags = flags.as_array().to_vec();
@@ -47,12 +43,11 @@ pub fn restored_profile(stored: Given<'_>, scan: ScanArgument) -> PyResult<Profi
     Ok(Profile(Arc::new(stored.profile().map_err(to_python)?), scan.details()))
 }
 
-/// Percent and its uncertainty, place, diameter, its uncertainty and reference (mm); references; method; doubts.
+/// Percent and its uncertainty, place, diameter, its uncertainty, reference (mm); references; method; doubts.
 type StenosisParts = ([f64; 6], Vec<[f64; 2]>, String, (u32, bool));
 
-/// A stenosis as plain values.
 #[pyfunction]
-pub fn stored_stenosis(stenosis: &Stenosis) -> StenosisParts {
+pub(crate) fn stored_stenosis(stenosis: &Stenosis) -> StenosisParts {
     let stenosis::Stenosis {
         percent,
         percent_uncertainty,
@@ -68,10 +63,9 @@ pub fn stored_stenosis(stenosis: &Stenosis) -> StenosisParts {
     (numbers, references, method.name().to_owned(), (doubts.flags, doubts.is_branch_between))
 }
 
-/// The stenosis of plain values.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
-pub fn restored_stenosis(stored: StenosisParts) -> PyResult<Stenosis> {
+pub(crate) fn restored_stenosis(stored: StenosisParts) -> PyResult<Stenosis> {
     let (numbers, references, method, (flags, is_branch_between)) = stored;
     let [percent, percent_uncertainty, at, diameter, uncertainty, reference] = numbers;
     let method = Method::named("method of the stenosis", &method).map_err(to_python)?;

@@ -1,4 +1,4 @@
-//! What a tree tells of all that is measured along it, found once.
+//! Tree-wide estimates of a measurement, computed once.
 
 use lumencut::measure::measuring;
 use lumencut::measure::request::MeasureRequest;
@@ -11,15 +11,13 @@ use crate::volume::VolumeArgument;
 use crate::wall_request::wall_request;
 use crate::watching::interruptible;
 
-/// The point spread of a scan, and the level of the walls in it.
 #[pyclass(frozen, module = "lumencut._lumencut")]
-pub struct ToldByTree(pub lumencut::measure::told_by_tree::ToldByTree);
+pub(crate) struct ToldByTree(pub lumencut::measure::told_by_tree::ToldByTree);
 
-/// What the vessels of a tree tell for all that is measured along them.
 #[pyfunction]
 #[pyo3(signature = (volume, tree, step, fwhm=None, wall=None))]
 #[allow(clippy::needless_pass_by_value)]
-pub fn told_by_tree<'py>(
+pub(crate) fn told_by_tree<'py>(
     py: Python<'py>,
     volume: VolumeArgument<'py>,
     tree: Vec<VesselArrays<'py>>,

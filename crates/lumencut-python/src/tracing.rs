@@ -1,4 +1,4 @@
-//! Centerlines from clicks: without the GIL, and stopped by Ctrl-C.
+//! Traces centerlines between clicks without the GIL; Ctrl-C stops it.
 
 use std::sync::{Mutex, PoisonError};
 
@@ -17,7 +17,7 @@ use crate::tree::points_of;
 use crate::volume::VolumeArgument;
 use crate::watching::{SHARES, Watched, interruptible};
 
-/// Points (n, 3), radii (n,), confidence (n,), and which points were bridged (n,).
+/// Points (n, 3), radii (n,), confidence (n,), and bridged points (n,).
 type TracedArrays<'py> = (
     Bound<'py, PyArray2<f64>>,
     Bound<'py, PyArray1<f64>>,
@@ -25,7 +25,7 @@ type TracedArrays<'py> = (
     Bound<'py, PyArray1<bool>>,
 );
 
-/// What is kept of one volume from one tracing to the next.
+/// What is kept of a volume between tracings.
 #[pyclass(frozen, module = "lumencut._lumencut")]
 pub struct Tracer(Mutex<Core>);
 
@@ -36,8 +36,8 @@ impl Tracer {
         Self(Mutex::new(Core::default()))
     }
 
-    /// The centerlines between the points (n, 3) of each vessel, around stoppers `(position, radius)`.
-    /// While it runs, `told` is called now and then with how much is done, in parts of the whole.
+    /// Centerlines through the points (n, 3) of each vessel, around stoppers `(position, radius)`. `told` receives the share
+    /// done.
     #[pyo3(signature = (volume, vessels, stoppers, bridge, told=None))]
     #[allow(clippy::needless_pass_by_value)]
     fn trace<'py>(

@@ -1,4 +1,4 @@
-//! Vessel trees from and to lists of arrays.
+//! Vessel trees from and to arrays.
 
 use glam::DVec3;
 use lumencut::math::centerline_smoothing::smooth_centerlines;
@@ -14,14 +14,13 @@ use pyo3::prelude::*;
 use crate::errors::{exception, to_python};
 use crate::pool;
 
-/// Points (n, 3) and radii (n,) of one vessel.
-pub type VesselArrays<'py> = (PyReadonlyArray2<'py, f64>, Option<PyReadonlyArray1<'py, f64>>);
+/// Points (n, 3) and radii (n,) of a vessel.
+pub(crate) type VesselArrays<'py> = (PyReadonlyArray2<'py, f64>, Option<PyReadonlyArray1<'py, f64>>);
 
-/// Points (n, 3) and radii (n,) of one vessel, made by this module.
-pub type NewVesselArrays<'py> = (Bound<'py, PyArray2<f64>>, Option<Bound<'py, PyArray1<f64>>>);
+pub(crate) type NewVesselArrays<'py> = (Bound<'py, PyArray2<f64>>, Option<Bound<'py, PyArray1<f64>>>);
 
 /// The rows of points (n, 3).
-pub fn points_of(points: &PyReadonlyArray2<'_, f64>) -> PyResult<Vec<DVec3>> {
+pub(crate) fn points_of(points: &PyReadonlyArray2<'_, f64>) -> PyResult<Vec<DVec3>> {
     let shape = points.shape();
     if shape[1] != 3 {
         let found = format!("shape {shape:?}");
@@ -30,33 +29,31 @@ pub fn points_of(points: &PyReadonlyArray2<'_, f64>) -> PyResult<Vec<DVec3>> {
     Ok(points.as_array().rows().into_iter().map(|p| DVec3::new(p[0], p[1], p[2])).collect())
 }
 
-/// The vessel of the core.
-pub fn vessel((points, radius): &VesselArrays) -> PyResult<Vessel> {
+pub(crate) fn vessel((points, radius): &VesselArrays) -> PyResult<Vessel> {
     let points = points_of(points)?;
     let radius = radius.as_ref().map(|r| r.as_array().to_vec());
     Vessel::new(points, radius).map_err(to_python)
 }
 
-/// The tree of the core.
-pub fn tree(vessels: &[VesselArrays]) -> PyResult<VesselTree> {
+pub(crate) fn tree(vessels: &[VesselArrays]) -> PyResult<VesselTree> {
     let vessels = vessels.iter().map(vessel).collect::<PyResult<Vec<_>>>()?;
     VesselTree::new(vessels).map_err(to_python)
 }
 
-/// Checks the points (n, 3) and radii (n,) of a vessel.
+/// Checks points (n, 3) and radii (n,).
 #[pyfunction]
 #[pyo3(signature = (points, radius=None))]
-pub fn check_vessel(
+pub(crate) fn check_vessel(
     points: PyReadonlyArray2<'_, f64>,
     radius: Option<PyReadonlyArray1<'_, f64>>,
 ) -> PyResult<()> {
     vessel(&(points, radius)).map(drop)
 }
 
-/// The tree and its `count` levels of detail, finest first, each a list of (points, radius).
+/// The tree and its `count` levels of detail, finest first, as lists of (points, radius).
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
-pub fn levels<'py>(
+pub(crate) fn levels<'py>(
     py: Python<'py>,
     vessels: Vec<VesselArrays<'py>>,
     count: usize,
@@ -66,10 +63,10 @@ pub fn levels<'py>(
     levels.iter().map(|level| level.vessels().iter().map(|v| arrays(py, v)).collect()).collect()
 }
 
-/// The points of each vessel, smoothed by a Gaussian whose standard deviation is given in radii.
+/// The points of each vessel after Gaussian smoothing; standard deviation in radii.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
-pub fn smoothed<'py>(
+pub(crate) fn smoothed<'py>(
     py: Python<'py>,
     vessels: Vec<VesselArrays<'py>>,
     radii: f64,
@@ -80,10 +77,10 @@ pub fn smoothed<'py>(
     smoothed.vessels().iter().map(|v| arrays(py, v).map(|(points, _)| points)).collect()
 }
 
-/// Several vessels that meet as one: its points (n, 3) and radii (n,). `words` is what an error calls each of them.
+/// Connected vessels as one path: points (n, 3) and radii (n,). `words` name the vessels in errors.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
-pub fn path<'py>(
+pub(crate) fn path<'py>(
     py: Python<'py>,
     vessels: Vec<VesselArrays<'py>>,
     words: Vec<String>,
@@ -97,10 +94,10 @@ pub fn path<'py>(
     flat_arrays(py, &joined.points, joined.radius.as_deref())
 }
 
-/// The numbers of the lines, points (n, 3) each, that hang together, the longest part first.
+/// Indices of connected lines, points (n, 3) each, the longest part first.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
-pub fn parts(py: Python<'_>, lines: Vec<PyReadonlyArray2<'_, f64>>) -> PyResult<Vec<Vec<usize>>> {
+pub(crate) fn parts(py: Python<'_>, lines: Vec<PyReadonlyArray2<'_, f64>>) -> PyResult<Vec<Vec<usize>>> {
     let lines = lines.iter().map(points_of).collect::<PyResult<Vec<_>>>()?;
     let lines: Vec<&[DVec3]> = lines.iter().map(Vec::as_slice).collect();
     Ok(py.detach(|| lines_in_parts::parts(&lines)))
@@ -110,8 +107,7 @@ fn arrays<'py>(py: Python<'py>, vessel: &Vessel) -> PyResult<NewVesselArrays<'py
     flat_arrays(py, vessel.points(), vessel.radius())
 }
 
-/// Points (n, 3) and radii (n,) as arrays.
-pub fn flat_arrays<'py>(
+pub(crate) fn flat_arrays<'py>(
     py: Python<'py>,
     points: &[DVec3],
     radius: Option<&[f64]>,

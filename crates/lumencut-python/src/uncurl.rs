@@ -1,4 +1,4 @@
-//! Uncurling and the tangential CPR, as Python has them: layouts in the pixels of a camera.
+//! Uncurling and the tangential CPR for Python, in the pixels of a camera.
 
 use std::sync::Arc;
 
@@ -14,10 +14,10 @@ use crate::errors::to_python;
 use crate::layout::Layout;
 use crate::tree::points_of;
 
-/// The tangential CPR of the points (n, 3) of a vessel.
+/// The tangential CPR of points (n, 3).
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
-pub fn tangential_layout(
+pub(crate) fn tangential_layout(
     points: PyReadonlyArray2<'_, f64>,
     smoothing: f64,
     camera: CameraArgument,
@@ -27,14 +27,13 @@ pub fn tangential_layout(
     Ok(Layout(Arc::new(made)))
 }
 
-/// A vessel that is straightened by degrees.
+/// A partly straightened vessel.
 #[pyclass(frozen, extends = Layout, module = "lumencut._lumencut")]
 pub struct Uncurl;
 
 #[pymethods]
 impl Uncurl {
-    /// The points (n, 3) of a vessel straightened by an amount from 0 to 1, as a camera sees it, with what lies within half of a
-    /// width (mm) beside it.
+    /// Points (n, 3) straightened by an amount (0 to 1) as a camera sees them, with surroundings within half a width (mm).
     #[new]
     #[pyo3(signature = (points, smoothing, camera, amount, width=None))]
     #[allow(clippy::needless_pass_by_value)]

@@ -1,4 +1,4 @@
-//! Untangled CPRs, as Python has them.
+//! Untangled CPRs for Python.
 
 use std::sync::Arc;
 
@@ -12,8 +12,8 @@ use crate::layout::Layout;
 use crate::tree::{VesselArrays, tree};
 use crate::watching::computed;
 
-/// A part of a vessel in the image: the id of the vessel, arc lengths (n,) (mm), columns and rows (n, 2), its turn (radians), and
-/// whether it begins at its last place.
+/// Part of a vessel in the image: id, arc lengths (n,) (mm), columns and rows (n, 2), rotation (radians), and whether it starts
+/// at its last position.
 type LaidOutRow<'py> = (usize, Bound<'py, PyArray1<f64>>, Bound<'py, PyArray2<f64>>, f64, bool);
 
 /// A tree laid out without overlap.
@@ -22,8 +22,8 @@ pub struct Untangled(untangled::Untangled);
 
 #[pymethods]
 impl Untangled {
-    /// The layout of vessels, (points, radius) each, seen along the direction of a camera. Lengths (mm) are the width on each side,
-    /// the margin of hulls, the smoothing of directions, the side of a pixel, and the radius where none is known.
+    /// The layout of vessels (points, radius) along a camera's direction. Lengths (mm): half width, hull margin, smoothing, pixel
+    /// side, and default radius.
     #[new]
     #[pyo3(signature = (vessels, camera, lengths, root))]
     #[allow(clippy::needless_pass_by_value)]
@@ -43,31 +43,29 @@ impl Untangled {
         Ok(PyClassInitializer::from(Layout(Arc::new(made.clone()))).add_subclass(Self(made)))
     }
 
-    /// By how much each vessel is turned (radians, counter-clockwise in the image).
+    /// The rotation of each vessel (radians, counter-clockwise in the image).
     #[getter]
     fn rotations(&self) -> Vec<f64> {
         self.0.rotations()
     }
 
-    /// Where each vessel ends in the image: column and row, by the ids.
     #[getter]
     fn ends(&self) -> Vec<[f64; 2]> {
         self.0.ends().iter().map(DVec2::to_array).collect()
     }
 
-    /// The ids of vessels that overlap others, or themselves, nevertheless.
     #[getter]
     fn overlaps(&self) -> Vec<usize> {
         self.0.overlaps().to_vec()
     }
 
-    /// Where cycles are cut open: two places in the image each, column and row.
+    /// Where cycles are cut: two positions (column, row) each.
     #[getter]
     fn closures(&self) -> Vec<[[f64; 2]; 2]> {
         self.0.closures().iter().map(|places| places.map(|place| place.to_array())).collect()
     }
 
-    /// The vessel that each pixel shows, shape (H, W), -1 where nothing is shown.
+    /// The vessel of each pixel, shape (H, W), -1 if none.
     fn vessel<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<i32>>> {
         use lumencut::reformations::Layout as _;
 
@@ -76,7 +74,6 @@ impl Untangled {
         PyArray1::from_vec(py, vessel).reshape([height, width])
     }
 
-    /// All vessels in parts between the places where they meet or end.
     fn laid_out<'py>(&self, py: Python<'py>) -> PyResult<Vec<LaidOutRow<'py>>> {
         let parts = self.0.laid_out().iter();
         let row = |part: &untangled::LaidOut| {

@@ -1,5 +1,5 @@
-//! Values of settings, read from Python objects: numbers, names, and the attributes of windows, opacities, slabs,
-//! focuses and transfer functions.
+//! Setting values from Python objects: numbers, names, and attributes of windows, opacities, slabs, focuses and transfer
+//! functions.
 
 use lumencut::error::Result;
 use lumencut::named::Named;
@@ -11,8 +11,7 @@ use pyo3::types::PyString;
 
 use crate::errors::to_python;
 
-/// The value that an object stands for in a setting of this kind.
-pub fn value(kind: Kind, object: &Bound<'_, PyAny>) -> PyResult<Value> {
+pub(crate) fn value(kind: Kind, object: &Bound<'_, PyAny>) -> PyResult<Value> {
     if object.is_none() {
         return Ok(Value::None);
     }
@@ -22,13 +21,13 @@ pub fn value(kind: Kind, object: &Bound<'_, PyAny>) -> PyResult<Value> {
         Kind::Count => Value::Count(object.extract()?),
         Kind::Color(_) => Value::Color(object.extract()?),
         Kind::Choice => Value::Name(object.extract()?),
-        // A name of a window from the data: known once there is a volume.
+        // A named window from the data is resolved once there is a volume.
         Kind::Window if object.is_instance_of::<PyString>() => Value::None,
         Kind::Window => Value::Window(object.extract::<WindowArgument>()?.window()),
         Kind::Opacity => Value::Opacity(object.extract::<OpacityArgument>()?.opacity()),
         Kind::Slab => Value::Slab(object.extract::<SlabArgument>()?.slab().map_err(to_python)?),
         Kind::Focus => Value::Focus(object.extract::<FocusArgument>()?.focus()),
-        // What is not known before there is a tree stands for a vessel that no tree has.
+        // Names resolve with a tree; until then they stand for no vessel.
         Kind::Vessels => Value::Vessels(ids(object)?),
         Kind::Transfer => match object.extract() {
             Ok(name) => Value::Name(name),
@@ -37,12 +36,11 @@ pub fn value(kind: Kind, object: &Bound<'_, PyAny>) -> PyResult<Value> {
     })
 }
 
-/// The ids of some vessels; [`usize::MAX`] for names, and for ids counted from the end.
+/// Vessel ids; [`usize::MAX`] for names and negative ids.
 fn ids(vessels: &Bound<'_, PyAny>) -> PyResult<Vec<usize>> {
     vessels.try_iter()?.map(|one| Ok(one?.extract().unwrap_or(usize::MAX))).collect()
 }
 
-/// The attributes of `lumencut.Window`.
 #[derive(FromPyObject)]
 struct WindowArgument {
     level: f64,
@@ -55,7 +53,6 @@ impl WindowArgument {
     }
 }
 
-/// The attributes of `lumencut.Opacity`.
 #[derive(FromPyObject)]
 struct OpacityArgument {
     transparent: f64,
@@ -68,7 +65,6 @@ impl OpacityArgument {
     }
 }
 
-/// The attributes of `lumencut.Slab`.
 #[derive(FromPyObject)]
 struct SlabArgument {
     thickness: f64,
@@ -81,7 +77,6 @@ impl SlabArgument {
     }
 }
 
-/// The attributes of `lumencut.Focus`.
 #[derive(FromPyObject)]
 struct FocusArgument {
     margin: f64,
@@ -94,7 +89,6 @@ impl FocusArgument {
     }
 }
 
-/// The attributes of `lumencut.TransferFunction`.
 #[derive(FromPyObject)]
 struct TransferArgument {
     points: Vec<(f64, [u8; 3], f64)>,

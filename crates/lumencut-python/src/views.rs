@@ -1,4 +1,4 @@
-//! Views that the facade makes from others, for `lumencut.Camera`.
+//! Derived views, for `lumencut.Camera`.
 
 use glam::DVec3;
 use lumencut::camera::Camera;
@@ -15,9 +15,8 @@ use crate::tree::{self, VesselArrays, points_of};
 use crate::volume::VolumeArgument;
 use crate::watching::computed;
 
-/// The attributes of a `lumencut.Camera`, whose axes are unit vectors already.
 #[derive(FromPyObject)]
-pub struct MadeCamera {
+pub(crate) struct MadeCamera {
     center: [f64; 3],
     direction: [f64; 3],
     right_axis: [f64; 3],
@@ -27,8 +26,7 @@ pub struct MadeCamera {
 }
 
 impl MadeCamera {
-    /// The camera of the core with exactly these axes.
-    pub fn camera(&self) -> PyResult<Camera> {
+    pub(crate) fn camera(&self) -> PyResult<Camera> {
         let vectors = [self.center, self.direction, self.right_axis, self.up].map(DVec3::from_array);
         let [center, direction, right, up] = vectors;
         let camera = Camera::new(center, direction, up, self.size, self.pixel_spacing);
@@ -36,9 +34,8 @@ impl MadeCamera {
     }
 }
 
-/// What another view has of its own: all attributes of a `lumencut.Camera` but the size.
 #[derive(IntoPyObject)]
-pub struct Place {
+pub(crate) struct DerivedView {
     center: [f64; 3],
     direction: [f64; 3],
     right_axis: [f64; 3],
@@ -46,7 +43,7 @@ pub struct Place {
     pixel_spacing: f64,
 }
 
-impl Place {
+impl DerivedView {
     fn of(camera: &Camera) -> Self {
         Self {
             center: camera.center().to_array(),
@@ -58,16 +55,14 @@ impl Place {
     }
 }
 
-fn placed(made: lumencut::error::Result<Camera>) -> PyResult<Place> {
-    made.map(|camera| Place::of(&camera)).map_err(to_python)
+fn placed(made: lumencut::error::Result<Camera>) -> PyResult<DerivedView> {
+    made.map(|camera| DerivedView::of(&camera)).map_err(to_python)
 }
 
-/// An axis of the view or the patient by its name, or a vector.
 #[derive(FromPyObject)]
-pub enum AxisArgument {
+pub(crate) enum AxisArgument {
     /// `"superior"`, `"up"`, `"right"` or `"direction"`.
     Name(String),
-    /// A vector (LPS).
     Vector([f64; 3]),
 }
 
@@ -80,20 +75,20 @@ impl AxisArgument {
     }
 }
 
-/// The camera in the middle of the points (n, 3) of a vessel, in which it fits at every amount of uncurling.
+/// The camera centred on points (n, 3) that fits them at every amount of uncurling.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
-pub fn fitted_uncurling(
+pub(crate) fn fitted_uncurling(
     camera: MadeCamera,
     points: PyReadonlyArray2<'_, f64>,
     smoothing: f64,
-) -> PyResult<Place> {
+) -> PyResult<DerivedView> {
     let vessel = Vessel::new(points_of(&points)?, None).map_err(to_python)?;
     placed(uncurling::fitted_uncurling(&camera.camera()?, &vessel, smoothing))
 }
 
-/// The views of the body by name: direction from the viewer into the scene, and up (LPS).
-pub fn add_names(module: &Bound<'_, PyModule>) -> PyResult<()> {
+/// Adds the standard views: direction into the scene, and up (LPS).
+pub(crate) fn add_names(module: &Bound<'_, PyModule>) -> PyResult<()> {
     let views = PyDict::new(module.py());
     for view in VIEWS {
         let vectors: [(f64, f64, f64); 2] = [view.direction, view.up].map(Into::into);
@@ -102,91 +97,99 @@ pub fn add_names(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("VIEWS", views)
 }
 
-/// The place from where all points (n, 3) just fit into the image of a camera of the same direction and up.
+/// The view that just fits all points (n, 3), with the same direction and up.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
-pub fn fitted(py: Python<'_>, camera: MadeCamera, points: PyReadonlyArray2<'_, f64>) -> PyResult<Place> {
+pub(crate) fn fitted(
+    py: Python<'_>,
+    camera: MadeCamera,
+    points: PyReadonlyArray2<'_, f64>,
+) -> PyResult<DerivedView> {
     let (camera, points) = (camera.camera()?, points_of(&points)?);
     placed(py.detach(|| views::fitted(&camera, &points)))
 }
 
-/// The place from where every frame of a turn fits.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
-pub fn fitted_turn(
+pub(crate) fn fitted_turn(
     py: Python<'_>,
     camera: MadeCamera,
     points: PyReadonlyArray2<'_, f64>,
     degrees: f64,
     axis: AxisArgument,
-) -> PyResult<Place> {
+) -> PyResult<DerivedView> {
     let (camera, points, axis) = (camera.camera()?, points_of(&points)?, axis.axis()?);
     placed(py.detach(|| turn::fitted_turn(&camera, &points, degrees, axis)))
 }
 
-/// The view about a place on a vessel: the arc length is in mm, the angle in radians.
+/// The view about a place on a vessel: arc length (mm), angle (radians).
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
-pub fn about(vessel: VesselArrays<'_>, at: f64, angle: f64, size: [usize; 2]) -> PyResult<Place> {
+pub(crate) fn about(
+    vessel: VesselArrays<'_>,
+    at: f64,
+    angle: f64,
+    size: [usize; 2],
+) -> PyResult<DerivedView> {
     placed(vessel_views::about(&tree::vessel(&vessel)?, at, angle, size))
 }
 
-/// The radius of a vessel at an arc length (mm).
+/// The radius at an arc length (mm).
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
-pub fn radius_at(vessel: VesselArrays<'_>, at: f64) -> PyResult<f64> {
+pub(crate) fn radius_at(vessel: VesselArrays<'_>, at: f64) -> PyResult<f64> {
     Ok(vessel_views::radius_at(&tree::vessel(&vessel)?, at))
 }
 
-/// The diameter of a vessel (mm) that the view of a place cuts; NaN where it has no two walls.
+/// The diameter (mm) cut by a view about a place; NaN without two walls.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
-pub fn cut_diameter(volume: VolumeArgument<'_>, camera: MadeCamera, radius: f64) -> PyResult<f64> {
+pub(crate) fn cut_diameter(volume: VolumeArgument<'_>, camera: MadeCamera, radius: f64) -> PyResult<f64> {
     let borrowed = volume.borrow()?;
     let found = lumencut::cut_diameter::cut_diameter(&volume.volume(&borrowed)?, &camera.camera()?, radius);
     Ok(found.unwrap_or(f64::NAN))
 }
 
-/// The view from which most of a vessel is seen, not far from that of a camera.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
-pub fn refocused(py: Python<'_>, camera: MadeCamera, vessel: VesselArrays<'_>) -> PyResult<Place> {
+pub(crate) fn refocused(
+    py: Python<'_>,
+    camera: MadeCamera,
+    vessel: VesselArrays<'_>,
+) -> PyResult<DerivedView> {
     let (camera, vessel) = (camera.camera()?, tree::vessel(&vessel)?);
     placed(py.detach(|| vessel_views::refocused(&camera, &vessel)))
 }
 
-/// The views of a flight from one camera to another, but for the first and the last, which are the cameras themselves.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
-pub fn flight(start: MadeCamera, end: MadeCamera, frames: usize) -> PyResult<Vec<Place>> {
+pub(crate) fn flight(start: MadeCamera, end: MadeCamera, frames: usize) -> PyResult<Vec<DerivedView>> {
     let views = flights::flight(&start.camera()?, &end.camera()?, frames).map_err(to_python)?;
-    Ok(views[1..views.len() - 1].iter().map(Place::of).collect())
+    Ok(views[1..views.len() - 1].iter().map(DerivedView::of).collect())
 }
 
-/// The angles of the frames of a turn (radians).
+/// Frame angles of a turn (radians).
 #[pyfunction]
-pub fn frame_angles(frames: usize, degrees: f64) -> PyResult<Vec<f64>> {
+pub(crate) fn frame_angles(frames: usize, degrees: f64) -> PyResult<Vec<f64>> {
     turn::frame_angles(frames, degrees).map_err(to_python)
 }
 
-/// A camera turned about its center.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
-pub fn rotated(camera: MadeCamera, angle: f64, axis: AxisArgument) -> PyResult<Place> {
+pub(crate) fn rotated(camera: MadeCamera, angle: f64, axis: AxisArgument) -> PyResult<DerivedView> {
     placed(views::rotated(&camera.camera()?, angle, axis.axis()?))
 }
 
-/// A camera magnified about its center.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
-pub fn zoomed(camera: MadeCamera, factor: f64) -> PyResult<Place> {
+pub(crate) fn zoomed(camera: MadeCamera, factor: f64) -> PyResult<DerivedView> {
     placed(views::zoomed(&camera.camera()?, factor))
 }
 
-/// The world point (mm, LPS) of each pixel of a picture whose depths (mm) are given, shape (H, W, 3).
+/// World points (mm, LPS) of a picture's pixels for their depths (mm), shape (H, W, 3).
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
-pub fn positions<'py>(
+pub(crate) fn positions<'py>(
     py: Python<'py>,
     camera: MadeCamera,
     depth: PyReadonlyArray2<'py, f32>,
@@ -210,6 +213,6 @@ pub fn positions<'py>(
 /// A camera moved in its plane (mm).
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
-pub fn panned(camera: MadeCamera, right: f64, up: f64) -> PyResult<Place> {
+pub(crate) fn panned(camera: MadeCamera, right: f64, up: f64) -> PyResult<DerivedView> {
     placed(views::panned(&camera.camera()?, right, up))
 }

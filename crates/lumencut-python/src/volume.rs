@@ -1,4 +1,4 @@
-//! Volumes, borrowed from NumPy without a copy.
+//! Volumes borrowed from NumPy without a copy.
 
 use glam::{DAffine3, DMat3, DVec3};
 use lumencut::extent::Extent;
@@ -15,10 +15,9 @@ use crate::scan_details::ScanArgument;
 use crate::tree::points_of;
 use crate::watching::computed;
 
-/// `lumencut.Volume` as the binding needs it: voxels in memory order, grid size and strides along (i, j, k)
-/// in elements, and the affine from index to world, row by row.
+/// `lumencut.Volume`: voxels in memory order, size and strides (elements) along (i, j, k), and the index-to-world affine by rows.
 #[derive(FromPyObject)]
-pub struct VolumeArgument<'py> {
+pub(crate) struct VolumeArgument<'py> {
     #[pyo3(attribute("_voxels"))]
     voxels: Bound<'py, PyAny>,
     size: [usize; 3],
@@ -29,8 +28,7 @@ pub struct VolumeArgument<'py> {
     scan: ScanArgument,
 }
 
-/// The voxels of a volume, locked against writing from Rust while they are in use.
-pub enum Borrowed<'py> {
+pub(crate) enum Borrowed<'py> {
     I8(PyReadonlyArray1<'py, i8>),
     U8(PyReadonlyArray1<'py, u8>),
     I16(PyReadonlyArray1<'py, i16>),
@@ -45,7 +43,6 @@ pub enum Borrowed<'py> {
 
 macro_rules! each_type {
     ($($name:ident $type:ty),*) => {
-        /// The voxels of an array of any of the types.
         fn borrow<'py>(array: &Bound<'py, PyAny>) -> PyResult<Borrowed<'py>> {
             $(if let Ok(array) = array.cast::<PyArray1<$type>>() {
                 return Ok(Borrowed::$name(array.try_readonly()?));
@@ -66,59 +63,52 @@ macro_rules! each_type {
 each_type!(I8 i8, U8 u8, I16 i16, U16 u16, I32 i32, U32 u32, I64 i64, U64 u64, F32 f32, F64 f64);
 
 impl<'py> VolumeArgument<'py> {
-    /// How its scan was made.
-    pub fn scan(&self) -> ScanDetails {
+    pub(crate) fn scan(&self) -> ScanDetails {
         self.scan.details()
     }
 
-    /// Borrows the voxels.
-    pub fn borrow(&self) -> PyResult<Borrowed<'py>> {
+    pub(crate) fn borrow(&self) -> PyResult<Borrowed<'py>> {
         borrow(&self.voxels)
     }
 
-    /// The volume of the core over borrowed voxels.
-    pub fn volume<'a>(&self, borrowed: &'a Borrowed<'py>) -> PyResult<Volume<'a>> {
+    pub(crate) fn volume<'a>(&self, borrowed: &'a Borrowed<'py>) -> PyResult<Volume<'a>> {
         let affine = affine(self.affine_rows);
         Volume::new(borrowed.voxels()?, self.size, self.strides, affine).map_err(to_python)
     }
 }
 
-/// The affine with these rows.
 fn affine(rows: [[f64; 4]; 3]) -> DAffine3 {
     let [x, y, z] = rows.map(|row| DVec3::new(row[0], row[1], row[2]));
     let translation = DVec3::from_array(rows.map(|row| row[3]));
     DAffine3::from_mat3_translation(DMat3::from_cols(x, y, z).transpose(), translation)
 }
 
-/// The grid of a `lumencut.Volume` without its voxels.
 #[derive(FromPyObject)]
-pub struct GridArgument {
+pub(crate) struct GridArgument {
     size: [usize; 3],
     #[pyo3(attribute("_affine_rows"))]
     affine_rows: [[f64; 4]; 3],
 }
 
 impl GridArgument {
-    /// The space that the volume fills.
-    pub fn extent(&self) -> Extent {
+    pub(crate) fn extent(&self) -> Extent {
         Extent::new(self.size, affine(self.affine_rows))
     }
 }
 
-/// What speaks against the lengths of a grid, by its size (ni, nj, nk) and world from index without the last row; None of a
-/// plausible one.
+/// Evidence against a grid's lengths, from size (ni, nj, nk) and affine rows; None if plausible.
 #[pyfunction]
-pub fn doubted_size(size: [usize; 3], affine_rows: [[f64; 4]; 3]) -> Option<String> {
+pub(crate) fn doubted_size(size: [usize; 3], affine_rows: [[f64; 4]; 3]) -> Option<String> {
     lumencut::doubted_scan::doubted_size(size, affine(affine_rows))
 }
 
-/// As many points are looked up between two looks at whether to stop.
+/// Points sampled between two checks for a stop.
 const PART: usize = 1 << 14;
 
-/// Which world points (n, 3) (mm, LPS) lie inside the outer corners of a volume; shape (n,).
+/// World points (n, 3) (mm, LPS) inside a volume's outer corners; shape (n,).
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
-pub fn contains<'py>(
+pub(crate) fn contains<'py>(
     py: Python<'py>,
     volume: GridArgument,
     points: PyReadonlyArray2<'py, f64>,
@@ -130,7 +120,7 @@ pub fn contains<'py>(
 /// The volume at world points (n, 3) (mm, LPS), trilinear, NaN outside; shape (n,).
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
-pub fn sample<'py>(
+pub(crate) fn sample<'py>(
     py: Python<'py>,
     volume: VolumeArgument<'py>,
     points: PyReadonlyArray2<'py, f64>,

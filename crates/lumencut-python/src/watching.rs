@@ -1,4 +1,4 @@
-//! Long work without the GIL: it hears Ctrl-C, and tells a function of Python how far it is.
+//! Runs long work without the GIL, with Ctrl-C and progress.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc;
@@ -11,33 +11,29 @@ use pyo3::prelude::*;
 use crate::errors::to_python;
 use crate::pool;
 
-/// How often a rendering asks Python for signals such as Ctrl-C.
+/// How often a rendering checks for signals such as Ctrl-C.
 const SIGNAL_PERIOD: Duration = Duration::from_millis(50);
 
-/// Into how many parts a rendering is divided for whoever is told how far it is.
-pub const SHARES: u32 = 1000;
+pub(crate) const SHARES: u32 = 1000;
 
-/// How far long work is, and the function of Python that is told so.
-pub struct Watched<'a> {
+pub(crate) struct Watched<'a> {
     pub progress: &'a Progress,
     pub told: &'a Py<PyAny>,
 }
 
 impl Watched<'_> {
-    /// Tells how much is done, of `SHARES` parts.
-    pub fn tell(&self, py: Python<'_>, done: u32) -> PyResult<()> {
+    /// Reports progress in `SHARES`.
+    pub(crate) fn tell(&self, py: Python<'_>, done: u32) -> PyResult<()> {
         self.told.call1(py, (done, SHARES)).map(drop)
     }
 
-    /// Tells it while the work goes on.
     fn tell_so_far(&self, py: Python<'_>) -> PyResult<()> {
-        // A share of 0 to 1: at most `SHARES`.
         self.tell(py, (self.progress.share() * f64::from(SHARES)) as u32)
     }
 }
 
-/// Runs `work` on a thread of its own without the GIL while this one listens for signals, and tells how far it is.
-pub fn interruptible<T: Send>(
+/// Runs `work` on another thread without the GIL; this thread handles signals and progress.
+pub(crate) fn interruptible<T: Send>(
     py: Python<'_>,
     watched: Option<&Watched<'_>>,
     work: impl FnOnce(Stop<'_>) -> PyResult<T> + Send,
@@ -76,16 +72,16 @@ pub fn interruptible<T: Send>(
     })
 }
 
-/// Runs what the core computes on the threads of this process, as [`interruptible`] does.
-pub fn computed<T: Send>(
+/// As [`interruptible`], on the thread pool.
+pub(crate) fn computed<T: Send>(
     py: Python<'_>,
     work: impl FnOnce(Stop<'_>) -> lumencut::error::Result<T> + Send,
 ) -> PyResult<T> {
     interruptible(py, None, |stop| pool::install(|| work(stop))?.map_err(to_python))
 }
 
-/// Runs long work as [`interruptible`] does, and tells `told` how far it is, to its end.
-pub fn told_while<T: Send>(
+/// As [`interruptible`], with progress to `told` until the end.
+pub(crate) fn told_while<T: Send>(
     py: Python<'_>,
     told: Option<&Py<PyAny>>,
     work: impl FnOnce(Stop<'_>, Option<&Progress>) -> PyResult<T> + Send,

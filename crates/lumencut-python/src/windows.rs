@@ -1,4 +1,4 @@
-//! Windows from the data and those that have a name, for `lumencut.Window`.
+//! Windows from the data and named windows, for `lumencut.Window`.
 
 use lumencut::named::Named;
 use lumencut::settings::ContextName;
@@ -9,11 +9,11 @@ use crate::errors::to_python;
 use crate::tree::{VesselArrays, tree};
 use crate::volume::VolumeArgument;
 
-/// Level and width of a window from the data, by its name; vessels matter to "auto" alone.
+/// Level and width of a named window from the data; only "auto" uses vessels.
 #[pyfunction]
 #[pyo3(signature = (name, volume, vessels))]
 #[allow(clippy::needless_pass_by_value)]
-pub fn find_window(
+pub(crate) fn find_window(
     py: Python<'_>,
     name: &str,
     volume: VolumeArgument<'_>,
@@ -27,15 +27,14 @@ pub fn find_window(
     Ok((window.level, window.width))
 }
 
-/// The name of the window from the data that a context takes where its user chooses none.
 #[pyfunction]
-pub fn context_window(context: &str, has_tree: bool) -> PyResult<&'static str> {
+pub(crate) fn context_window(context: &str, has_tree: bool) -> PyResult<&'static str> {
     let context = ContextName::named("context", context).map_err(to_python)?;
     Ok(DataWindow::of_context(context, has_tree).name())
 }
 
-/// Adds the windows that have a name: what a page calls each, with level and width where they are fixed.
-pub fn add_presets(module: &Bound<'_, PyModule>) -> PyResult<()> {
+/// Adds the named windows: label, and level and width if fixed.
+pub(crate) fn add_presets(module: &Bound<'_, PyModule>) -> PyResult<()> {
     let presets = WINDOW_PRESETS.map(|preset| match preset.source {
         PresetSource::Fixed(window) => (preset.name, preset.words, Some((window.level, window.width))),
         PresetSource::Data(_) => (preset.name, preset.words, None),

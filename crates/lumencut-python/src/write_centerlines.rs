@@ -8,16 +8,15 @@ use pyo3::types::PyBytes;
 use crate::errors::exception;
 use crate::tree::points_of;
 
-/// Numbers (n,), where they are known.
 type Numbers<'py> = Option<PyReadonlyArray1<'py, f64>>;
 
-/// Points (n, 3), radii (n,), name and confidence (n,) of one vessel.
+/// Points (n, 3), radii (n,), name and confidence (n,).
 type NamedVessel<'py> = (PyReadonlyArray2<'py, f64>, Numbers<'py>, Option<String>, Numbers<'py>);
 
-/// The content of a file of vessels in mm, LPS; `kind` is the ending of its name.
+/// The file of vessels in mm, LPS; `kind` is its extension.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
-pub fn write_centerlines<'py>(
+pub(crate) fn write_centerlines<'py>(
     py: Python<'py>,
     vessels: Vec<NamedVessel<'py>>,
     kind: &str,

@@ -1,4 +1,4 @@
-//! Cut surfaces through the hierarchy, and against every piece.
+//! Cut surfaces through the hierarchy, and by brute force.
 
 use lumencut_core::brute_force;
 use lumencut_core::camera::Camera;
@@ -12,19 +12,17 @@ use lumencut_core::stages::Stage;
 use lumencut_core::stages::depth::DepthImages;
 use lumencut_core::vessel_tree::VesselTree;
 
-/// Depth, vessel and distance through the hierarchy.
 pub fn by_hierarchy(tree: &VesselTree, camera: &Camera, settings: &Settings) -> Frame {
     let scene = Scene::default().with_tree(tree.clone());
     CpuRenderer::default().render(&scene, &Request::new(camera, settings)).unwrap()
 }
 
-/// Depth, vessel and distance against every piece.
 pub fn by_brute_force(tree: &VesselTree, camera: &Camera, settings: &Settings) -> Frame {
     let (renderer, request) =
         (projected(tree, camera, settings, Isa::widest()), Request::new(camera, settings));
     let pass = renderer.pass(&request);
     let pixels = pass.work.pixels();
-    // A pixel that brute force leaves out is seen.
+    // Negative values reveal pixels that brute force skips.
     let (mut distance, mut depth, mut vessel) = (vec![-1.0; pixels], vec![-1.0; pixels], vec![-1; pixels]);
     brute_force::distance(&pass.work, &pass.surface, &mut distance).unwrap();
     let written = DepthImages { depth: &mut depth, vessel: &mut vessel, sheet: &mut [] };
@@ -38,7 +36,7 @@ pub fn by_brute_force(tree: &VesselTree, camera: &Camera, settings: &Settings) -
     Frame { vessel: images.vessel, distance, ..Frame::of(geometry) }
 }
 
-/// A renderer that has projected a tree into a view: its stages can run one by one.
+/// A renderer with a projected tree, to run stages separately.
 pub fn projected(tree: &VesselTree, camera: &Camera, settings: &Settings, isa: Isa) -> CpuRenderer {
     let mut renderer = CpuRenderer::new(isa);
     renderer.prepare(&LeveledTree::new(tree.clone()), settings);

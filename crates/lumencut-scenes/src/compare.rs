@@ -1,39 +1,34 @@
-//! Whether two whole frames are the same picture but for rounding.
+//! Compares whole frames up to rounding.
 
 use lumencut_core::frame::Frame;
 
 use crate::tolerances::{COLOR, COLOR_LEAP, DEPTH, MOST_TOGETHER, NEIGHBOURHOOD};
 
-/// What differs between two frames.
+/// The differences of two frames.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Differences {
-    /// The share of pixels whose depths are further apart than [`DEPTH`] says.
+    /// Fraction of pixels whose depths differ by more than [`DEPTH`].
     pub depths: f64,
-    /// The largest difference in any of the four channels.
+    /// Largest difference in any channel.
     pub largest_color: u8,
-    /// The share of pixels with a channel further apart than [`COLOR`] says.
+    /// Fraction of pixels with a channel beyond [`COLOR`].
     pub colors: f64,
-    /// The share of pixels with a channel further apart than [`COLOR_LEAP`] says.
+    /// Fraction of pixels with a channel beyond [`COLOR_LEAP`].
     pub leaps: f64,
-    /// The number of pixels whose vessels differ.
     pub vessels: usize,
-    /// The share of pixels whose vessels differ.
     pub vessel_share: f64,
-    /// The most pixels in a neighbourhood of 8 × 8 whose depth or colour is another.
+    /// Most differing pixels (depth or colour) in an 8 × 8 neighbourhood.
     pub together: usize,
 }
 
-/// The images of both have the same number of pixels, all of the view or none, and are not the same memory.
+/// Checks that both images have the same size, all or none of the pixels, and separate memory.
 fn check<T>(name: &str, a: &[T], b: &[T], pixels: usize) {
     assert_eq!(a.len(), b.len(), "{name}: different sizes");
     assert!(a.is_empty() || a.len() == pixels, "{name}: {} of {pixels} pixels", a.len());
     assert!(a.is_empty() || a.as_ptr() != b.as_ptr(), "{name}: compared with itself");
 }
 
-/// What differs between two frames of one view.
-///
-/// # Panics
-/// For frames of different shapes, for one frame twice, and for nothing to compare.
+/// The differences of two frames of one view.
 pub fn compare(a: &Frame, b: &Frame) -> Differences {
     let [width, height] = a.size();
     let pixels = width * height;
@@ -64,10 +59,7 @@ pub fn compare(a: &Frame, b: &Frame) -> Differences {
     found
 }
 
-/// Refuses frames that differ by more than rounding.
-///
-/// # Panics
-/// As [`compare`], and for what differs.
+/// Asserts that two frames differ only by rounding.
 pub fn assert_equal(a: &Frame, b: &Frame) {
     let found = compare(a, b);
     assert!(found.depths <= DEPTH.share, "depths: {found:?}");
@@ -86,7 +78,6 @@ mod tests {
     use crate::pictures::depth_of;
     use crate::views::front;
 
-    /// A frame of `size` with something in every image.
     fn frame(size: [usize; 2]) -> Frame {
         let camera = front(size, 0.5);
         let at = |p: usize| (p % size[0], p / size[0]);
@@ -102,7 +93,6 @@ mod tests {
         }
     }
 
-    /// Whether two frames are told apart, and with which words.
     fn refused(a: &Frame, b: &Frame) -> Option<String> {
         let result = std::panic::catch_unwind(|| assert_equal(a, b));
         result.err().map(|words| {
@@ -112,7 +102,7 @@ mod tests {
         })
     }
 
-    /// A frame, and the same with a change that has to be refused with `words`.
+    /// Asserts that a changed frame is rejected with `words`.
     fn refuses(words: &str, size: [usize; 2], change: impl Fn(&mut Frame)) {
         let (a, mut b) = (frame(size), frame(size));
         assert_eq!(refused(&a, &b), None, "before the change");
@@ -129,7 +119,7 @@ mod tests {
         let (a, mut b) = (frame(SIZE), frame(SIZE));
         b.image.iter_mut().for_each(|color| *color = color.map(|c| c.saturating_add(1)));
         depth_of(&mut b).iter_mut().for_each(|depth| *depth += 5e-4);
-        // Few pixels on their own: 16 colours, 3 of them far apart, and 32 depths of 32,000 pixels.
+        // Few isolated pixels: 16 colours, 3 of them far apart, and 32 depths of 32,000 pixels.
         (0..13).for_each(|n| b.image[n * 2001][2] -= 4);
         (0..3).for_each(|n| b.image[n * 9001 + 50][2] = 0);
         (0..32).for_each(|n| depth_of(&mut b)[n * 999] += 7.0);
@@ -147,7 +137,7 @@ mod tests {
             }
         };
         refuses("colours: ", SIZE, |b| block(b, [40, 6], 200));
-        // In a large picture the same vessel is a share that would be allowed.
+        // In a large picture this fraction of vessels would be allowed.
         refuses("one place", [1000, 1000], |b| block(b, [10, 6], 1000));
         refuses("one place", [1000, 1000], |b| {
             (0..6)

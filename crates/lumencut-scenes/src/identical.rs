@@ -1,11 +1,8 @@
-//! Whether two cut surfaces are the same to the bit.
+//! Bitwise comparison of cut surfaces.
 
 use lumencut_core::frame::Frame;
 
 /// The number of pixels that differ in any bit of depth, vessel or distance.
-///
-/// # Panics
-/// For cut surfaces of different sizes, and for nothing to compare.
 pub fn different_pixels(a: &Frame, b: &Frame) -> usize {
     let sizes = |frame: &Frame| [frame.depth().len(), frame.distance.len(), frame.vessel.len()];
     assert_eq!(sizes(a), sizes(b), "different sizes");

@@ -1,7 +1,5 @@
-//! Scenes and tolerances for the tests and benches of the other crates; no part of the product.
-//!
-//! A scene here is right by its making: where one is not, its builder panics, and so the test fails that asked for it.
-#![allow(clippy::unwrap_used)]
+//! Scenes and tolerances for tests and benches; not part of the product. An invalid scene panics and so fails its test.
+#![allow(clippy::unwrap_used, missing_docs)]
 
 pub mod brute_force;
 pub mod compare;

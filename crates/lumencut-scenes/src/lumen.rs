@@ -1,30 +1,28 @@
-//! Lumen by its definition, in f64 and without anything of the product: what the images are judged by.
+//! The lumen by definition, in f64 and independent of the product: the reference for images.
 
 use glam::{DVec2, DVec3};
 use lumencut_core::camera::Camera;
 use lumencut_core::vessel_tree::{Vessel, VesselTree};
 
-/// The nearest lumen at view (x, y): the smallest depth (mm) among the pieces that cover it with d ≤ r; nothing where no
-/// lumen is.
+/// The nearest lumen at view (x, y): the least depth (mm) among pieces that cover it with d ≤ r.
 pub fn nearest_lumen(scene: &VesselTree, camera: &Camera, x: f64, y: f64) -> Option<f64> {
     lumen_within(scene, camera, [x, y], 0.0)
 }
 
-/// The same where no rounding of a radius changes it.
+/// As [`nearest_lumen`], only if rounding of radii does not change it.
 pub fn certain_lumen(scene: &VesselTree, camera: &Camera, x: f64, y: f64) -> Option<f64> {
     const ROUNDING: f64 = 1e-3;
     let [wide, narrow] = [ROUNDING, -ROUNDING].map(|more| lumen_within(scene, camera, [x, y], more));
     narrow.filter(|_| narrow == wide)
 }
 
-/// The nearest lumen where all radii are larger by `more` (mm).
+/// The nearest lumen if all radii were larger by `more` (mm).
 fn lumen_within(scene: &VesselTree, camera: &Camera, at: [f64; 2], more: f64) -> Option<f64> {
     let lumens =
         scene.vessels().iter().filter_map(|vessel| lumen_of(vessel, camera, DVec2::from_array(at), more));
     lumens.min_by(f64::total_cmp)
 }
 
-/// The nearest lumen of one vessel.
 fn lumen_of(vessel: &Vessel, camera: &Camera, at: DVec2, more: f64) -> Option<f64> {
     let points: Vec<DVec3> = vessel.points().iter().map(|p| camera.view_from_world(*p)).collect();
     let to = |i: usize| at - points[i].truncate();

@@ -1,4 +1,4 @@
-//! Frames of scenes that are made for one view.
+//! Frames of scenes for one view.
 
 use lumencut_core::camera::Camera;
 use lumencut_core::error::Result;
@@ -11,28 +11,21 @@ use lumencut_core::stop::Stop;
 use lumencut_core::vessel_tree::VesselTree;
 use lumencut_core::volume::Volume;
 
-/// All images of one view of a scene on the CPU.
-///
-/// # Errors
-/// As [`CpuRenderer::render`].
+/// All images of a view on the CPU.
 pub fn render(scene: &Scene, camera: &Camera, settings: &Settings, stop: Stop) -> Result<Frame> {
     CpuRenderer::default().render(scene, &Request { stop, ..Request::new(camera, settings) })
 }
 
-/// The whole picture of a volume and a tree.
 pub fn picture(volume: Volume, tree: &VesselTree, camera: &Camera, settings: &Settings) -> Frame {
     render(&Scene::new(volume, tree.clone()), camera, settings, &|| false).unwrap()
 }
 
-/// The context of a volume alone.
-///
-/// # Errors
-/// As [`CpuRenderer::render`].
+/// The context of a volume without vessels.
 pub fn context_alone(volume: Volume, camera: &Camera, settings: &Settings, stop: Stop) -> Result<Frame> {
     render(&Scene::default().with_volume(volume), camera, settings, stop)
 }
 
-/// The depths of a frame, to be changed.
+/// The depths of a frame, mutable.
 pub fn depth_of(frame: &mut Frame) -> &mut [f32] {
     match &mut frame.geometry {
         Geometry::Orthographic { depth, .. } => depth,

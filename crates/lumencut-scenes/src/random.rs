@@ -1,9 +1,8 @@
-//! Random numbers that are the same in every run.
+//! Reproducible random numbers.
 
 use glam::DVec3;
 use lumencut_phantom::random::{hash, uniform};
 
-/// The random numbers of a seed, one after the other.
 #[derive(Clone, Debug)]
 pub struct Random {
     seed: u64,
@@ -11,12 +10,10 @@ pub struct Random {
 }
 
 impl Random {
-    /// The numbers of a seed.
     pub fn new(seed: u64) -> Self {
         Self { seed: hash(seed, 1), place: 0 }
     }
 
-    /// The next number in [0, 1).
     pub fn number(&mut self) -> f64 {
         self.place += 1;
         uniform(self.seed, self.place)
@@ -27,12 +24,11 @@ impl Random {
         DVec3::new(self.number(), self.number(), self.number()) * 2.0 - 1.0
     }
 
-    /// A number from `low` to `high`.
     pub fn between(&mut self, low: f32, high: f32) -> f32 {
         low + (high - low) * self.number() as f32
     }
 
-    /// Whether something happens that does once in `n` times.
+    /// True once in `n` times on average.
     pub fn once_in(&mut self, n: u32) -> bool {
         self.number() * f64::from(n) < 1.0
     }

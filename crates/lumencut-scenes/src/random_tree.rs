@@ -1,4 +1,4 @@
-//! Random trees: smooth random walks through a box, the same for the same seed.
+//! Random trees: reproducible smooth random walks in a box.
 
 use glam::DVec3;
 use lumencut_core::error::Result;
@@ -6,11 +6,8 @@ use lumencut_core::vessel_tree::{Vessel, VesselTree};
 
 use crate::random::Random;
 
-/// A tree of `vessels` vessels with `segments` segments of `step` mm each; about half start on an earlier
-/// vessel. All points stay in a cube of half side `extent` mm around the origin; radii are 1 to 6 mm.
-///
-/// # Errors
-/// [`lumencut_core::error::ErrorKind::VesselTree`] where a count is zero.
+/// A tree of `vessels` vessels with `segments` segments of `step` mm; about half start on an earlier vessel. Points stay within
+/// ±`extent` mm; radii are 1 to 6 mm.
 pub fn random_tree(seed: u64, vessels: usize, segments: usize, step: f64, extent: f64) -> Result<VesselTree> {
     let mut random = Random::new(seed);
     let mut made: Vec<Vessel> = Vec::with_capacity(vessels);
@@ -26,7 +23,7 @@ pub fn random_tree(seed: u64, vessels: usize, segments: usize, step: f64, extent
     VesselTree::new(made)
 }
 
-/// One vessel that wanders from `start` and turns back where it would leave the cube.
+/// A walk from `start` that turns back at the faces of the cube.
 fn walk(
     random: &mut Random,
     start: DVec3,

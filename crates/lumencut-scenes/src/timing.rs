@@ -1,4 +1,4 @@
-//! Timing for the benches: medians and minima of repeated runs, printed as Markdown tables.
+//! Timing for benches: medians and minima of repeated runs, as Markdown tables.
 
 use std::collections::BTreeMap;
 use std::time::Instant;
@@ -7,26 +7,24 @@ use lumencut_core::error::Result;
 use lumencut_core::frame::Frame;
 use lumencut_core::math::statistics::median;
 
-/// What repeated runs took (ms).
+/// Durations of repeated runs (ms).
 #[derive(Clone, Copy, Debug)]
 pub struct Times {
-    /// The median of the runs.
     pub median: f64,
-    /// The fastest of the runs.
     pub minimum: f64,
 }
 
-/// The medians of what frames took (ms), by the stage; "frame" is the whole frame as its caller waits for it.
+/// Median duration (ms) by stage; "frame" is the total as seen by the caller.
 pub type StageTimes = BTreeMap<&'static str, f64>;
 
-/// What `work` took (ms), and what it gave.
+/// The duration of `work` (ms), and its result.
 pub fn once<T>(work: impl FnOnce() -> T) -> (f64, T) {
     let start = Instant::now();
     let result = work();
     (start.elapsed().as_secs_f64() * 1e3, result)
 }
 
-/// Runs `work` once to warm up and then `runs` times.
+/// Runs `work` once to warm up, then `runs` times.
 pub fn time(runs: usize, mut work: impl FnMut()) -> Times {
     work();
     let mut times: Vec<f64> = (0..runs).map(|_| once(&mut work).0).collect();
@@ -34,17 +32,14 @@ pub fn time(runs: usize, mut work: impl FnMut()) -> Times {
     Times { median: median(&mut times).unwrap_or(f64::NAN), minimum }
 }
 
-/// The medians of `frames` frames after a first one, which compiles, uploads and warms the caches.
-///
-/// # Errors
-/// The first one of `render`.
+/// Medians of `frames` frames after a warm-up frame.
 pub fn stage_medians(frames: usize, mut render: impl FnMut() -> Result<Frame>) -> Result<StageTimes> {
     render()?;
     let mut all: BTreeMap<&'static str, Vec<f64>> = BTreeMap::new();
     for _ in 0..frames {
         let (milliseconds, frame) = once(&mut render);
         let mut of_frame = StageTimes::from([("frame", milliseconds)]);
-        // A stage may run several times in a frame: its times add up.
+        // A stage may run several times per frame.
         frame?.timings.iter().for_each(|t| *of_frame.entry(t.stage).or_default() += t.milliseconds);
         of_frame.into_iter().for_each(|(stage, time)| all.entry(stage).or_default().push(time));
     }
@@ -52,13 +47,11 @@ pub fn stage_medians(frames: usize, mut render: impl FnMut() -> Result<Frame>) -
     Ok(all.into_iter().map(|(stage, times)| (stage, usual(times))).collect())
 }
 
-/// One row of a Markdown table.
 pub fn row<S: AsRef<str>>(cells: impl IntoIterator<Item = S>) {
     let cells: Vec<_> = cells.into_iter().map(|c| c.as_ref().to_owned()).collect();
     println!("| {} |", cells.join(" | "));
 }
 
-/// The head of a Markdown table.
 pub fn head(title: &str, cells: &[&str]) {
     println!("\n{title}\n");
     row(cells);

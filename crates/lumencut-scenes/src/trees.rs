@@ -1,4 +1,4 @@
-//! Vessels and trees from points that are written down.
+//! Vessels and trees from literal points.
 
 use std::f64::consts::TAU;
 
@@ -12,7 +12,6 @@ pub fn vessel(points: &[[f64; 3]], radius: f64) -> Vessel {
     Vessel::new(points, Some(radii)).unwrap()
 }
 
-/// The tree of these vessels.
 pub fn tree(vessels: Vec<Vessel>) -> VesselTree {
     VesselTree::new(vessels).unwrap()
 }
@@ -27,7 +26,7 @@ pub fn trefoil(points: usize) -> VesselTree {
     tree(vec![vessel(&(0..=points).map(knot).collect::<Vec<_>>(), 4.0)])
 }
 
-/// The same vessels with every segment cut into four.
+/// The same vessels with every segment split into four.
 pub fn finer(tree: &VesselTree) -> VesselTree {
     let finer = tree.vessels().iter().map(|v| {
         let last = v.points().len() - 2;

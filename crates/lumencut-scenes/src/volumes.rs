@@ -3,12 +3,12 @@
 use glam::{DAffine3, DMat3, DVec3};
 use lumencut_core::volume::{Volume, Voxels};
 
-/// A volume of voxels that lie i fastest, then j, then k.
+/// A volume with i fastest.
 pub fn volume(voxels: Voxels<'_>, size: [usize; 3], world_from_index: DAffine3) -> Volume<'_> {
     Volume::new(voxels, size, [1, size[0], size[0] * size[1]], world_from_index).unwrap()
 }
 
-/// A sheared, left-handed grid with its middle in the origin.
+/// A sheared, left-handed grid centred at the origin.
 pub fn sheared(size: [usize; 3]) -> DAffine3 {
     let columns =
         DMat3::from_cols(DVec3::new(0.8, 0.1, 0.0), DVec3::new(0.2, -0.7, 0.1), DVec3::new(0.3, 0.2, 1.9));
@@ -16,7 +16,7 @@ pub fn sheared(size: [usize; 3]) -> DAffine3 {
     DAffine3::from_mat3_translation(columns, -(columns * last / 2.0))
 }
 
-/// A bright ball and a bright rod in noise, between 0 and 1000.
+/// A bright ball and rod in noise, between 0 and 1000.
 pub fn ball_and_rod([ni, nj, nk]: [usize; 3]) -> Vec<i16> {
     let [x, y, z] = [ni, nj, nk].map(|n| n as f64);
     let value = |n: usize| {

@@ -1,24 +1,22 @@
-//! The three scenes of clinical size, beside what the paper measured on its own (Table 2: Fig. 1, 7 and 8 at 512 × 512
-//! pixels, GeForce GTX 680).
+//! The three scenes of clinical size, with the paper's timings (Table 2: Fig. 1, 7 and 8 at 512 × 512 pixels, GeForce GTX 680).
 
 use lumencut_core::error::Result;
 use lumencut_core::stages::{Image, ImageSet};
 use lumencut_phantom::{Phantom, aorta, cervical, runoff};
 
-/// Makes a workload from a seed and a scale.
+/// Makes a workload from seed and scale.
 pub type Maker = fn(u64, f64) -> Result<Phantom>;
 
-/// The workloads by their names, in the order of the paper's figures.
+/// The workloads by name, in the order of the paper's figures.
 pub const WORKLOADS: [(&str, Maker); 3] = [("aorta", aorta), ("runoff", runoff), ("cervical", cervical)];
 
-/// A stage and what the paper says of it.
+/// A stage, and the paper's timing.
 #[derive(Clone, Copy, Debug)]
 pub struct PaperStage {
-    /// What it is called here.
     pub stage: &'static str,
-    /// What it is called in the paper; empty where the paper has no such stage.
+    /// Its name in the paper; may be empty.
     pub papers_name: &'static str,
-    /// The paper's milliseconds for each workload; 0 where it has none.
+    /// The paper's milliseconds for each workload; 0 if missing.
     pub milliseconds: [f64; 3],
 }
 
@@ -34,10 +32,10 @@ pub const PAPER_STAGES: [PaperStage; 8] = [
     paper_stage("composite", "", [0.0; 3]),
 ];
 
-/// What a host asks for unless it wants all: the distance is made where the rules need it, or when it is asked for.
+/// The default images: distance is computed only if required or requested.
 pub const ASKED: ImageSet = ImageSet::ALL.without(Image::Distance);
 
-/// The paper's whole frames, with MIDA behind (ms).
+/// The paper's whole frames with MIDA context (ms).
 pub const PAPER_FRAMES: [f64; 3] = [218.0, 659.0, 314.0];
 
 const fn paper_stage(stage: &'static str, papers_name: &'static str, milliseconds: [f64; 3]) -> PaperStage {

@@ -1,8 +1,8 @@
-//! Depths and zones as a filter meets them, without a tree.
+//! Depths and zones for filters, without a tree.
 
 use crate::random::Random;
 
-/// A depth and a zone for each pixel: an uneven surface with leaps, in zones of all shapes.
+/// A depth and a zone per pixel: an uneven surface with jumps, in zones of all shapes.
 #[derive(Clone, Debug)]
 pub struct Zones {
     /// From −300 to 300 mm.
@@ -12,7 +12,6 @@ pub struct Zones {
 }
 
 impl Zones {
-    /// The ones of a seed.
     pub fn new(seed: u64, [width, height]: [usize; 2]) -> Self {
         const BLOCK: usize = 5;
         let mut random = Random::new(seed);
@@ -22,7 +21,7 @@ impl Zones {
         let leaps: Vec<f32> = (0..blocks).map(|_| if random.once_in(4) { 40.0 } else { 0.0 }).collect();
         let (mut depth, mut vessel) = (Vec::new(), Vec::new());
         for (y, x) in (0..height).flat_map(|y| (0..width).map(move |x| (y, x))) {
-            // The blocks of zones are not those of leaps, and single pixels are zones too.
+            // Zone blocks differ from depth blocks, and single pixels are zones too.
             let zone = zones[y / BLOCK * across + (x + y % 2) / BLOCK];
             let wave = 240.0 * (0.02 * x as f32).sin() * (0.03 * y as f32 + 0.5).cos();
             depth.push(wave + leaps[(y + 2) / BLOCK * across + (x + 3) / BLOCK] + random.between(-0.4, 0.4));

@@ -1,5 +1,4 @@
-//! What the page's worker calls: questions by their names, and what they do not do: devices, the turning view (on the canvas where
-//! a GPU computes, else as bytes), and voxels as they come.
+//! The interface of the page's worker: named questions, devices, voxels, and the turning view, on the canvas with a GPU, else as bytes.
 
 use js_sys::{Array, Date, Function, Promise, Uint8Array, Uint8ClampedArray};
 use lumencut::backend::{Backend, Drawn};
@@ -18,7 +17,7 @@ use lumencut::study::open_study::Study;
 use lumencut::study::questions::ask_at_once;
 use lumencut::study::view::{View, ViewMessage};
 
-/// What computes, and the study that is open. All methods throw the JSON of an error.
+/// The device and the open study. All methods throw errors as JSON.
 #[wasm_bindgen]
 pub struct Engine {
     backend: Backend,
@@ -26,30 +25,27 @@ pub struct Engine {
     study: Study,
 }
 
-/// What the page gets, or catches.
 type Thrown<T> = std::result::Result<T, JsValue>;
 
 fn thrown(failure: &Failure) -> JsValue {
     JsValue::from_str(&serde_json::to_string(failure).unwrap_or_else(|error| error.to_string()))
 }
 
-/// What succeeded, or what is thrown.
 fn answer<T>(result: Result<T>) -> Thrown<T> {
     result.map_err(|failure| thrown(&failure))
 }
 
-/// An answer as its JSON, and the bytes beside it; `undefined` where there are none.
+/// The answer: JSON, and bytes or `undefined`.
 fn sent(answered: Result<Answer>) -> Thrown<Array> {
     let Answer { json, bytes } = answer(answered)?;
     let bytes = bytes.map_or(JsValue::UNDEFINED, |bytes| clamped(&bytes).into());
     Ok(Array::of(&[json.into(), bytes]))
 }
 
-/// What computes on a device of this name.
 async fn backend(device: &str) -> Thrown<Backend> {
     let wanted = match device {
-        "any" => Wanted::told("auto", Some("any")),
-        name => Wanted::told(name, None),
+        "any" => Wanted::with_auto("auto", Some("any")),
+        name => Wanted::with_auto(name, None),
     };
     let wanted = answer(wanted.map_err(Failure::from))?;
     let (backend, _) = answer(Backend::new(wanted).await.map_err(Failure::from))?;
@@ -58,11 +54,10 @@ async fn backend(device: &str) -> Thrown<Backend> {
 
 #[wasm_bindgen]
 impl Engine {
-    /// An engine on `device`: `gpu`, `cpu`, or `auto`, a GPU of hardware where there is one; `any` takes a GPU that is software
-    /// too. It holds nothing yet.
+    /// An empty engine on `device`: `gpu`, `cpu`, `auto` (a hardware GPU if available) or `any` (software GPUs too).
     ///
     /// # Errors
-    /// `device` where a GPU is asked for and none can be used.
+    /// `device` if a required GPU cannot be used.
     pub async fn open(device: &str) -> Thrown<Engine> {
         Ok(Self { backend: backend(device).await?, screen: None, study: Study::default() })
     }
@@ -72,18 +67,15 @@ impl Engine {
         self.backend.name().to_owned()
     }
 
-    /// Computes on another device from now on, or on the same one after it was lost; the study stays open, and a GPU needs
-    /// a canvas anew: the one before stays black once the process of the browser that drew on it has failed.
-    ///
-    /// # Errors
-    /// As [`Engine::open`].
+    /// Switches the device, or reopens a lost one; the study stays open. A GPU needs a new canvas: the old one stays black after
+    /// the browser's GPU process failed.
     pub async fn change_device(&mut self, device: &str) -> Thrown<()> {
         self.screen = None;
         self.backend = backend(device).await?;
         Ok(())
     }
 
-    /// A promise that is kept once the GPU that computes now is lost.
+    /// A promise that resolves once the GPU in use is lost.
     pub fn loss(&self) -> Promise {
         let loss = self.backend.loss();
         future_to_promise(async move {
@@ -92,31 +84,24 @@ impl Engine {
         })
     }
 
-    /// From now on a GPU draws the turning view on this canvas.
-    ///
-    /// # Errors
-    /// `device` where the GPU cannot draw on it.
+    /// Lets a GPU draw the turning view on this canvas.
     pub fn draw_on(&mut self, canvas: OffscreenCanvas) -> Thrown<()> {
         self.screen = Some(answer(Screen::new(canvas).map_err(Failure::from))?);
         Ok(())
     }
 
-    /// Where in the memory of the module the byte lies that makes work stop: a view by its bit 1, tracing and measuring by its
-    /// bit 2.
+    /// Address of the stop byte in the module's memory: bit 1 stops views, bit 2 tracing and measuring.
     pub fn stop_address() -> usize {
         stopping::address()
     }
 
-    /// Long work can begin again: the page's cancellation has been heard.
+    /// Clears the page's cancellation, so that long work can start again.
     pub fn cancellation_was_heard() {
         stopping::heard(stopping::LONG);
     }
 
-    /// Answers a question of the table `lumencut::study::questions`: JSON, and bytes beside it or `undefined`. `bytes` are those of
-    /// a file for questions that take one; `listener` gets the share that is done now and then.
-    ///
-    /// # Errors
-    /// Those of the question, `interrupted` once the page says stop.
+    /// Answers a question of `lumencut::study::questions`: JSON, and bytes or `undefined`. `bytes` is an input file, if any;
+    /// `listener` receives the share done. Throws `interrupted` on a stop.
     pub fn ask(
         &mut self,
         name: &str,
@@ -124,78 +109,65 @@ impl Engine {
         bytes: &[u8],
         listener: Option<Function>,
     ) -> Thrown<Array> {
-        sent(stopping::watched(listener, |watch| {
+        sent(stopping::with_progress(listener, |watch| {
             self.study.ask(name, &Asking { message, bytes, watch, clock: &Date::now })
         }))
     }
 
-    /// Answers a question that asks nothing of the study, so that it need not wait for a view that is drawn; as [`Engine::ask`].
-    ///
-    /// # Errors
-    /// Those of the question.
+    /// As [`Engine::ask`], for questions that need no study and so do not wait for a view in progress.
     pub fn ask_at_once(name: &str, message: &str) -> Thrown<Array> {
         sent(ask_at_once(name, message))
     }
 
-    /// Makes room for a volume; `header` is the JSON before its voxels.
+    /// Makes room for a volume with this JSON header.
     ///
     /// # Errors
-    /// `volume` where there is no memory for it.
+    /// `volume` without memory.
     pub fn begin_volume(&mut self, header: &str) -> Thrown<()> {
         answer(self.study.begin_volume(header))
     }
 
-    /// Takes over bytes of voxels from `offset` on.
+    /// Writes bytes of voxels from `offset` on.
     ///
     /// # Errors
-    /// `volume` for more bytes than the header tells of.
+    /// `volume` beyond the volume's end.
     pub fn take_voxels(&mut self, offset: f64, bytes: &Uint8Array) -> Thrown<()> {
         let room = self.study.voxel_bytes(offset as usize, bytes.length() as usize);
         bytes.copy_to(answer(room)?);
         Ok(())
     }
 
-    /// Tells that voxels came since the picture before.
+    /// Invalidates caches after new voxels.
     pub fn voxels_changed(&mut self) {
         self.study.voxels_changed();
     }
 
-    /// Makes room for a mask; `header` is the JSON before its voxels.
+    /// Makes room for a mask with this JSON header.
     ///
     /// # Errors
-    /// `volume` where no scan is open, or there is no memory for the mask.
+    /// `volume` without a scan or memory.
     pub fn begin_mask(&mut self, header: &str) -> Thrown<()> {
         answer(self.study.begin_mask(header))
     }
 
-    /// Takes over bytes of voxels of the mask from `offset` on.
-    ///
-    /// # Errors
-    /// `volume` for more bytes than the header tells of.
+    /// Writes bytes of the mask's voxels from `offset` on.
     pub fn take_mask_voxels(&mut self, offset: f64, bytes: &Uint8Array) -> Thrown<()> {
         let room = self.study.mask_bytes(offset as usize, bytes.length() as usize);
         bytes.copy_to(answer(room)?);
         Ok(())
     }
 
-    /// Forgets the mask that was read.
+    /// Frees the mask.
     pub fn end_mask(&mut self) {
         self.study.end_mask();
     }
 
-    /// Opens a phantom by its name, in `scale` times as many voxels along each axis where it has scales.
-    ///
-    /// # Errors
-    /// `settings` for another name, `volume` where there is no memory for it.
+    /// Opens a phantom; workloads have `scale` times as many voxels along each axis.
     pub fn open_phantom(&mut self, name: &str, scale: f64) -> Thrown<()> {
         answer(phantoms::open(&mut self.study, name, scale))
     }
 
-    /// Renders a view, given as JSON. On the canvas of [`Engine::draw_on`] where the GPU computes, and then it gives nothing;
-    /// else its pixels, RGBA.
-    ///
-    /// # Errors
-    /// Those of view and scene, `interrupted` once the page says stop.
+    /// Renders a view given as JSON: on the canvas of [`Engine::draw_on`] with a GPU, else returns RGBA pixels.
     pub async fn render(&mut self, view: &str) -> Thrown<Option<Uint8ClampedArray>> {
         let view = answer(ViewMessage::read(view).and_then(|message| self.study.view_of(&message)))?;
         answer(self.rendered(&view).await)
@@ -215,7 +187,7 @@ impl Engine {
     }
 }
 
-/// Bytes as a browser takes them for a picture, which cannot be in shared memory.
+/// A copy: browsers take no pictures from shared memory.
 fn clamped(bytes: &[u8]) -> Uint8ClampedArray {
     let copy = Uint8ClampedArray::new_with_length(bytes.len() as u32);
     copy.copy_from(bytes);

@@ -1,5 +1,4 @@
-//! Lumencut in a browser: what the page in `web/` calls. It converts and decides nothing: texts of JSON become values of the
-//! facade's study ([`lumencut::study`]), and its pictures become bytes.
+//! Lumencut in a browser, for the page in `web/`: a thin conversion between JSON or bytes and the facade's [`lumencut::study`].
 
 #[cfg(target_arch = "wasm32")]
 mod engine;

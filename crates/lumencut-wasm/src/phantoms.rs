@@ -1,4 +1,4 @@
-//! Phantoms by their names.
+//! Phantoms by name.
 
 use lumencut::error::{Error, ErrorKind, Mend};
 use lumencut_phantom::Phantom;
@@ -8,11 +8,7 @@ use lumencut::study::held_volume::HeldVolume;
 use lumencut::study::open_study::Study;
 use lumencut::study::voxels::Stored;
 
-/// Opens a phantom in the place of all that is open, in `scale` times as many voxels along each axis where it is one that
-/// has scales.
-///
-/// # Errors
-/// As [`phantom`].
+/// Opens a phantom in place of the current study, see [`phantom`].
 pub fn open(study: &mut Study, name: &str, scale: f64) -> Result<()> {
     study.close();
     let Phantom { voxels, size, world_from_index, tree, vessel_names, .. } = phantom(name, scale)?;
@@ -21,10 +17,10 @@ pub fn open(study: &mut Study, name: &str, scale: f64) -> Result<()> {
     study.open(held, tree, vessel_names)
 }
 
-/// The phantom of this name, in `scale` times as many voxels along each axis where it is one that has scales.
+/// The phantom of this name; workloads have `scale` times as many voxels along each axis.
 ///
 /// # Errors
-/// `settings` for another name, `volume` where the browser has not enough memory.
+/// `settings` for another name, `volume` without memory.
 pub fn phantom(name: &str, scale: f64) -> Result<Phantom> {
     let made = match name {
         "aorta" => lumencut_phantom::aorta(0, scale),

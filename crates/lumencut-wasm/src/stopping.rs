@@ -1,5 +1,4 @@
-//! How the page stops work under way, and hears how far it is. The page sets bits of one byte where it shares the memory;
-//! nothing else reaches the worker before its work is done.
+//! Stops work in progress, and reports its progress. The page sets bits of a byte in shared memory: messages do not reach a busy worker.
 
 use std::cell::RefCell;
 use std::sync::atomic::{AtomicU8, Ordering};
@@ -11,52 +10,46 @@ use wasm_bindgen::JsValue;
 use lumencut::study::failure::Result;
 use lumencut::study::tracing::Watch;
 
-/// What the page asked to stop.
+/// The stop bits set by the page.
 static ASKED: AtomicU8 = AtomicU8::new(0);
 
-/// The bit for a view, and that for tracing and measuring: a view gives way to whatever the user waits for, long work to a
-/// cancellation alone. That is of all long work that was asked for before, so its bit stays until the worker hears of it.
+/// Bits of views, and of tracing and measuring. A cancellation covers all long work requested before it, so its bit stays until the
+/// worker receives the cancellation.
 pub const VIEW: u8 = 1;
 pub const LONG: u8 = 2;
 
-/// How often the page hears how far work is (ms).
-const TELLING: f64 = 100.0;
+/// Progress interval (ms).
+const PROGRESS_INTERVAL_MS: f64 = 100.0;
 
-/// Who hears of the work under way, and when that was last.
 struct Listener {
-    told: Function,
+    on_progress: Function,
     last: f64,
 }
 
 thread_local! {
-    /// The listener of the engine's own thread; others have none.
+    /// Set on the engine's own thread only.
     static LISTENER: RefCell<Option<Listener>> = const { RefCell::new(None) };
 }
 
-/// Where the byte lies.
 pub fn address() -> usize {
     ASKED.as_ptr() as usize
 }
 
-/// What was asked of a kind of work is heard, and counts no longer.
+/// Clears the stop bit of a kind of work.
 pub fn heard(kind: u8) {
     ASKED.fetch_and(!kind, Ordering::Relaxed);
 }
 
-/// Whether work of a kind is to stop.
 pub fn is_asked(kind: u8) -> bool {
     ASKED.load(Ordering::Relaxed) & kind != 0
 }
 
-/// Does work that can be stopped; `told`, where somebody listens, is called now and then with the share that is done.
-///
-/// # Errors
-/// Those of the work.
-pub fn watched<T>(told: Option<Function>, work: impl FnOnce(Watch) -> Result<T>) -> Result<T> {
+/// Runs work that can be stopped and reports the share done.
+pub fn with_progress<T>(on_progress: Option<Function>, work: impl FnOnce(Watch) -> Result<T>) -> Result<T> {
     let progress = Progress::default();
-    LISTENER.set(told.map(|told| Listener { told, last: Date::now() }));
+    LISTENER.set(on_progress.map(|on_progress| Listener { on_progress, last: Date::now() }));
     let stop = || {
-        tell(&progress);
+        report(&progress);
         is_asked(LONG)
     };
     let result = work(Watch { stop: &stop, progress: &progress });
@@ -64,14 +57,14 @@ pub fn watched<T>(told: Option<Function>, work: impl FnOnce(Watch) -> Result<T>)
     result
 }
 
-fn tell(progress: &Progress) {
+fn report(progress: &Progress) {
     LISTENER.with_borrow_mut(|listener| {
         let Some(listener) = listener else { return };
         let now = Date::now();
-        if now - listener.last >= TELLING {
+        if now - listener.last >= PROGRESS_INTERVAL_MS {
             listener.last = now;
-            // A page that does not listen any more is no reason to stop.
-            let _ = listener.told.call1(&JsValue::NULL, &JsValue::from_f64(progress.share()));
+            // A failing listener is no reason to stop.
+            let _ = listener.on_progress.call1(&JsValue::NULL, &JsValue::from_f64(progress.share()));
         }
     });
 }

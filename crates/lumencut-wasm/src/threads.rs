@@ -1,4 +1,4 @@
-//! Threads in a browser: workers that share the memory of this module, where the page is cross-origin isolated.
+//! Threads in a browser: workers that share this module's memory, if the page is cross-origin isolated.
 
 use std::collections::VecDeque;
 use std::sync::{Condvar, Mutex, PoisonError};
@@ -6,14 +6,11 @@ use std::sync::{Condvar, Mutex, PoisonError};
 use rayon::{ThreadBuilder, ThreadPoolBuilder};
 use wasm_bindgen::prelude::{JsError, wasm_bindgen};
 
-/// Threads that no worker runs yet.
+/// Threads without a worker yet.
 static WAITING: Mutex<VecDeque<ThreadBuilder>> = Mutex::new(VecDeque::new());
 static COME: Condvar = Condvar::new();
 
-/// Lets `count` workers compute from now on. They wait in [`run_thread`] already: this one cannot go on before they do.
-///
-/// # Errors
-/// Where it was called before.
+/// Starts a pool of `count` workers; blocks until all of them wait in [`run_thread`]. Can be called once only.
 #[wasm_bindgen]
 pub fn use_threads(count: usize) -> Result<(), JsError> {
     let pool = ThreadPoolBuilder::new().num_threads(count).spawn_handler(|thread| {
@@ -24,7 +21,7 @@ pub fn use_threads(count: usize) -> Result<(), JsError> {
     pool.build_global().map_err(|error| JsError::new(&error.to_string()))
 }
 
-/// Runs one of the threads in the worker that calls it, to its end.
+/// Runs one thread in the calling worker, to its end.
 #[wasm_bindgen]
 pub fn run_thread() {
     let mut waiting = WAITING.lock().unwrap_or_else(PoisonError::into_inner);

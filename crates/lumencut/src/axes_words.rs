@@ -1,45 +1,44 @@
-//! What rows and columns of a reformation are, in words that stand at its picture.
+//! Captions that explain the rows and columns of a reformation.
 
 use crate::text::{fixed, rounded};
 
-/// A reformation whose axes are told.
+/// A reformation whose axes are explained.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Axes {
     /// The untangled CPR.
     Untangled,
-    /// A vessel that is straightened by an amount from 0 to 1.
+    /// A vessel straightened by an amount from 0 to 1.
     Uncurled(f64),
-    /// The spiral CPR with samples at even arc lengths, by its pitch (mm).
+    /// The spiral CPR sampled at even arc lengths; its pitch (mm).
     SpiralByArc(f64),
-    /// The spiral CPR with samples at even angles.
+    /// The spiral CPR sampled at even angles.
     SpiralByAngle,
-    /// The lumen map, by the radius at which its columns are true (mm).
+    /// The lumen map; the radius at which its columns are true to scale (mm).
     Map(f64),
 }
 
 impl Axes {
-    /// Sentences for readers.
+    /// The caption.
     pub fn words(self) -> String {
         match self {
             Self::Untangled => {
-                "Along each vessel: its length, in mm. Across it: to its sides, in mm. Branches are turned \
-                apart: angles between vessels are not those of the body."
+                "Along each vessel: its length, in mm. Across it: to its sides, in mm. Branches are spread apart: angles between vessels differ from those in the body."
                     .to_owned()
             }
             Self::Uncurled(amount) => format!(
-                "As the camera sees the vessel bent {} % of the way to straight, its length kept.",
+                "The vessel as the camera sees it, straightened by {} %; its length is kept.",
                 fixed(100.0 * amount, 0)
             ),
             Self::SpiralByArc(pitch) => format!(
-                "Down: along the vessel, in mm. Across: sections wound up; width = area / {} mm.",
+                "Down: along the vessel, in mm. Across: each section, unrolled along a spiral; width = area / {} mm.",
                 rounded(pitch, 3)
             ),
             Self::SpiralByAngle => {
-                "Down: along the vessel, in mm. Across: sections wound up by angle; widths are no areas."
+                "Down: along the vessel, in mm. Across: each section, unrolled along a spiral at even angles; width is not area."
                     .to_owned()
             }
             Self::Map(radius) => format!(
-                "Down: along the vessel, in mm. Across: once around its wall, true {} mm from its middle.",
+                "Down: along the vessel, in mm. Across: once around the wall, true to scale {} mm from the centre.",
                 fixed(radius, 1)
             ),
         }
@@ -52,8 +51,8 @@ mod tests {
 
     #[test]
     fn numbers_stand_in_the_words_as_readers_write_them() {
-        assert!(Axes::Uncurled(0.25).words().contains("bent 25 % of"));
+        assert!(Axes::Uncurled(0.25).words().contains("straightened by 25 %"));
         assert!(Axes::SpiralByArc(1.25).words().ends_with("width = area / 1.25 mm."));
-        assert!(Axes::Map(6.0).words().contains("true 6.0 mm from"));
+        assert!(Axes::Map(6.0).words().contains("true to scale 6.0 mm from"));
     }
 }

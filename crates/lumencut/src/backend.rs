@@ -1,4 +1,4 @@
-//! What computes views: the CPU, or a GPU, which the CPU can stand in for.
+//! Computes views on the CPU, or on a GPU with the CPU as fallback.
 
 use lumencut_core::error::{Error, ErrorKind, Result};
 use lumencut_core::frame::Frame;
@@ -13,28 +13,27 @@ use crate::devices::{self, Choice, Wanted};
 use crate::method::{Method, refuse_focus};
 use crate::samples::{Mean, sub_views};
 
-/// The environment variable that names the stages that the CPU does in place of the GPU, with commas between: to find
-/// the one that errs.
+/// Environment variable that lists the stages the CPU computes in place of the GPU (comma-separated), to locate a faulty stage.
 #[cfg(not(target_arch = "wasm32"))]
-pub const CPU_STAGES: &str = "LUMENCUT_CPU_STAGES";
+pub(crate) const CPU_STAGES: &str = "LUMENCUT_CPU_STAGES";
 
-/// Where a picture went.
+/// Where the image went.
 #[cfg(target_arch = "wasm32")]
 pub enum Drawn {
     /// On the canvas.
     OnScreen,
-    /// To the caller.
+    /// Returned to the caller.
     Frame(Frame),
 }
 
-/// What is asked of every sample of a picture.
+/// Images that every sample of a picture needs.
 const PICTURE: ImageSet = ImageSet::of(&[Image::Picture]);
 
-/// What computes views.
+/// The device that computes views.
 pub struct Backend {
     computer: Computer,
-    /// Why the CPU took over from the GPU, until a whole view tells it.
-    untold: Option<Error>,
+    /// Why the CPU took over, until a finished view reports it.
+    unreported: Option<Error>,
 }
 
 enum Computer {
@@ -42,17 +41,16 @@ enum Computer {
     Gpu(Box<Gpu>),
 }
 
-/// A frame; and where the CPU took over for good since the frame before, why.
-pub type Rendered = (Frame, Option<Error>);
+pub(crate) type Rendered = (Frame, Option<Error>);
 
 impl Backend {
-    /// What is wanted; where that is a GPU that the CPU may stand in for, and it does not open, the reason too.
+    /// Opens the wanted device. Also returns the error if an optional GPU does not open.
     ///
     /// # Errors
-    /// [`ErrorKind::Device`] where a GPU must compute and none can be used.
+    /// [`ErrorKind::Device`] if a required GPU cannot be used.
     pub async fn new(wanted: Wanted) -> Result<(Self, Option<Error>)> {
         let (computer, given_up) = Computer::new(wanted).await?;
-        Ok((Self { computer, untold: None }, given_up))
+        Ok((Self { computer, unreported: None }, given_up))
     }
 
     /// "cpu", or the name of the GPU.
@@ -63,21 +61,17 @@ impl Backend {
         }
     }
 
-    /// Renders a view of a scene. With several samples per pixel side (`Settings::samples`) the picture is the mean of
-    /// pictures that are seen from places within a pixel; all other images are those of the view itself.
+    /// Renders a view. With several samples per pixel (`Settings::samples`) the picture is the mean over positions within the
+    /// pixel; all other images show the view itself.
     ///
     /// # Errors
-    /// Those of the scene and the settings, [`ErrorKind::Interrupted`] once `request.stop` says so, and
-    /// [`ErrorKind::Device`] where the GPU fails and the CPU may not stand in for it.
+    /// Those of scene and settings; [`ErrorKind::Interrupted`]; [`ErrorKind::Device`] if a required GPU fails.
     pub async fn render(&mut self, scene: &Scene<'_>, request: &Request<'_>) -> Result<Rendered> {
         self.render_by(Method::CutSurface, scene, request).await
     }
 
-    /// The same by any method. Where the pixels look by mpCPR and CR the CPU finds; what is shown there the GPU, where it
-    /// computes. How far they are is told at their end alone.
-    ///
-    /// # Errors
-    /// As [`Backend::render`], and those of the method.
+    /// Renders a view by any method. The CPU finds the positions of mpCPR and CR, the GPU samples them; progress arrives only at
+    /// the end.
     pub async fn render_by(
         &mut self,
         method: Method,
@@ -87,7 +81,7 @@ impl Backend {
         let views = sub_views(request.camera, request.settings.samples)?;
         let has_samples = views.len() > 1 && scene.volume.is_some() && request.images.has(Image::Picture);
         if let Some(progress) = request.progress {
-            // The middle one of an odd number of samples is the view itself.
+            // The middle sample of an odd number is the view itself.
             let samples = views.iter().filter(|camera| *camera != request.camera).count();
             progress.expect_views(if has_samples { 1 + samples } else { 1 });
         }
@@ -106,15 +100,13 @@ impl Backend {
             }
             frame.image = mean.pixels();
         }
-        Ok((frame, self.untold.take()))
+        Ok((frame, self.unreported.take()))
     }
 
-    /// The picture of a view on a canvas where a GPU computes, else to the caller. What the GPU makes alone, one sample of a cut
-    /// surface, never leaves it.
+    /// Draws a view on a canvas if a GPU computes, else returns it. One sample of a cut surface never leaves the GPU.
     ///
     /// # Errors
-    /// As [`Backend::render_by`]; [`ErrorKind::Device`] also where the CPU could stand in, so that the caller can choose anew
-    /// what computes.
+    /// As [`Backend::render_by`]; [`ErrorKind::Device`] even if the GPU is optional, so that the caller can choose the device.
     #[cfg(target_arch = "wasm32")]
     pub async fn draw(
         &mut self,
@@ -139,7 +131,7 @@ impl Backend {
         Ok(Drawn::OnScreen)
     }
 
-    /// Ends once the GPU that computes now is lost; at once where none does.
+    /// Resolves once the GPU in use is lost; at once if there is none.
     #[cfg(target_arch = "wasm32")]
     pub fn loss(&self) -> impl Future<Output = ()> + use<> {
         let renderer = match &self.computer {
@@ -154,11 +146,8 @@ impl Backend {
         }
     }
 
-    /// Shows a volume where another method than the cut surface looks: in the places of the frame that `places` makes, once
-    /// more where the CPU takes over. One sample per pixel.
-    ///
-    /// # Errors
-    /// Those of `places`, and as [`Backend::render`].
+    /// Samples a volume at the positions of the frame that `places` makes; runs again on the CPU if the GPU fails. One sample per
+    /// pixel.
     pub async fn look(
         &mut self,
         volume: &SharedVolume<'_>,
@@ -167,7 +156,7 @@ impl Backend {
     ) -> Result<Rendered> {
         refuse_focus(request.settings)?;
         let gpu = match &mut self.computer {
-            Computer::Cpu(cpu) => return Ok((cpu.look(volume, places()?, request)?, self.untold.take())),
+            Computer::Cpu(cpu) => return Ok((cpu.look(volume, places()?, request)?, self.unreported.take())),
             Computer::Gpu(gpu) => gpu,
         };
         let error = match gpu.look(volume, places()?, request).await {
@@ -183,7 +172,6 @@ impl Backend {
         Ok((frame, Some(error)))
     }
 
-    /// One picture with one sample per pixel.
     async fn render_once(
         &mut self,
         method: Method,
@@ -197,7 +185,6 @@ impl Backend {
         Ok(frame)
     }
 
-    /// The same from the GPU, or from the CPU.
     async fn computed(&mut self, method: Method, scene: &Scene<'_>, request: &Request<'_>) -> Result<Frame> {
         let gpu = match &mut self.computer {
             Computer::Cpu(cpu) => return method.on_cpu(cpu, scene, request),
@@ -211,10 +198,10 @@ impl Backend {
             return Err(error);
         }
         let mut cpu = CpuRenderer::default();
-        // Whoever interrupts this picture has not heard of the failure yet: the GPU is then tried again.
+        // Interrupted: the caller has not seen the GPU's failure yet, so the next view tries the GPU again.
         let frame = method.on_cpu(&mut cpu, scene, request)?;
         self.computer = Computer::Cpu(cpu);
-        self.untold = Some(error);
+        self.unreported = Some(error);
         Ok(frame)
     }
 }
@@ -240,14 +227,11 @@ impl Computer {
     }
 }
 
-/// The GPU of the process, and what a renderer keeps on it.
 struct Gpu {
     choice: Choice,
-    /// Whether the CPU may stand in for it.
     is_optional: bool,
     name: String,
     renderer: Option<GpuRenderer>,
-    /// The process that opened it.
     process: u32,
 }
 
@@ -256,7 +240,7 @@ impl Gpu {
         Self { choice, is_optional, name: String::new(), renderer: None, process: devices::process() }
     }
 
-    /// What the GPU keeps, made anew after a failure and in a forked process.
+    /// The renderer; reopened after a failure and in a forked process.
     async fn open(&mut self) -> Result<&mut GpuRenderer> {
         self.leave_the_parents();
         let renderer = match self.renderer.take() {
@@ -300,7 +284,6 @@ impl Gpu {
         self.kept_unless_failed(outcome)
     }
 
-    /// Keeps nothing on a GPU that failed, so that whoever asks next opens it anew.
     fn kept_unless_failed<T>(&mut self, outcome: Result<T>) -> Result<T> {
         let has_failed = outcome.as_ref().is_err_and(|error| error.kind == ErrorKind::Device);
         if has_failed && let Some(renderer) = self.renderer.take() {
@@ -309,7 +292,6 @@ impl Gpu {
         outcome
     }
 
-    /// A forked process cannot use, or free, what its parent has on the GPU.
     fn leave_the_parents(&mut self) {
         let process = devices::process();
         if self.process != process {
@@ -325,7 +307,7 @@ impl Drop for Gpu {
     }
 }
 
-/// The same renderer, with the stages that [`CPU_STAGES`] names done by the CPU.
+/// The renderer with the stages of [`CPU_STAGES`] moved to the CPU.
 #[cfg(not(target_arch = "wasm32"))]
 fn forced_to_cpu(mut renderer: GpuRenderer) -> Result<GpuRenderer> {
     let named = std::env::var(CPU_STAGES).unwrap_or_default();

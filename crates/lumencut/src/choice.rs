@@ -1,50 +1,40 @@
-//! The choice among the spaces and units of centerlines, and the counts behind it in words.
+//! Chooses the space and unit of centerlines, and words the counts behind the choice.
 
 use std::collections::BTreeSet;
 
 use lumencut_io::{Error, Mend, Result, Space, Unit};
 
 use crate::lumen_points::LumenCount;
-use crate::places::{Place, Reading, Statement, mm};
+use crate::places::{CoordinateSystem, Reading, Statement, mm};
 
-/// Counts the points that look like lumen in a place.
-type Lumen<'a> = &'a dyn Fn(Place) -> LumenCount;
+type Lumen<'a> = &'a dyn Fn(CoordinateSystem) -> LumenCount;
 
-/// The choice of a place by the points that it brings into the volume.
-pub struct Choice {
-    /// What each place makes of the points.
-    pub readings: Vec<Reading>,
-    /// The place that is taken where the volume does not speak against it.
-    pub usual: Place,
-    /// How many points there are.
-    pub total: usize,
+pub(crate) struct Choice {
+    pub(crate) readings: Vec<Reading>,
+    /// Taken unless the volume contradicts it.
+    pub usual: CoordinateSystem,
+    pub(crate) total: usize,
 }
 
-/// The place that was chosen.
-pub struct Chosen {
-    /// The place, and how many points it brings into the volume.
-    pub best: Reading,
-    /// Where the values of the volume have chosen the space or the unit: what they say.
+pub(crate) struct Chosen {
+    pub(crate) best: Reading,
+    /// Evidence, if the values of the volume decided.
     pub by_values: Option<ByValues>,
-    /// The units that fit the volume too.
+    /// Other units that fit the volume.
     pub also: Vec<Unit>,
 }
 
-/// What the values of a volume have chosen.
 #[derive(Clone, Debug)]
-pub struct ByValues {
-    /// Whether they chose the space.
+pub(crate) struct ByValues {
+    /// They decided the space.
     pub space: bool,
-    /// Whether they chose the unit, and not the usual one.
+    /// They decided for an unusual unit.
     pub unit: bool,
-    /// What they say, in words.
     pub words: String,
 }
 
-/// Readings in one unit, and what led to it.
 struct OfOneUnit {
     readings: Vec<Reading>,
-    /// What the values say, where they chose.
     words: Option<String>,
     also: Vec<Unit>,
 }
@@ -62,11 +52,8 @@ impl Chosen {
 }
 
 impl Choice {
-    /// The place that fits the volume; the usual one where the file states a space and none fits.
-    ///
-    /// # Errors
-    /// Where several places fit it alike and its values do not tell which, or none fits and the space is open.
-    pub fn best(&self, lumen: Lumen) -> Result<Chosen> {
+    /// The place that fits the volume; the usual one if the file states a space and none fits.
+    pub(crate) fn best(&self, lumen: Lumen) -> Result<Chosen> {
         let most = self.readings.iter().map(Reading::fits).max().unwrap_or(0);
         let spaces: BTreeSet<&str> = self.readings.iter().map(|reading| reading.place.space.name()).collect();
         if most == 0 && spaces.len() == 1 {
@@ -85,7 +72,7 @@ impl Choice {
                 let (best, words) =
                     self.space_by_values(one, other, lumen).ok_or_else(|| match found.also[..] {
                         [] => self.undecided(&[one, other]),
-                        // Where the space is asked for, so is the unit.
+                        // A question about the space also asks for the unit.
                         _ => self.undecided(&fitting),
                     })?;
                 (best, Some(ByValues { space: true, unit: found.words.is_some(), words }))
@@ -99,8 +86,8 @@ impl Choice {
         Ok(Chosen { best, by_values, also: found.also })
     }
 
-    /// The readings of the unit in which the points evidently look like lumen, else those of the usual one. Lines that are
-    /// short in the usual unit are as likely in another.
+    /// Readings in the unit whose points clearly look like lumen, else in the usual one. Lines too short in the usual unit may be
+    /// in another.
     fn of_one_unit(&self, fitting: &[Reading], lumen: Lumen) -> Result<OfOneUnit> {
         let units = units_of(fitting);
         if units.len() < 2 {
@@ -120,41 +107,39 @@ impl Choice {
         }
     }
 
-    /// The unit in which the points look like lumen, where that is evident beside all others.
     fn unit_by_values(&self, fitting: &[Reading], lumen: Lumen) -> Option<(Unit, String)> {
-        let counts: Vec<(Place, LumenCount)> =
+        let counts: Vec<(CoordinateSystem, LumenCount)> =
             fitting.iter().map(|reading| (reading.place, lumen(reading.place))).collect();
         let (best, most) = counts.iter().max_by_key(|(_, count)| count.like_lumen)?;
         let others = counts.iter().filter(|(place, _)| place.unit != best.unit);
-        if !others.clone().all(|(_, count)| most.is_evident_beside(*count)) {
+        if !others.clone().all(|(_, count)| most.is_evident_over(*count)) {
             return None;
         }
-        let told = |(place, count): &(Place, LumenCount)| {
-            format!("{} of {} points looked at look like lumen in {place}", count.like_lumen, count.of)
+        let lumen_words = |(place, count): &(CoordinateSystem, LumenCount)| {
+            format!("{} of {} sampled points look like lumen in {place}", count.like_lumen, count.of)
         };
-        let others: Vec<String> = others.map(told).collect();
+        let others: Vec<String> = others.map(lumen_words).collect();
         let words = format!(
             "{} fit the volume; {}, but {}: read in {}",
             self.several(fitting),
             others.join(" and "),
-            told(&(*best, *most)),
+            lumen_words(&(*best, *most)),
             best.unit.name(),
         );
         Some((best.unit, words))
     }
 
-    /// The one of two spaces in which the points look like lumen, where that is evident, and what the values say.
     fn space_by_values(&self, one: Reading, other: Reading, lumen: Lumen) -> Option<(Reading, String)> {
         let (of_one, of_other) = (lumen(one.place), lumen(other.place));
-        let (best, other, count, few) = if of_one.is_evident_beside(of_other) {
+        let (best, other, count, few) = if of_one.is_evident_over(of_other) {
             (one, other, of_one, of_other)
-        } else if of_other.is_evident_beside(of_one) {
+        } else if of_other.is_evident_over(of_one) {
             (other, one, of_other, of_one)
         } else {
             return None;
         };
         let by_values = format!(
-            "both {} ({} of {} points inside) and {} ({}) fit the volume; of {} points looked at, {} look like lumen in {} and \
+            "both {} ({} of {} points inside) and {} ({}) fit the volume; of {} sampled points, {} look like lumen in {} and \
              {} in {}: read in {}",
             best.place,
             best.inside,
@@ -190,37 +175,35 @@ impl Choice {
         } else {
             Mend::Unit(units)
         };
-        let found = "neither stated nor to be told by the volume what its coordinates are";
-        Error::new("", format!("{found}: {}", self.several(fitting)), "one that fits").mended_by(mend)
+        let found = "coordinates that are not stated and that the volume does not decide";
+        Error::new("", format!("{found}: {}", self.several(fitting)), "a space and unit that fit")
+            .mended_by(mend)
     }
 
-    /// Several readings with the counts behind them, and with their sizes where the unit is not the usual one.
     fn several(&self, fitting: &[Reading]) -> String {
         let is_usual = units_of(fitting)[..] == [self.usual.unit];
-        let told = |reading: &Reading| {
+        let reading_words = |reading: &Reading| {
             let size = if is_usual { String::new() } else { format!(", {} across", mm(reading.across)) };
             format!("{} ({} of {} points inside{size})", reading.place, reading.inside, self.total)
         };
-        fitting.iter().map(told).collect::<Vec<_>>().join(", ")
+        fitting.iter().map(reading_words).collect::<Vec<_>>().join(", ")
     }
 
-    /// What the caller would state to confirm a choice against the usual place.
-    pub fn confirmed_by(&self, best: Reading) -> Statement {
-        let Place { space, unit } = best.place;
+    pub(crate) fn confirmed_by(&self, best: Reading) -> Statement {
+        let CoordinateSystem { space, unit } = best.place;
         Statement {
             space: (space != self.usual.space).then_some(space),
             unit: (unit != self.usual.unit).then_some(unit),
         }
     }
 
-    /// The choice in words, with the counts that it rests on.
-    pub fn told(&self, best: Reading) -> String {
+    pub(crate) fn decision_words(&self, best: Reading) -> String {
         if best.place == self.usual {
-            return self.told_as_usual(best);
+            return self.usual_decision_words(best);
         }
         let usual = self.readings.iter().find(|reading| reading.place == self.usual);
         let inside = usual.map_or(0, |reading| reading.inside);
-        // Lines that lie inside and have no size in the usual unit.
+        // Lines inside the volume whose size is implausible in the usual unit.
         let tiny = usual.filter(|usual| usual.inside > 0 && !usual.is_plausible);
         let size = |across| tiny.map_or(String::new(), |_| format!(", {} across", mm(across)));
         format!(
@@ -234,7 +217,7 @@ impl Choice {
         )
     }
 
-    fn told_as_usual(&self, best: Reading) -> String {
+    fn usual_decision_words(&self, best: Reading) -> String {
         let others = self.readings.iter().filter(|reading| {
             reading.place.space != best.place.space && reading.place.unit == best.place.unit
         });
@@ -254,7 +237,6 @@ impl Choice {
     }
 }
 
-/// The units of readings, each once.
 fn units_of(readings: &[Reading]) -> Vec<Unit> {
     Unit::ALL.into_iter().filter(|unit| readings.iter().any(|reading| reading.place.unit == *unit)).collect()
 }

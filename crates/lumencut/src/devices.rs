@@ -1,4 +1,4 @@
-//! The GPU of this process, which all its scenes share, and which of the GPUs it may be.
+//! The GPU of this process, shared by all scenes, and the choice among GPUs.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -7,40 +7,41 @@ use lumencut_core::error::{Error, ErrorKind, Result};
 pub use lumencut_gpu::adapter::{Choice, Description, devices};
 pub use lumencut_gpu::device::Device;
 
-/// The environment variable that says what `auto` takes: `hardware` where nothing is said, `any` GPU, or the `cpu`.
-pub const AUTO: &str = "LUMENCUT_AUTO_DEVICE";
+/// Environment variable for the meaning of `auto`: `hardware` (default), `any` GPU, or `cpu`.
+pub(crate) const AUTO: &str = "LUMENCUT_AUTO_DEVICE";
 
-/// Whether a search for hardware has found none; it does not appear later.
+/// Set once a search found no hardware GPU; none appears later.
 static IS_BARE: AtomicBool = AtomicBool::new(false);
 
-/// What mends it where a forked process cannot open the GPU that its parent has: some drivers serve the parent alone.
-const SPAWN: &str = "start processes by 'spawn' instead of 'fork': this driver serves no forked process";
+/// Advice if a forked process cannot open its parent's GPU: some drivers serve the parent only.
+const SPAWN: &str =
+    "start processes by 'spawn' instead of 'fork': this driver does not support forked processes";
 
-/// What a scene is to be computed on.
+/// The requested device.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Wanted {
     /// The CPU.
     Cpu,
     /// A GPU, or an error.
     Gpu(Choice),
-    /// A GPU, or the CPU.
+    /// A GPU if available, else the CPU.
     Auto(Choice),
 }
 
 impl Wanted {
-    /// What `auto`, `cpu` or `gpu` stands for; of `auto` the environment variable [`AUTO`] may say more.
+    /// The device for `auto`, `cpu` or `gpu`; [`AUTO`] refines `auto`.
     ///
     /// # Errors
     /// [`ErrorKind::Settings`] for another name, also in the environment variable.
     pub fn named(name: &str) -> Result<Self> {
-        Self::told(name, std::env::var(AUTO).ok().as_deref())
+        Self::with_auto(name, std::env::var(AUTO).ok().as_deref())
     }
 
-    /// What `name` stands for where `auto` stands for what is told: `hardware` where nothing is, `any` GPU, or the `cpu`.
+    /// The device for `name`, with the meaning of `auto` given.
     ///
     /// # Errors
-    /// [`ErrorKind::Settings`] for another name of either.
-    pub fn told(name: &str, auto: Option<&str>) -> Result<Self> {
+    /// [`ErrorKind::Settings`] for an unknown name.
+    pub fn with_auto(name: &str, auto: Option<&str>) -> Result<Self> {
         match name {
             "cpu" => Ok(Self::Cpu),
             "gpu" => Ok(Self::Gpu(Choice::Any)),
@@ -61,7 +62,6 @@ fn unknown(subject: &str, found: &str, expected: &str) -> Error {
     Error::new(ErrorKind::Settings, subject, format!("'{found}'"), expected)
 }
 
-/// A GPU, and the process that opened it: a forked process cannot use its parent's.
 struct Opened {
     process: u32,
     device: Arc<Device>,
@@ -74,10 +74,10 @@ impl Opened {
     }
 }
 
-/// The GPU of this process, opened where it is not yet.
+/// The GPU of this process, opened if needed.
 ///
 /// # Errors
-/// [`ErrorKind::Device`] where there is none of that kind, or none that can be used.
+/// [`ErrorKind::Device`] if there is none of that kind, or it cannot be used.
 pub async fn open(choice: Choice) -> Result<Arc<Device>> {
     let (shared, is_forked) = with_shared(|shared| {
         let device =
@@ -93,24 +93,20 @@ pub async fn open(choice: Choice) -> Result<Arc<Device>> {
     }
 }
 
-/// Makes a GPU that was just opened the one of this process, unless another thread was quicker: then that one is it.
+/// Shares a newly opened GPU, unless another thread was faster: then returns that one.
 fn share(device: Arc<Device>, choice: Choice) -> Arc<Device> {
     with_shared(|shared| {
         if let Some(opened) = shared.as_ref().filter(|opened| opened.will_do(choice)) {
             return Arc::clone(&opened.device);
         }
-        // Dropping the parent's would wait for a GPU that does not listen to this process.
+        // Dropping the parent's GPU would block: it does not respond to this process.
         std::mem::forget(shared.take_if(|opened| opened.process != process()));
         *shared = Some(Opened { process: process(), device: Arc::clone(&device) });
         device
     })
 }
 
-/// The GPU of this process where this machine has one of that kind.
-///
-/// # Errors
-/// [`ErrorKind::Device`] where there is one that cannot be used.
-pub async fn open_if_there(choice: Choice) -> Result<Option<Arc<Device>>> {
+pub(crate) async fn open_if_there(choice: Choice) -> Result<Option<Arc<Device>>> {
     if choice == Choice::Hardware && IS_BARE.load(Ordering::Relaxed) {
         return Ok(None);
     }
@@ -127,19 +123,18 @@ pub async fn open_if_there(choice: Choice) -> Result<Option<Arc<Device>>> {
     }
 }
 
-/// Lets the next scene open the GPU anew, once this one has failed.
+/// Lets the next scene reopen the GPU after a failure.
 pub fn forget(failed: &Device) {
     with_shared(|shared| {
         drop(shared.take_if(|opened| std::ptr::eq(Arc::as_ptr(&opened.device), failed)));
     });
 }
 
-/// The number of this process; a page of a browser is the only one.
+/// The process id; constant in a browser.
 pub(crate) fn process() -> u32 {
     if cfg!(target_arch = "wasm32") { 0 } else { std::process::id() }
 }
 
-/// Runs `work` on the place of the shared GPU.
 #[cfg(not(target_arch = "wasm32"))]
 fn with_shared<T>(work: impl FnOnce(&mut Option<Opened>) -> T) -> T {
     use std::sync::{Mutex, PoisonError};
@@ -148,7 +143,6 @@ fn with_shared<T>(work: impl FnOnce(&mut Option<Opened>) -> T) -> T {
     work(&mut SHARED.lock().unwrap_or_else(PoisonError::into_inner))
 }
 
-/// Runs `work` on the place of the shared GPU; a browser lets no other thread use it.
 #[cfg(target_arch = "wasm32")]
 fn with_shared<T>(work: impl FnOnce(&mut Option<Opened>) -> T) -> T {
     use std::cell::RefCell;
@@ -163,24 +157,24 @@ mod tests {
 
     #[test]
     fn auto_is_hardware_unless_told_otherwise() {
-        assert_eq!(Wanted::told("auto", None), Ok(Wanted::Auto(Choice::Hardware)));
-        assert_eq!(Wanted::told("auto", Some("")), Ok(Wanted::Auto(Choice::Hardware)));
-        assert_eq!(Wanted::told("auto", Some("hardware")), Ok(Wanted::Auto(Choice::Hardware)));
-        assert_eq!(Wanted::told("auto", Some("any")), Ok(Wanted::Auto(Choice::Any)));
-        assert_eq!(Wanted::told("auto", Some("cpu")), Ok(Wanted::Cpu));
+        assert_eq!(Wanted::with_auto("auto", None), Ok(Wanted::Auto(Choice::Hardware)));
+        assert_eq!(Wanted::with_auto("auto", Some("")), Ok(Wanted::Auto(Choice::Hardware)));
+        assert_eq!(Wanted::with_auto("auto", Some("hardware")), Ok(Wanted::Auto(Choice::Hardware)));
+        assert_eq!(Wanted::with_auto("auto", Some("any")), Ok(Wanted::Auto(Choice::Any)));
+        assert_eq!(Wanted::with_auto("auto", Some("cpu")), Ok(Wanted::Cpu));
     }
 
     #[test]
     fn a_device_that_is_named_does_not_ask_the_environment() {
-        assert_eq!(Wanted::told("cpu", Some("any")), Ok(Wanted::Cpu));
-        assert_eq!(Wanted::told("gpu", Some("cpu")), Ok(Wanted::Gpu(Choice::Any)));
+        assert_eq!(Wanted::with_auto("cpu", Some("any")), Ok(Wanted::Cpu));
+        assert_eq!(Wanted::with_auto("gpu", Some("cpu")), Ok(Wanted::Gpu(Choice::Any)));
     }
 
     #[test]
     fn unknown_names_are_refused_with_their_source() {
-        let error = Wanted::told("tpu", None).unwrap_err();
+        let error = Wanted::with_auto("tpu", None).unwrap_err();
         assert_eq!(error.to_string(), "device: found 'tpu'; expected auto, cpu or gpu");
-        let error = Wanted::told("auto", Some("fast")).unwrap_err();
+        let error = Wanted::with_auto("auto", Some("fast")).unwrap_err();
         assert_eq!(error.kind, ErrorKind::Settings);
         assert_eq!(
             error.to_string(),

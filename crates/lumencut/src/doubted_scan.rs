@@ -1,31 +1,29 @@
-//! Doubts of the size of a scan: its header may state another unit of length than it is written in.
+//! Detects scans of implausible size, as when the header uses another unit of length.
 
 use glam::{DAffine3, DVec3};
 
 use crate::places::LARGEST;
 use crate::text::rounded;
 
-/// A scan whose longest side is shorter (mm) shows no vessel of a body.
-const SHORTEST: f64 = 1.0;
-/// What lengths are to be multiplied by where metres or micrometres were taken for mm, or the other way round.
-const FACTORS: [f64; 2] = [1e-3, 1e3];
-/// Digits of a length.
+/// A scan whose longest side is shorter (mm) is implausible.
+const MIN_LENGTH_MM: f64 = 1.0;
+/// Corrections for metres or micrometres taken as mm.
+const UNIT_FACTORS: [f64; 2] = [1e-3, 1e3];
 const DIGITS: usize = 6;
 
-/// What speaks against the lengths of a grid with `size` voxels along (i, j, k): a scan that is larger than a body, or smaller than
-/// a vessel.
+/// Describes an implausible size of a grid of `size` voxels (i, j, k): larger than a body or smaller than a vessel.
 pub fn doubted_size(size: [usize; 3], world_from_index: DAffine3) -> Option<String> {
     let axes = world_from_index.matrix3;
     let sides = [axes.x_axis, axes.y_axis, axes.z_axis].map(DVec3::length);
     let longest = (0..3).map(|axis| sides[axis] * size[axis] as f64).fold(0.0, f64::max);
-    if (SHORTEST..=LARGEST).contains(&longest) || !longest.is_finite() {
+    if (MIN_LENGTH_MM..=LARGEST).contains(&longest) || !longest.is_finite() {
         return None;
     }
     let mm = |length: f64| rounded(length, DIGITS);
-    let likelier = FACTORS.map(|factor| longest * factor);
-    let likelier = likelier.iter().find(|length| (10.0 * SHORTEST..=LARGEST).contains(*length));
+    let likelier = UNIT_FACTORS.map(|factor| longest * factor);
+    let likelier = likelier.iter().find(|length| (10.0 * MIN_LENGTH_MM..=LARGEST).contains(*length));
     let likelier = likelier.map(|length| format!("; perhaps it is {} mm long", mm(*length)));
-    let found = format!("the scan is {} mm long by the lengths in its header", mm(longest));
+    let found = format!("the scan is {} mm long by its header", mm(longest));
     Some(format!("{found}{}: check the unit of length", likelier.unwrap_or_default()))
 }
 
@@ -42,7 +40,8 @@ mod tests {
         for (size, spacing) in [(512, 0.7), (40, 0.03), (2000, 1.0)] {
             assert_eq!(doubt(size, spacing), None, "{size} times {spacing}");
         }
-        let large = "the scan is 20000 mm long by the lengths in its header; perhaps it is 20 mm long: check the unit of length";
+        let large =
+            "the scan is 20000 mm long by its header; perhaps it is 20 mm long: check the unit of length";
         assert_eq!(doubt(20, 1000.0).as_deref(), Some(large));
         let small = doubt(400, 5e-4).expect("0.2 mm");
         assert!(small.contains("0.2 mm long by") && small.contains("perhaps it is 200 mm long"), "{small}");

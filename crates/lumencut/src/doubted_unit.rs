@@ -1,4 +1,4 @@
-//! Doubts of the unit of lines: a size that vessels of a body do not have, or another unit that fits the volume better.
+//! Detects centerlines in the wrong unit: an implausible size, or another unit that fits the volume better.
 
 use std::cmp::Reverse;
 
@@ -6,26 +6,30 @@ use glam::DVec3;
 use lumencut_io::Unit;
 
 use crate::lumen_points::Judge;
-use crate::places::{LARGEST, Place, Reading, SMALLEST, across, mm, places, readings};
+use crate::places::{CoordinateSystem, LARGEST, Reading, SMALLEST, across, mm, places, readings};
 
 /// A unit that may be wrong.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Doubt {
-    /// What was found, in words.
+    /// The finding, in words.
     pub found: String,
-    /// The units that fit instead, the likeliest first; none where no other fits.
+    /// Units that fit better, the likeliest first; may be empty.
     pub units: Vec<Unit>,
 }
 
-/// What speaks against the unit of the points of a file, as they stand in it, that are read in a place.
-pub fn doubted_unit(points: &[DVec3], place: Place, volume: Option<&Judge>) -> Option<Doubt> {
+/// Describes evidence against the unit in which the points of a file are read.
+pub(crate) fn doubted_unit(
+    points: &[DVec3],
+    place: CoordinateSystem,
+    volume: Option<&Judge>,
+) -> Option<Doubt> {
     match volume {
         Some(volume) => doubted_by_volume(points, place, volume),
         None => doubted_by_size(points, place),
     }
 }
 
-fn doubted_by_size(points: &[DVec3], place: Place) -> Option<Doubt> {
+fn doubted_by_size(points: &[DVec3], place: CoordinateSystem) -> Option<Doubt> {
     let bare = across(points);
     let is_size = |unit: &Unit| (SMALLEST..=LARGEST).contains(&(bare * unit.in_mm()));
     if is_size(&place.unit) {
@@ -38,7 +42,7 @@ fn doubted_by_size(points: &[DVec3], place: Place) -> Option<Doubt> {
     Some(Doubt { found, units })
 }
 
-fn doubted_by_volume(points: &[DVec3], place: Place, volume: &Judge) -> Option<Doubt> {
+fn doubted_by_volume(points: &[DVec3], place: CoordinateSystem, volume: &Judge) -> Option<Doubt> {
     let all = readings(points, &places(&[place.space], &Unit::ALL), &volume.extent);
     let as_read = all.iter().find(|reading| reading.place == place)?;
     let mut others: Vec<&Reading> =
@@ -49,7 +53,7 @@ fn doubted_by_volume(points: &[DVec3], place: Place, volume: &Judge) -> Option<D
     if others.is_empty() && !is_no_size {
         return None;
     }
-    let told = |reading: &Reading| {
+    let reading_words = |reading: &Reading| {
         format!(
             "{} across in {}, with {} of {} points inside the volume",
             mm(reading.across),
@@ -58,17 +62,17 @@ fn doubted_by_volume(points: &[DVec3], place: Place, volume: &Judge) -> Option<D
             points.len()
         )
     };
-    let instead: String = others.iter().map(|other| format!("; {}", told(other))).collect();
-    let found = format!("the lines are {}{instead}", told(as_read));
+    let instead: String = others.iter().map(|other| format!("; {}", reading_words(other))).collect();
+    let found = format!("the lines are {}{instead}", reading_words(as_read));
     Some(Doubt { found, units: others.iter().map(|other| other.place.unit).collect() })
 }
 
-/// Whether lines are likelier meant in another unit than in the one in which they are read.
+/// Whether another unit is likelier than the one read.
 fn is_likelier(other: &Reading, as_read: &Reading, total: usize, volume: &Judge) -> bool {
     if other.is_clearly_better_than(as_read.fits(), total) {
         return true;
     }
     let is_alike = other.is_as_good_as(as_read.fits());
-    let by_values = || (volume.lumen)(other.place).is_evident_beside((volume.lumen)(as_read.place));
+    let by_values = || (volume.lumen)(other.place).is_evident_over((volume.lumen)(as_read.place));
     is_alike && (as_read.is_short() || by_values())
 }

@@ -1,12 +1,11 @@
-//! The space that a volume fills: which world points (mm, LPS) lie inside its outer corners.
+//! The extent of a volume: which world points (mm, LPS) lie inside its outer corners.
 
 use glam::{DAffine3, DMat3, DVec3};
 use lumencut_core::volume::Volume;
 
 use crate::fused;
 
-/// How far outside a point may lie (voxels): a corner is inside whatever the last bits of its way through the affine
-/// and back.
+/// Tolerance (voxels) that keeps corners inside despite rounding by the affine and its inverse.
 const TOLERANCE: f64 = 1e-9;
 
 /// The grid of a volume without its voxels.
@@ -19,7 +18,7 @@ pub struct Extent {
 }
 
 impl Extent {
-    /// The extent of a grid with `size` voxels along (i, j, k), which `world_from_index` puts into the world.
+    /// The extent of `size` voxels (i, j, k) placed by `world_from_index`.
     pub fn new(size: [usize; 3], world_from_index: DAffine3) -> Self {
         Self {
             index_from_offset: Elimination::of(&world_from_index.matrix3),
@@ -29,18 +28,18 @@ impl Extent {
         }
     }
 
-    /// Whether a world point lies inside the outer corners, half a voxel beyond the outermost centres.
+    /// Whether a world point lies inside; the faces are half a voxel beyond the outermost centres.
     pub fn contains(&self, point: DVec3) -> bool {
         let index = self.index_from_offset.solve(point - self.origin);
         index.cmpge(DVec3::splat(-0.5 - TOLERANCE)).all() && index.cmple(self.last + TOLERANCE).all()
     }
 
-    /// The smallest side of a voxel (mm).
+    /// The smallest voxel side (mm).
     pub fn smallest_side(&self) -> f64 {
         self.smallest_side
     }
 
-    /// How many points lie inside.
+    /// The number of points inside.
     pub fn count(&self, points: impl IntoIterator<Item = DVec3>) -> usize {
         points.into_iter().filter(|point| self.contains(*point)).count()
     }
@@ -57,13 +56,11 @@ impl From<&Volume<'_>> for Extent {
     }
 }
 
-/// A system of three linear equations, eliminated with the largest pivots: of sheared grids its solutions are more exact
-/// than products with an inverse.
+/// A 3 × 3 linear system by elimination with pivoting: for sheared grids more accurate than the inverse matrix.
 #[derive(Clone, Copy, Debug)]
 struct Elimination {
-    /// The rows in the order of their pivots: factors of the rows above, then the triangle.
+    /// Rows in pivot order: the factors below the diagonal, the triangle above.
     rows: [[f64; 3]; 3],
-    /// Which equation each row was.
     order: [usize; 3],
 }
 

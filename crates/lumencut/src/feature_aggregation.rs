@@ -1,6 +1,5 @@
-//! Curvicircular feature aggregation (CFA) of a straightened vessel: a pixel beside the vessel stands for the half circle on
-//! its side, so that whatever lies around the vessel shows without turning it (Mistelbauer et al. 2013,
-//! DOI 10.1111/cgf.12110, in our reading).
+//! Curvicircular feature aggregation (CFA) of a straightened vessel: each pixel aggregates a half circle on its side of the
+//! vessel (our reading of Mistelbauer et al. 2013, DOI 10.1111/cgf.12110).
 
 use std::f64::consts::PI;
 
@@ -9,7 +8,7 @@ use lumencut_core::error::{Error, ErrorKind, Result};
 use lumencut_core::reformations::Layout;
 use lumencut_core::reformations::cpr::Cpr;
 
-/// What of a half circle is shown.
+/// The aggregate of a half circle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Feature {
     /// The largest value.
@@ -18,17 +17,17 @@ pub enum Feature {
     Mean,
     /// The smallest value.
     Min,
-    /// By how much the largest exceeds the smallest: how uneven the surroundings are.
+    /// Largest minus smallest: how uneven the surroundings are.
     Range,
-    /// How much of the half circle lies above this level, from 0 to 1.
+    /// The fraction above this level, 0 to 1.
     Share(f64),
 }
 
 impl Feature {
-    /// The feature of this name: `max`, `mean`, `min`, `range` or `share`, which alone has a level.
+    /// The feature named `max`, `mean`, `min`, `range` or `share`; only `share` has a level.
     ///
     /// # Errors
-    /// [`ErrorKind::Settings`] for another name, a share without a finite level, and a level without a share.
+    /// [`ErrorKind::Settings`] for another name, a share without a finite level, or a level without share.
     pub fn named(name: &str, level: Option<f64>) -> Result<Self> {
         let wrong = |subject: &str, found: String, expected: &str| {
             Err(Error::new(ErrorKind::Settings, subject, found, expected))
@@ -51,8 +50,7 @@ impl Feature {
         }
     }
 
-    /// The level and width in which the feature is shown where the values of the volume are shown in those given: a range begins
-    /// at 0, and a share lies between 0 and 1.
+    /// Level and width for the feature, given those of the volume: a range begins at 0, a share lies in 0 to 1.
     pub fn window(self, [level, width]: [f64; 2]) -> [f64; 2] {
         match self {
             Self::Max | Self::Mean | Self::Min => [level, width],
@@ -61,7 +59,7 @@ impl Feature {
         }
     }
 
-    /// What counts in the mean of the feature: a share counts which values lie above its level.
+    /// The summand of the mean; for a share 1 above its level, else 0.
     fn counted(self, value: f64) -> f64 {
         match self {
             Self::Share(level) => f64::from(u8::from(value > level)),
@@ -69,8 +67,7 @@ impl Feature {
         }
     }
 
-    /// Which of the values of a half circle the feature shows, the first of several: the largest or the smallest; None for features
-    /// that show no single one, and where no value is known.
+    /// Index of the value shown (first of several); None for features without a single one or without known values.
     pub fn place(self, values: &[f32]) -> Option<usize> {
         let known = values.iter().enumerate().filter(|(_, value)| !value.is_nan());
         let larger = |best: Option<(usize, f32)>, (n, value): (usize, f32)| {
@@ -84,7 +81,6 @@ impl Feature {
         best.map(|(n, _)| n)
     }
 
-    /// What the pixel shows.
     fn shown(self, Gathered { least, most, sum, count }: Gathered) -> f32 {
         if count == 0 {
             return f32::NAN;
@@ -98,7 +94,6 @@ impl Feature {
     }
 }
 
-/// What is known of the values of a half circle so far.
 #[derive(Clone, Copy)]
 struct Gathered {
     least: f32,
@@ -118,32 +113,26 @@ impl Gathered {
     }
 }
 
-/// How many directions a half circle has in the layout of a straightened vessel: samples on the largest one are no farther apart
-/// than a pixel, `pixel_spacing` (mm). The number is odd: the middle direction is that of the straightened vessel itself.
+/// Number of directions of a half circle: samples on the largest one are at most `pixel_spacing` (mm) apart. It is odd, so that
+/// the middle direction is that of the straightened vessel.
 pub fn angle_count(cpr: &Cpr, pixel_spacing: f64) -> usize {
     let largest = (cpr.size()[0] / 2) as f64 * pixel_spacing;
     ((PI * largest / pixel_spacing).ceil() as usize) | 1
 }
 
-/// By how much a straightened vessel is turned (radians) for each direction of a half circle.
+/// The rotation of the straightened vessel for each direction (radians).
 fn turns(cpr: &Cpr, pixel_spacing: f64) -> impl Iterator<Item = f64> {
     let angles = angle_count(cpr, pixel_spacing);
     (0..angles).map(move |n| (n as f64 - (angles / 2) as f64) / angles as f64 * PI)
 }
 
-/// The world points of the half circle that a place in a CFA, column and row, stands for.
-///
-/// # Errors
-/// Those of the layout.
-pub fn half_circle(cpr: &Cpr, pixel_spacing: f64, pixel: DVec2) -> Result<Vec<DVec3>> {
+/// World points of the half circle of a CFA pixel (column, row).
+pub(crate) fn half_circle(cpr: &Cpr, pixel_spacing: f64, pixel: DVec2) -> Result<Vec<DVec3>> {
     turns(cpr, pixel_spacing).map(|aside| Ok(cpr.rotated(aside)?.world_from_pixel(pixel))).collect()
 }
 
-/// The values of a CFA in the layout of `cpr`, a straightened vessel, row by row; NaN where the whole half circle lies outside the
-/// volume. `look` gives the values of the vessel turned about itself, from whatever computes them.
-///
-/// # Errors
-/// Those of the layout and of `look`.
+/// The CFA in the layout of `cpr`, row by row; NaN if the whole half circle is outside the volume. `look` samples the vessel
+/// rotated about itself, on any device.
 pub fn feature_aggregation(
     cpr: &Cpr,
     pixel_spacing: f64,

@@ -1,4 +1,4 @@
-//! The flags of sections as readers meet them: one table of names, words, meanings and colours for every host.
+//! The table of section flags for all hosts: names, words, meanings and colours.
 
 use lumencut_vessels::measure::flags::{
     AT_LIMIT, BRANCH, CALCIUM, IRREGULAR, METAL, NEIGHBOR, NO_EDGE, OUTSIDE, RECENTERED, RESTLESS_LINE,
@@ -9,15 +9,15 @@ use serde::Serialize;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub struct FlagLook {
-    /// Its name in code, such as `NO_EDGE`.
+    /// Its constant, such as `NO_EDGE`.
     #[serde(skip)]
     pub name: &'static str,
     /// Its bit.
     #[serde(skip)]
     pub bit: u32,
-    /// What tables and reports call it, such as `no clear wall`.
+    /// Its word in tables and reports, such as `no clear wall`; part of the file formats.
     pub word: &'static str,
-    /// What it means, as a part of a sentence.
+    /// Its meaning, as part of a sentence.
     pub meaning: &'static str,
     /// Its colour on paper, `#rrggbb`.
     #[serde(skip)]
@@ -34,29 +34,29 @@ const fn look(
     FlagLook { name, bit, word, meaning, paper, screen }
 }
 
-/// Every flag, in the order in which plots and tables have them.
+/// All flags, in the order of plots and tables.
 pub const FLAGS: [FlagLook; 10] = [
     look(
         ("AT_LIMIT", AT_LIMIT),
         [
             "near the blur",
-            "the lumen is hardly wider than the scanner's blur (1.5 FWHM): little is left of it in the picture",
+            "the lumen is narrower than 1.5 times the scanner's blur (FWHM): its diameter is near the limit of resolution",
         ],
         ["#7b5ea7", "#b59ae0"],
     ),
     look(
         ("BRANCH", BRANCH),
-        ["branch", "the section lies in a junction, or lumen goes on sideways"],
+        ["branch", "the section lies in a junction, or the lumen continues sideways"],
         ["#3a7d44", "#63b972"],
     ),
     look(
         ("CALCIUM", CALCIUM),
-        ["calcium", "something in the wall is brighter than lumen; it is not lumen"],
+        ["calcium", "something in the wall is brighter than the lumen and does not count as lumen"],
         ["#b8860b", "#e0ac2b"],
     ),
     look(
         ("METAL", METAL),
-        ["metal", "something brighter goes all around, or is far brighter: a stent"],
+        ["metal", "something brighter surrounds the lumen, or is far brighter than it: a stent"],
         ["#4d4d4d", "#b4b4b4"],
     ),
     look(
@@ -67,28 +67,27 @@ pub const FLAGS: [FlagLook; 10] = [
     look(("OUTSIDE", OUTSIDE), ["outside", "the section reaches beyond the volume"], ["#8c564b", "#c99184"]),
     look(
         ("NO_EDGE", NO_EDGE),
-        ["no clear wall", "no wall was found, or none that can be believed"],
+        ["no clear wall", "no wall was found, or only an implausible one"],
         ["#d62728", "#ff6f6f"],
     ),
     look(
         ("RECENTERED", RECENTERED),
-        ["centre moved", "the centerline lies outside of the lumen that was measured"],
+        ["centre moved", "the centerline lies outside the measured lumen"],
         ["#e377c2", "#f09fd6"],
     ),
     look(
         ("IRREGULAR", IRREGULAR),
-        ["not round", "the wall is far from an ellipse: shortest and longest diameter say little"],
+        ["not round", "the wall is far from an ellipse: the shortest and longest diameters are unreliable"],
         ["#6b8e23", "#a4c957"],
     ),
     look(
         ("RESTLESS_LINE", RESTLESS_LINE),
-        ["restless line", "the centerline turns by more than 75° within one diameter, as no vessel does"],
+        ["restless line", "the centerline turns by more than 75° within one diameter, which no vessel does"],
         ["#1f5fbf", "#7fb2ff"],
     ),
 ];
 
-/// The flags that are set among these bits, in their order.
-pub fn set_in(bits: u32) -> impl Iterator<Item = &'static FlagLook> {
+pub(crate) fn set_in(bits: u32) -> impl Iterator<Item = &'static FlagLook> {
     FLAGS.iter().filter(move |flag| bits & flag.bit > 0)
 }
 

@@ -1,4 +1,4 @@
-//! The vessels that are found in a scan, without a seed or from one, as readers are told of them.
+//! The vessels found in a scan, automatically or from a seed, with notes for readers.
 
 use std::collections::BTreeMap;
 
@@ -17,68 +17,64 @@ use crate::text::{fixed, rounded};
 /// A vessel that was found.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FoundLine {
-    /// Its points, radii and confidence.
+    /// Points, radii and confidence.
     pub line: Centerline,
-    /// Why it is doubtful; none where it is not.
+    /// Why it is doubtful; None if it is not.
     pub doubt: Option<&'static str>,
-    /// Which part it belongs to, 0 for the most important one.
+    /// Its connected part; 0 is the most important.
     pub part: usize,
 }
 
-/// The vessels of a scan, and what is to be told of them.
+/// All vessels found in a scan, with notes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FoundTree {
-    /// The vessels that are sure, part by part, and the doubtful ones after them.
+    /// Confident vessels part by part, then the doubtful ones.
     pub vessels: Vec<FoundLine>,
-    /// What is to be told of the scan, a sentence each.
+    /// Notes about the scan, one sentence each.
     pub notes: Vec<String>,
-    /// How many vessels are doubtful for each reason, a sentence each.
+    /// Counts of doubtful vessels by reason, one sentence each.
     pub doubts: Vec<String>,
 }
 
-/// All vessels of a scan, of which one is sure at least.
+/// Finds all vessels of a scan; at least one must be confident.
 ///
 /// # Errors
-/// Those of [`find::find_vessels`]; [`lumencut_core::error::ErrorKind::Tracing`] where none is sure.
+/// Those of [`find::find_vessels`]; [`lumencut_core::error::ErrorKind::Tracing`] if none is confident.
 pub fn find_vessels(volume: &Volume, request: &FindRequest) -> Result<FoundTree> {
-    told(&find::find_vessels(volume, request)?, request.smallest_radius)
+    confident_tree(&find::find_vessels(volume, request)?, request.smallest_radius)
 }
 
-/// What is told of all vessels of a scan, of which one is sure at least.
+/// Describes trees with at least one confident vessel.
 ///
 /// # Errors
-/// [`lumencut_core::error::ErrorKind::Tracing`] where none is sure; `smallest_radius` (mm) is the one that was asked for.
-pub fn told(trees: &Trees, smallest_radius: f64) -> Result<FoundTree> {
+/// [`lumencut_core::error::ErrorKind::Tracing`] if none is confident; `smallest_radius` (mm) is the requested one.
+pub fn confident_tree(trees: &Trees, smallest_radius: f64) -> Result<FoundTree> {
     if trees.vessels.iter().any(|vessel| vessel.doubt.is_none()) {
         return Ok(found(trees.clone()));
     }
     Err(refusals::no_vessel(trees.vessels.len(), smallest_radius))
 }
 
-/// What is told of all vessels of a scan, also where none of them is sure, as a reader who looks at each of them wants it.
-///
-/// # Errors
-/// [`lumencut_core::error::ErrorKind::Tracing`] where not even a doubtful one was found.
-pub fn told_with_doubtful(trees: &Trees, smallest_radius: f64) -> Result<FoundTree> {
+/// As [`confident_tree`], but accepts doubtful vessels alone.
+pub(crate) fn tree_with_doubtful(trees: &Trees, smallest_radius: f64) -> Result<FoundTree> {
     if trees.vessels.is_empty() {
         return Err(refusals::no_vessel(0, smallest_radius));
     }
     Ok(found(trees.clone()))
 }
 
-/// The vessels that hang together with the one that a seed (mm, LPS) lies in.
-///
-/// # Errors
-/// Those of [`find_from`].
+/// Finds the vessels connected to the one that contains a seed (mm, LPS).
 pub fn trace_from(volume: &Volume, seed: DVec3, request: &FindRequest) -> Result<FoundTree> {
     Ok(found(find_from(volume, seed, request)?))
 }
 
-/// The vessel that a click (mm, LPS) lies in, from the nearest of the vessels that there are already (`beside`) to its end.
-///
-/// # Errors
-/// [`lumencut_core::error::ErrorKind::Tracing`] for a click in no vessel that was found, and in one that there is already.
-pub fn one_vessel(volume: &Volume, trees: &Trees, click: DVec3, beside: &[Centerline]) -> Result<Centerline> {
+/// The vessel at a click (mm, LPS), from the nearest existing vessel (`beside`) to its end.
+pub(crate) fn one_vessel(
+    volume: &Volume,
+    trees: &Trees,
+    click: DVec3,
+    beside: &[Centerline],
+) -> Result<Centerline> {
     let voxels = Voxels::new(volume);
     if !click.is_finite() || voxels.voxel_at(click).is_none() {
         return Err(refusals::outside(click));
@@ -88,7 +84,6 @@ pub fn one_vessel(volume: &Volume, trees: &Trees, click: DVec3, beside: &[Center
     one_vessel::one_vessel(trees, click, side, beside).map_err(refused)
 }
 
-/// What is told of trees that were found.
 fn found(trees: Trees) -> FoundTree {
     let Trees { vessels, level, contrast, .. } = trees;
     let (sure, doubtful): (Vec<FoundVessel>, _) =
@@ -102,12 +97,10 @@ fn found(trees: Trees) -> FoundTree {
     FoundTree { vessels, notes, doubts }
 }
 
-/// A value of the volume, as exactly as it is known.
 fn about(value: f64) -> String {
     if value.abs() < 100.0 { rounded(value, 2) } else { fixed(value, 0) }
 }
 
-/// How many vessels are doubtful for each reason, the most frequent one first.
 fn doubts(vessels: &[FoundLine]) -> Vec<String> {
     let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
     for doubt in vessels.iter().filter_map(|vessel| vessel.doubt) {
@@ -115,13 +108,13 @@ fn doubts(vessels: &[FoundLine]) -> Vec<String> {
     }
     let mut counts: Vec<(&str, usize)> = counts.into_iter().collect();
     counts.sort_by_key(|(_, count)| std::cmp::Reverse(*count));
-    let told = |(doubt, count): (&str, usize)| {
+    let sentence = |(doubt, count): (&str, usize)| {
         format!("{count} vessel{} doubtful: {doubt}", if count == 1 { "" } else { "s" })
     };
-    counts.into_iter().map(told).collect()
+    counts.into_iter().map(sentence).collect()
 }
 
-/// The numbers of the sure vessels that hang together, the most important part first.
+/// Indices of the confident vessels of each connected part, the most important part first.
 pub fn sure_parts(tree: &FoundTree) -> Vec<Vec<usize>> {
     let mut parts: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
     for (number, vessel) in tree.vessels.iter().enumerate().filter(|(_, vessel)| vessel.doubt.is_none()) {

@@ -1,20 +1,19 @@
-//! Sums of products that round once per term, so that a view is the same to the last bit on every processor and for
-//! every host.
+//! Fused sums of products, rounded once per term, so that views are identical to the last bit on every processor and host.
 
 use glam::{DMat3, DVec3};
 
 /// `a · b`, summed from x to z.
-pub fn dot(a: DVec3, b: DVec3) -> f64 {
+pub(crate) fn dot(a: DVec3, b: DVec3) -> f64 {
     a.z.mul_add(b.z, a.y.mul_add(b.y, a.x * b.x))
 }
 
-/// `a.x · x + b.x · y` and so on: the vector with coordinates (x, y) in a plane.
-pub fn combined(a: DVec3, x: f64, b: DVec3, y: f64) -> DVec3 {
+/// `a x + b y`: the vector with coordinates (x, y) in a plane.
+pub(crate) fn combined(a: DVec3, x: f64, b: DVec3, y: f64) -> DVec3 {
     DVec3::from_array([0, 1, 2].map(|n| b[n].mul_add(y, a[n] * x)))
 }
 
 /// `matrix · vector`, row by row from the middle term.
-pub fn product(matrix: &DMat3, vector: DVec3) -> DVec3 {
+pub(crate) fn product(matrix: &DMat3, vector: DVec3) -> DVec3 {
     let row = |n: usize| {
         let row = matrix.row(n);
         row.z.mul_add(vector.z, row.x.mul_add(vector.x, row.y * vector.y))
@@ -22,8 +21,7 @@ pub fn product(matrix: &DMat3, vector: DVec3) -> DVec3 {
     DVec3::new(row(0), row(1), row(2))
 }
 
-/// `a · b` of two matrices.
-pub fn matrices(a: &DMat3, b: &DMat3) -> DMat3 {
+pub(crate) fn matrices(a: &DMat3, b: &DMat3) -> DMat3 {
     DMat3::from_cols_array_2d(&[0, 1, 2].map(|column| [0, 1, 2].map(|row| dot(a.row(row), b.col(column)))))
 }
 
@@ -31,7 +29,7 @@ pub fn matrices(a: &DMat3, b: &DMat3) -> DMat3 {
 mod tests {
     use super::*;
 
-    /// Its square is 1 + 2⁻²⁹ + 2⁻⁶⁰, whose last term a product that is rounded alone loses.
+    /// Its square is 1 + 2⁻²⁹ + 2⁻⁶⁰; a separately rounded product loses the last term.
     const NEAR_ONE: f64 = 1.0 + 1.0 / (1u64 << 30) as f64;
     const LOST: f64 = 1.0 / (1u64 << 60) as f64;
 

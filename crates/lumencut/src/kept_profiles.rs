@@ -1,4 +1,4 @@
-//! Profiles of vessels of one scan: each is measured when it is first asked for and kept, all with what their tree tells.
+//! A cache of measured profiles of one scan, with the tree-wide estimates they share.
 
 use std::sync::Arc;
 
@@ -12,36 +12,36 @@ use lumencut_vessels::measure::request::MeasureRequest;
 use lumencut_vessels::measure::told_by_tree::ToldByTree;
 use lumencut_vessels::measure::wall_level::WallRequest;
 
-/// A volume and the tree in it. Both decide what is measured: profiles that were kept are those of other ones no longer.
+/// A volume and its tree; a cache is valid for one pair only.
 #[derive(Clone, Copy)]
 pub struct Scan<'a> {
     /// The angiography.
     pub volume: &'a Volume<'a>,
-    /// The vessels that tell the point spread, the level of walls and where branches are.
+    /// The vessels that determine the point spread, the wall level and the branches.
     pub tree: &'a [Vessel],
 }
 
-/// How a vessel is asked for.
+/// Parameters of a measurement.
 #[derive(Clone, Copy)]
-pub struct Asking<'a> {
-    /// The distance of sections (mm), at most.
+pub struct MeasureParameters<'a> {
+    /// The largest distance of sections (mm).
     pub step: f64,
-    /// The width of the point spread (mm), where it is given; without it the tree tells it.
+    /// The width of the point spread (mm); None estimates it from the tree.
     pub fwhm: Option<f64>,
-    /// The level of walls.
+    /// The wall level.
     pub wall: WallRequest,
     /// Asked whether to stop.
     pub stop: Stop<'a>,
 }
 
-/// The profiles that are kept, by what their host calls a vessel.
+/// The cached profiles, by the host's key of a vessel.
 pub struct KeptProfiles<K> {
-    /// What the tree tells for all of its vessels, by the level of walls and the point spread that were asked for.
-    told: Vec<((WallRequest, Option<f64>), ToldByTree)>,
+    /// Tree-wide estimates, by wall level and point spread.
+    estimates: Vec<((WallRequest, Option<f64>), ToldByTree)>,
     kept: Vec<Kept<K>>,
 }
 
-/// The profile of a vessel, and how it was asked for (mm).
+/// A cached profile with its parameters (mm).
 struct Kept<K> {
     of: K,
     step: f64,
@@ -52,48 +52,49 @@ struct Kept<K> {
 
 impl<K> Default for KeptProfiles<K> {
     fn default() -> Self {
-        Self { told: Vec::new(), kept: Vec::new() }
+        Self { estimates: Vec::new(), kept: Vec::new() }
     }
 }
 
 impl<K: PartialEq> KeptProfiles<K> {
-    /// The number among those kept of a vessel's profile, which is measured where it was not asked for like this before.
-    ///
-    /// # Errors
-    /// Those of [`lumencut_vessels::measure::measuring::measure`].
-    pub fn of(&mut self, key: K, vessel: &Vessel, scan: Scan, asking: &Asking) -> Result<usize> {
-        let Asking { step, fwhm, wall, stop } = *asking;
+    /// The cache index of a vessel's profile; measures it if the parameters are new.
+    pub fn of(
+        &mut self,
+        key: K,
+        vessel: &Vessel,
+        scan: Scan,
+        parameters: &MeasureParameters,
+    ) -> Result<usize> {
+        let MeasureParameters { step, fwhm, wall, stop } = *parameters;
         let is_asked =
             |kept: &Kept<K>| kept.of == key && kept.step == step && kept.fwhm == fwhm && kept.wall == wall;
         if let Some(found) = self.kept.iter().position(is_asked) {
             return Ok(found);
         }
         let request = MeasureRequest { step, fwhm, wall, tree: scan.tree, stop };
-        let told = self.told(scan.volume, &request)?;
-        let profile = Arc::new(measure_under(told, scan.volume, vessel, &request)?);
+        let estimates = self.estimates(scan.volume, &request)?;
+        let profile = Arc::new(measure_under(estimates, scan.volume, vessel, &request)?);
         self.kept.push(Kept { of: key, step, fwhm, wall, profile });
         Ok(self.kept.len() - 1)
     }
 
-    /// The profile of a number that [`KeptProfiles::of`] gave.
+    /// The profile at an index from [`KeptProfiles::of`].
     pub fn kept(&self, number: usize) -> &Arc<Profile> {
         &self.kept[number].profile
     }
 
-    /// A profile of a vessel, however it was asked for; none where it was not measured.
-    pub fn any_of(&self, key: &K) -> Option<&Profile> {
+    pub(crate) fn any_of(&self, key: &K) -> Option<&Profile> {
         self.kept.iter().find(|kept| kept.of == *key).map(|kept| &*kept.profile)
     }
 
-    /// What the tree tells, which is found once.
-    fn told(&mut self, volume: &Volume, request: &MeasureRequest) -> Result<ToldByTree> {
+    fn estimates(&mut self, volume: &Volume, request: &MeasureRequest) -> Result<ToldByTree> {
         let asked = (request.wall, request.fwhm);
-        if let Some((_, told)) = self.told.iter().find(|(other, _)| *other == asked) {
-            return Ok(told.clone());
+        if let Some((_, estimates)) = self.estimates.iter().find(|(other, _)| *other == asked) {
+            return Ok(estimates.clone());
         }
-        let told = told_by_tree(volume, request)?;
-        self.told.push((asked, told.clone()));
-        Ok(told)
+        let estimates = told_by_tree(volume, request)?;
+        self.estimates.push((asked, estimates.clone()));
+        Ok(estimates)
     }
 }
 

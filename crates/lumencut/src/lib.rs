@@ -1,17 +1,17 @@
-//! What every host of Lumencut shares, whether Python, a browser or a program in Rust: which device computes and
-//! what takes over where it fails, views fitted to a scene, windows from the data, the space and unit of centerlines,
-//! the way from pixels to the world and back, and what measured vessels leave behind: words, tables and JSON.
+//! Shared by all hosts of Lumencut (Python, browser, Rust): devices, fitted views, windows, centerline placement, picking, and
+//! the words, tables and JSON of measurements.
 //!
-//! Points are in world space (LPS, mm) unless their documentation says otherwise.
+//! Points are in world space (LPS, mm) unless stated otherwise.
 
 pub mod axes_words;
 pub mod backend;
 mod choice;
+pub mod clicked_vessel;
 pub mod cut_at;
 pub mod cut_diameter;
 pub mod devices;
 pub mod doubted_scan;
-pub mod doubted_unit;
+mod doubted_unit;
 pub mod extent;
 pub mod feature_aggregation;
 pub mod flag_table;
@@ -26,7 +26,6 @@ pub mod lumen_points;
 pub mod lumen_wall;
 pub mod mask_grid;
 pub mod mask_notes;
-pub mod meant_vessel;
 pub mod measure_words;
 pub mod mends;
 pub mod method;

@@ -1,8 +1,6 @@
-//! What is doubtful about centerlines: points in another order than along the vessel, points far from all
-//! others, missing parts, and two lines of one vessel.
+//! Detects doubtful centerlines: wrong point order, stray points, missing parts, and two lines in one vessel.
 //!
-//! Lines in order give no doubt, however tortuous they are, where their points are nearer to their neighbours than to other
-//! stretches.
+//! An ordered line raises no doubt, however tortuous, if its points are nearer to their neighbours than to other stretches.
 
 use glam::DVec3;
 
@@ -18,42 +16,42 @@ pub(crate) use order::found_order;
 use order::{Disorder, LongStep, OrderDoubt, order_doubts};
 use side_by_side::side_by_side;
 
-/// A vessel that is looked at.
+/// A vessel to check.
 #[derive(Clone, Copy, Debug)]
 pub struct DoubtedLine<'a> {
     /// Its points (mm).
     pub points: &'a [DVec3],
-    /// The radius at each (mm), where known.
+    /// The radius at each point (mm), if known.
     pub radius: Option<&'a [f64]>,
-    /// Its name; empty where it has none.
+    /// Its name; may be empty.
     pub name: &'a str,
 }
 
-/// Something doubtful about a vessel.
+/// A doubt about a vessel.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LineDoubt {
-    /// The number of the vessel among those that were looked at.
+    /// Index of the vessel.
     pub vessel: usize,
-    /// The number of the other vessel where two lie side by side.
+    /// Index of the other vessel, if two lie side by side.
     pub other: Option<usize>,
-    /// What it is, in a word for programs: `order`, `gap`, `far` or `beside`.
+    /// Its kind for programs: `order`, `gap`, `far` or `beside`.
     pub kind: &'static str,
-    /// What was found and what it may mean, in words.
+    /// What was found and what it may mean.
     pub found: String,
-    /// What a reader can do, in words.
+    /// What the reader can do.
     pub advice: &'static str,
     /// What a host can do instead.
     pub mend: Option<Mend>,
 }
 
 impl LineDoubt {
-    /// What was found and what to do, in one sentence that names no options.
+    /// Finding and advice in one sentence without option names.
     pub fn words(&self) -> String {
         format!("{}; {}", self.found, self.advice)
     }
 }
 
-/// What is doubtful about each vessel by itself, in their order.
+/// Doubts about each vessel on its own, in order.
 pub fn order_doubts_of(lines: &[DoubtedLine]) -> Vec<LineDoubt> {
     let mut found = Vec::new();
     for (vessel, line) in lines.iter().enumerate() {
@@ -64,9 +62,9 @@ pub fn order_doubts_of(lines: &[DoubtedLine]) -> Vec<LineDoubt> {
     found
 }
 
-/// The vessels that lie side by side as two lines of one vessel.
+/// Pairs of vessels that run side by side, as two lines of one vessel.
 pub fn beside_doubts_of(lines: &[DoubtedLine]) -> Vec<LineDoubt> {
-    let told = |(first, second, length): (usize, usize, f64)| {
+    let doubt_of_pair = |(first, second, length): (usize, usize, f64)| {
         let names = [first, second].map(|vessel| called(vessel, &lines[vessel]));
         let found = format!(
             "{} and {} lie side by side over {} mm: perhaps two lines of one vessel",
@@ -83,15 +81,13 @@ pub fn beside_doubts_of(lines: &[DoubtedLine]) -> Vec<LineDoubt> {
             mend: None,
         }
     };
-    side_by_side(lines).into_iter().map(told).collect()
+    side_by_side(lines).into_iter().map(doubt_of_pair).collect()
 }
 
-/// How a vessel is called in words.
 fn called(vessel: usize, line: &DoubtedLine) -> String {
     if line.name.is_empty() { format!("vessel {vessel}") } else { format!("vessel {vessel} ({})", line.name) }
 }
 
-/// How the only vessel is called.
 fn called_alone(line: &DoubtedLine) -> String {
     if line.name.is_empty() { "the vessel".to_owned() } else { line.name.to_owned() }
 }
@@ -104,7 +100,7 @@ fn order_doubt((vessel, called): (usize, &str), doubt: &OrderDoubt, line: &Doubt
         }
         OrderDoubt::Gap(step) => {
             let found = format!("{called}: a gap of {}: perhaps a part is missing", long(step));
-            ("gap", found, "look whether it is one vessel", None)
+            ("gap", found, "check whether it is one vessel", None)
         }
         OrderDoubt::Stray(points, distance) => {
             let advice = "remove what does not belong to the vessel";
@@ -119,21 +115,20 @@ fn disordered(called: &str, disorder: &Disorder) -> String {
     let is_too_long = disorder.lengths[0] > 2.0 * disorder.lengths[1];
     match &disorder.step {
         Some(step) if !is_too_long => {
-            format!("{called}: a step of {}: perhaps its points are in another order", long(step))
+            format!("{called}: a step of {}: perhaps its points are in the wrong order", long(step))
         }
         _ => format!(
-            "{called} is {length} mm long, a path through its points {short} mm: perhaps they are in another order"
+            "{called} is {length} mm long, but a path through its points only {short} mm: perhaps they are in the wrong order"
         ),
     }
 }
 
-/// A long step in words.
 fn long(step: &LongStep) -> String {
     let times = (step.length / step.usual).round();
     format!("{} mm after point {}, {times} times the usual one", mm(step.length), step.after)
 }
 
-/// A length with one digit behind the point, and a short one with three digits.
+/// A length with one decimal; below 10 mm with three digits.
 fn mm(length: f64) -> String {
     if length < 10.0 { rounded(length, 3) } else { fixed(length, 1) }
 }

@@ -1,4 +1,4 @@
-//! What a lumen map shows beside the values of the volume: how thick calcium lies at the wall, and which branches open where.
+//! What a lumen map adds to the values: the thickness of calcium at the wall, and the ostia of branches.
 
 use std::sync::Arc;
 
@@ -18,37 +18,36 @@ use lumencut_vessels::voxels::Voxels;
 use crate::lumen_wall::FoundWall;
 use crate::rays_across::TOO_BRIGHT;
 
-/// Calcium begins at this level (HU) at least.
-const LEAST_CALCIUM: f64 = 130.0;
+const MIN_CALCIUM_HU: f64 = 130.0;
 
-/// The distance of samples through the wall, in the sides that [`Voxels::sampling_side`] tells.
-const SAMPLE: f64 = 0.5;
+/// Sample distance through the wall, in units of [`Voxels::sampling_side`].
+const SAMPLE_STEP: f64 = 0.5;
 
-/// A branch hangs on a vessel where one of its ends lies within this number of radii of the wall, or this much farther (mm).
-const HANGS: (f64, f64) = (1.6, 2.0);
+/// A branch is attached if one of its ends lies within this many radii of the wall, plus this distance (mm).
+const ATTACHED: (f64, f64) = (1.6, 2.0);
 
-/// How a lumen map is asked for.
+/// The parameters of a lumen map.
 #[derive(Clone, Copy, Debug)]
 pub struct MapRequest {
-    /// The side of a pixel (mm).
+    /// Pixel side (mm).
     pub pixel_spacing: f64,
-    /// The direction of the middle column (radians); None turns the side where most calcium lies to the middle.
+    /// Direction of the middle column (radians); None centres the side with most calcium.
     pub angle: Option<f64>,
-    /// How much of the other side is repeated beyond each edge (radians).
+    /// The angle repeated beyond each edge (radians).
     pub overlap: f64,
-    /// From where to where beyond the wall the map is about what lies there (mm).
+    /// The range of distances beyond the wall that is mapped (mm).
     pub band: [f64; 2],
-    /// From which level on something at the wall is calcium or metal; None is what the levels of the vessel say.
+    /// The least level of calcium or metal; None derives it from the vessel's levels.
     pub calcium_level: Option<f64>,
 }
 
-/// The side of a pixel of the map in which the side with most calcium is looked for (mm).
-const COARSE: f64 = 1.0;
+/// Pixel side of the coarse map used to find the side with most calcium (mm).
+const COARSE_PIXEL_MM: f64 = 1.0;
 
-/// The map of a vessel whose wall was found, with its pixels in the middle of the band.
+/// The map of a vessel with a known wall; pixels lie in the middle of the band.
 ///
 /// # Errors
-/// [`lumencut_core::error::ErrorKind::Camera`] for what cannot be laid out, [`lumencut_core::error::ErrorKind::Interrupted`].
+/// [`lumencut_core::error::ErrorKind::Camera`] for an invalid layout, [`lumencut_core::error::ErrorKind::Interrupted`].
 pub fn lumen_map(
     volume: &Volume,
     path: &Arc<CenterlinePath>,
@@ -66,21 +65,18 @@ pub fn lumen_map(
     let laid = |parameters| LumenMap::new(Arc::clone(path), view, Arc::clone(&found.wall), parameters);
     let level = request.calcium_level.or_else(|| found.levels.map(calcium_level));
     let (None, Some(level)) = (request.angle, level) else { return laid(parameters) };
-    let coarse = laid(LumenMapParameters { pixel_spacing: COARSE, overlap: 0.0, ..parameters })?;
+    let coarse = laid(LumenMapParameters { pixel_spacing: COARSE_PIXEL_MM, overlap: 0.0, ..parameters })?;
     let angle = thickest_side(&coarse, &thickness(volume, &coarse, (request.band, level), stop)?);
     laid(LumenMapParameters { angle, ..parameters })
 }
 
-/// From which level on something at the wall is calcium or metal, by the levels of the lumen and its surroundings.
+/// The least level of calcium or metal, from the levels of the lumen and its surroundings.
 pub fn calcium_level([lumen, around]: [f64; 2]) -> f64 {
-    (lumen + TOO_BRIGHT * (lumen - around)).max(LEAST_CALCIUM)
+    (lumen + TOO_BRIGHT * (lumen - around)).max(MIN_CALCIUM_HU)
 }
 
-/// How much of the way through the wall is brighter than a level (mm), for each pixel: from the first to the second of two distances
-/// beyond the wall (mm). NaN outside the volume and where the wall is open.
-///
-/// # Errors
-/// Those of the layout, also where the caller asks to stop.
+/// The thickness brighter than a level (mm) for each pixel, between two distances beyond the wall (mm). NaN outside the volume
+/// and at openings of the wall.
 pub fn thickness(
     volume: &Volume,
     map: &LumenMap,
@@ -90,7 +86,7 @@ pub fn thickness(
     let curved = map.curved(stop)?;
     let voxels = Voxels::new(volume);
     let index = &voxels.index_from_world;
-    let steps = ((band[1] - band[0]) / (SAMPLE * voxels.sampling_side)).ceil().max(1.0);
+    let steps = ((band[1] - band[0]) / (SAMPLE_STEP * voxels.sampling_side)).ceil().max(1.0);
     let step = (band[1] - band[0]) / steps;
     let own = map.parameters().beyond;
     let through = |values: &mut Vec<f32>, (position, direction): (&DVec3, &Vec3)| {
@@ -113,8 +109,7 @@ pub fn thickness(
     pixels.map_init(Vec::new, through).collect()
 }
 
-/// The direction in which most lies at the wall (radians): a map with it in the middle is cut open on the other side. 0 where nothing
-/// lies at the wall.
+/// The direction with most calcium at the wall (radians): the map is cut open opposite to it. 0 without calcium.
 fn thickest_side(map: &LumenMap, thickness: &[f32]) -> f64 {
     let width = map.size()[0];
     let sum: DVec2 = thickness
@@ -123,39 +118,38 @@ fn thickest_side(map: &LumenMap, thickness: &[f32]) -> f64 {
         .filter(|(_, thick)| thick.is_finite())
         .map(|(n, thick)| DVec2::from_angle(map.around((n % width) as f64)) * f64::from(*thick))
         .sum();
-    // The middle column, opposite to the cut, gets what is thickest.
+    // The thickest side becomes the middle column, opposite to the cut.
     if sum == DVec2::ZERO { 0.0 } else { sum.to_angle() }
 }
 
-/// Where another vessel opens into a mapped one.
+/// Where another vessel opens into the mapped one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ostium {
-    /// The id of the other vessel.
+    /// Id of the other vessel.
     pub vessel: usize,
-    /// The place along the mapped vessel (mm).
+    /// Arc length on the mapped vessel (mm).
     pub at: f64,
-    /// The direction around it (radians).
+    /// Direction around it (radians).
     pub around: f64,
-    /// The point of the other vessel where it leaves the wall (mm, LPS).
+    /// The point where the other vessel leaves the wall (mm, LPS).
     pub point: DVec3,
 }
 
-/// Where the vessels of a tree open into the mapped one, in the order of their ids. A vessel that runs along the mapped one is not
-/// told, nor one that lies wholly within its wall.
+/// The ostia of a tree's vessels on the mapped one, by id; without vessels that run along it or lie inside its wall.
 pub fn ostia(map: &LumenMap, vessels: &[Vessel]) -> Vec<Ostium> {
     let found = |(vessel, other): (usize, &Vessel)| {
         let mut points = other.points().to_vec();
-        let near = |point: DVec3| Place::of(map, point).is_some_and(|place| place.hangs(map));
+        let near = |point: DVec3| WallCoordinates::of(map, point).is_some_and(|place| place.hangs(map));
         if !near(points[0]) {
             points.reverse();
         }
-        let first = Place::of(map, points[0]).filter(|place| place.hangs(map))?;
-        let leaves = points
-            .iter()
-            .find(|point| Place::of(map, **point).is_none_or(|place| place.away > place.wall(map)))?;
-        let place = Place::of(map, *leaves)?;
-        // Both ends of a part of the mapped vessel lie on it, and so does all between.
-        let is_apart = place.away <= HANGS.0 * place.wall(map) + HANGS.1;
+        let first = WallCoordinates::of(map, points[0]).filter(|place| place.hangs(map))?;
+        let leaves = points.iter().find(|point| {
+            WallCoordinates::of(map, **point).is_none_or(|place| place.away > place.wall(map))
+        })?;
+        let place = WallCoordinates::of(map, *leaves)?;
+        // Part of the mapped vessel itself: both ends and everything between lie on it.
+        let is_apart = place.away <= ATTACHED.0 * place.wall(map) + ATTACHED.1;
         is_apart.then_some(Ostium {
             vessel,
             at: f64::midpoint(first.at, place.at),
@@ -166,15 +160,13 @@ pub fn ostia(map: &LumenMap, vessels: &[Vessel]) -> Vec<Ostium> {
     vessels.iter().enumerate().filter_map(found).collect()
 }
 
-/// A point by its place along and around the mapped vessel.
-struct Place {
+struct WallCoordinates {
     at: f64,
     around: f64,
     away: f64,
 }
 
-impl Place {
-    /// The place of a point that lies along the vessel.
+impl WallCoordinates {
     fn of(map: &LumenMap, point: DVec3) -> Option<Self> {
         let straight = map.straightened().straightened_from_world(point);
         let offset = straight.truncate();
@@ -187,7 +179,7 @@ impl Place {
     }
 
     fn hangs(&self, map: &LumenMap) -> bool {
-        self.away <= HANGS.0 * self.wall(map) + HANGS.1
+        self.away <= ATTACHED.0 * self.wall(map) + ATTACHED.1
     }
 }
 

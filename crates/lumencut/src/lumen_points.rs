@@ -1,4 +1,4 @@
-//! Which points of centerlines look like lumen in a volume, whatever its units and whether lumen is bright or dark in it.
+//! Counts the centerline points that look like lumen, for any unit and for bright or dark lumen.
 
 use std::collections::BTreeSet;
 
@@ -6,24 +6,23 @@ use glam::DVec3;
 use lumencut_core::volume::Volume;
 
 use crate::extent::Extent;
-use crate::places::Place;
+use crate::places::CoordinateSystem;
 use crate::windows::sample;
 use lumencut_core::math::statistics::median;
 
-/// Points are looked at once for each cube of this side (mm): points that lie closely say the same thing twice.
-const CUBE: f64 = 2.0;
-/// The most points that are looked at.
-const MOST_POINTS: usize = 2000;
-/// The fewest points that look like lumen where they decide anything: of cubes of 2 mm, some 40 mm of vessel.
-const FEWEST: usize = 20;
-/// How many times as many points one reading must have as the other.
-const TIMES: usize = 3;
-/// How far around a point its own value is taken, and how far away its surroundings are, where no radius is known (mm).
-const UNKNOWN: (f64, f64) = (1.0, 15.0);
-/// How far beyond the wall the surroundings are at least (mm); else a radius beyond it.
-const BESIDE: f64 = 3.0;
+/// One point is sampled per cube of this side (mm): close points carry the same information.
+const CUBE_MM: f64 = 2.0;
+const MAX_POINTS: usize = 2000;
+/// The fewest lumen-like points that can decide: about 40 mm of vessel in cubes of 2 mm.
+const MIN_LUMEN_POINTS: usize = 20;
+/// The winning reading has at least this many times the points of the other.
+const MIN_RATIO: usize = 3;
+/// If no radius is known: the reach of a point's own value, and the distance of its surroundings (mm).
+const UNKNOWN_RADIUS: (f64, f64) = (1.0, 15.0);
+/// The least distance of the surroundings beyond the wall (mm); else a radius.
+const MIN_SURROUNDINGS_MM: f64 = 3.0;
 
-/// Points of centerlines with their radii, NaN where one is not known, both as they stand in a file.
+/// Points and radii of centerlines as in their file; NaN for unknown radii.
 #[derive(Clone, Copy, Debug)]
 pub struct Lines<'a> {
     /// The points.
@@ -35,44 +34,45 @@ pub struct Lines<'a> {
 /// How many points look like lumen.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct LumenCount {
-    /// Those that are brighter than their surroundings, or those that are darker, whichever are more.
-    pub like_lumen: usize,
-    /// How many were looked at.
+    /// Those brighter than their surroundings, or those darker, whichever are more.
+    pub(crate) like_lumen: usize,
+    /// How many were sampled.
     pub of: usize,
 }
 
-/// What the volume can say.
+/// What a volume can decide about centerlines.
 #[derive(Clone, Copy)]
 pub struct Judge<'a> {
-    /// The space that it fills.
+    /// The extent of the volume.
     pub extent: Extent,
-    /// How many points look like lumen in it where they are read in a place.
-    pub lumen: &'a dyn Fn(Place) -> LumenCount,
+    /// Counts lumen-like points for a reading.
+    pub lumen: &'a dyn Fn(CoordinateSystem) -> LumenCount,
 }
 
 impl LumenCount {
-    /// Whether these points are lumen and those of the other reading are not: at least three times as many look like it,
-    /// at least half of all, and at least twenty.
-    pub fn is_evident_beside(self, other: Self) -> bool {
-        self.like_lumen >= FEWEST
+    /// Whether these points are lumen and those of the other reading are not: at least three times as many, half of all, and
+    /// twenty.
+    pub(crate) fn is_evident_over(self, other: Self) -> bool {
+        self.like_lumen >= MIN_LUMEN_POINTS
             && 2 * self.like_lumen >= self.of
-            && self.like_lumen >= TIMES * other.like_lumen
+            && self.like_lumen >= MIN_RATIO * other.like_lumen
     }
 }
 
-/// Counts the points that look like lumen where the lines are read in a place.
+/// Counts the points that look like lumen when the lines are read in a place.
 ///
-/// A point does where its own value, the median of it and of six points half a radius around it, is above three quarters
-/// of the values of 26 points around it, a radius beyond the wall. Ranks alone count: so it is the same for CT, MR and
-/// bytes. Where more points are below three quarters of their surroundings, as in volumes with dark lumens, those count.
-pub fn lumen_count(volume: &Volume, lines: &Lines, place: Place) -> LumenCount {
+/// A point looks like lumen if its value (the median of it and six points half a radius away) exceeds three quarters of 26 values
+/// around it, a radius beyond the wall. Ranks make this independent of CT, MR or scaling. If more points are below three quarters
+/// of their surroundings, those count: the lumen is dark.
+pub fn lumen_count(volume: &Volume, lines: &Lines, place: CoordinateSystem) -> LumenCount {
     let (scale, mm) = (place.scale(), place.unit.in_mm());
     let looked_at = spread(lines, mm);
     let (mut brighter, mut darker) = (0, 0);
     for n in &looked_at {
         let (point, radius) = (lines.points[*n] * scale, lines.radii[*n] * mm);
         let is_known = radius > 0.0;
-        let (own, away) = if is_known { (0.5 * radius, radius + radius.max(BESIDE)) } else { UNKNOWN };
+        let (own, away) =
+            if is_known { (0.5 * radius, radius + radius.max(MIN_SURROUNDINGS_MM)) } else { UNKNOWN_RADIUS };
         if let Some((below, above, all)) = ranks(volume, point, own, away) {
             brighter += usize::from(4 * below >= 3 * all);
             darker += usize::from(4 * above >= 3 * all);
@@ -81,16 +81,16 @@ pub fn lumen_count(volume: &Volume, lines: &Lines, place: Place) -> LumenCount {
     LumenCount { like_lumen: brighter.max(darker), of: looked_at.len() }
 }
 
-/// One point for each cube of space, evenly thinned to [`MOST_POINTS`].
+/// One point per cube, evenly thinned to [`MAX_POINTS`].
 fn spread(lines: &Lines, mm: f64) -> Vec<usize> {
     let mut cubes = BTreeSet::new();
-    let cube = |point: DVec3| (point * mm / CUBE).floor().as_i64vec3().to_array();
+    let cube = |point: DVec3| (point * mm / CUBE_MM).floor().as_i64vec3().to_array();
     let kept: Vec<usize> = (0..lines.points.len()).filter(|n| cubes.insert(cube(lines.points[*n]))).collect();
-    kept.iter().copied().step_by(kept.len().div_ceil(MOST_POINTS).max(1)).collect()
+    kept.iter().copied().step_by(kept.len().div_ceil(MAX_POINTS).max(1)).collect()
 }
 
-/// How many of the values `away` from a point are below its own, how many above, and how many there are. None where the
-/// point or most of its surroundings are outside the volume.
+/// How many of the values `away` from a point are below and above its own, and their count. None if the point or most of its
+/// surroundings are outside the volume.
 fn ranks(volume: &Volume, point: DVec3, own: f64, away: f64) -> Option<(usize, usize, usize)> {
     let sides = [DVec3::X, DVec3::Y, DVec3::Z].into_iter().flat_map(|axis| [axis, -axis]);
     let near: Vec<DVec3> = std::iter::once(point).chain(sides.map(|side| point + own * side)).collect();
@@ -111,7 +111,6 @@ fn numbers(values: &[f32]) -> Vec<f64> {
     values.iter().filter(|value| !value.is_nan()).map(|value| f64::from(*value)).collect()
 }
 
-/// The directions from the middle of a cube to its corners, edges and faces.
 fn directions() -> Vec<DVec3> {
     let step = |n: u32| DVec3::new(f64::from(n % 3), f64::from(n / 3 % 3), f64::from(n / 9)) - 1.0;
     (0..27).map(step).filter(|step| *step != DVec3::ZERO).map(DVec3::normalize).collect()

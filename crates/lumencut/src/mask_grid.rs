@@ -1,4 +1,4 @@
-//! Where the voxels of a mask lie among those of its volume, of which the mask may hold a part.
+//! Places the voxels of a mask among those of its volume; the mask may cover part of it.
 
 use glam::{DAffine3, DVec3};
 use lumencut_core::error::{Error, ErrorKind, Result};
@@ -6,11 +6,11 @@ use lumencut_core::volume::Volume;
 
 use crate::text::rounded;
 
-/// Voxels of a mask may lie so far from those of the volume, in voxels.
-const OFF_GRID: f64 = 0.1;
-/// The corners of mask and volume may lie so far apart, in the smallest side of a voxel.
-const SAME_GRID: f64 = 0.1;
-const ANOTHER: &str = "take the mask that was made on this scan, or resample it onto the grid of this scan";
+/// Largest offset of mask voxels from volume voxels, in voxels.
+const MAX_VOXEL_OFFSET: f64 = 0.1;
+/// Largest offset of corners, in the smallest voxel side.
+const MAX_CORNER_OFFSET: f64 = 0.1;
+const ADVICE: &str = "take the mask that was made on this scan, or resample it onto the grid of this scan";
 
 /// The grid of a volume or a mask.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,14 +21,14 @@ pub struct Grid {
     pub world_from_index: DAffine3,
 }
 
-/// The place of a mask on the grid of its volume.
+/// The position of a mask on the volume's grid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct MaskPlace {
-    /// For each axis of the mask that of the volume.
+    /// The volume axis of each mask axis.
     pub axes: [usize; 3],
-    /// For each axis of the volume whether that of the mask runs the same way.
+    /// For each volume axis: whether the mask runs the same way.
     pub forward: [bool; 3],
-    /// The least index of the mask along each axis of the volume.
+    /// The lowest mask index along each volume axis.
     pub low: [usize; 3],
 }
 
@@ -39,7 +39,7 @@ impl From<&Volume<'_>> for Grid {
 }
 
 impl Grid {
-    /// The distance of neighbouring voxels along (i, j, k), mm.
+    /// Voxel spacing along (i, j, k), mm.
     fn steps(&self) -> [f64; 3] {
         let axes = self.world_from_index.matrix3;
         [axes.x_axis, axes.y_axis, axes.z_axis].map(DVec3::length)
@@ -61,11 +61,10 @@ impl Grid {
     }
 }
 
-/// The place of a mask among the voxels of its volume; none where it has the grid of the volume, whose axes may be
-/// stored in another order or direction.
+/// The position of a mask on its volume's grid; None if the grids are equal. The mask's axes may be permuted or flipped.
 ///
 /// # Errors
-/// [`ErrorKind::Volume`] where the voxels of the mask are none of the volume.
+/// [`ErrorKind::Volume`] if the mask's voxels are not voxels of the volume.
 pub fn place_of(mask: &Grid, volume: &Grid) -> Result<Option<MaskPlace>> {
     let sorted = |grid: &Grid| {
         let mut size = grid.size;
@@ -78,36 +77,32 @@ pub fn place_of(mask: &Grid, volume: &Grid) -> Result<Option<MaskPlace>> {
     place_within(mask, volume).map(Some)
 }
 
-/// Refuses a mask of the size of the volume whose corners lie elsewhere.
 fn check_corners(mask: &Grid, volume: &Grid) -> Result<()> {
     let corners = volume.corners();
     let nearest =
         mask.corners().map(|own| corners.iter().map(|other| own.distance(*other)).fold(f64::MAX, f64::min));
     let apart = nearest.into_iter().fold(0.0, f64::max);
-    if apart > SAME_GRID * volume.steps().into_iter().fold(f64::MAX, f64::min) {
+    if apart > MAX_CORNER_OFFSET * volume.steps().into_iter().fold(f64::MAX, f64::min) {
         let found =
             format!("a grid whose corners lie up to {} mm from those of the volume", rounded(apart, 3));
-        return Err(refused(found, format!("the same grid, to {SAME_GRID} of a voxel")));
+        return Err(refused(found, format!("the same grid, to {MAX_CORNER_OFFSET} of a voxel")));
     }
     Ok(())
 }
 
-/// The place of a mask that may hold a part of the voxels of its volume.
-///
-/// # Errors
-/// As for [`place_of`].
+/// As [`place_of`], for a mask that may cover part of the volume.
 pub fn place_within(mask: &Grid, volume: &Grid) -> Result<MaskPlace> {
     let step = volume.world_from_index.inverse() * mask.world_from_index;
     let columns = [step.matrix3.x_axis, step.matrix3.y_axis, step.matrix3.z_axis];
     let axes = axes_of(mask, &columns).ok_or_else(|| {
-        let found = format!("a mask whose voxels of {} mm are none of the volume", mask.millimetres());
-        refused(found, format!("voxels of the volume, {} mm", volume.millimetres()))
+        let found = format!("a mask with voxels of {} mm", mask.millimetres());
+        refused(found, format!("the voxels of the volume, {} mm", volume.millimetres()))
     })?;
     let beside = step.translation - step.translation.round();
-    if beside.abs().max_element() > OFF_GRID {
+    if beside.abs().max_element() > MAX_VOXEL_OFFSET {
         let apart = volume.world_from_index.transform_vector3(beside).length();
-        let found = format!("a mask whose voxels lie {} mm beside those of the volume", rounded(apart, 3));
-        return Err(refused(found, format!("the same places, to {OFF_GRID} of a voxel")));
+        let found = format!("a mask whose voxels lie {} mm away from those of the volume", rounded(apart, 3));
+        return Err(refused(found, format!("the same positions, to {MAX_VOXEL_OFFSET} of a voxel")));
     }
     let (first, mut forward, mut low) = (step.translation.round().to_array(), [true; 3], [0; 3]);
     for (axis, column) in columns.iter().enumerate() {
@@ -116,7 +111,7 @@ pub fn place_within(mask: &Grid, volume: &Grid) -> Result<MaskPlace> {
         let length = mask.size[axis] as f64;
         let least = if forward[own] { first[own] } else { first[own] - length + 1.0 };
         if least < 0.0 || least + length > volume.size[own] as f64 {
-            let found = format!("a mask of {} voxels that reaches beyond the volume", mask.times());
+            let found = format!("a mask of {} voxels that extends beyond the volume", mask.times());
             return Err(refused(found, format!("voxels among the {} of the volume", volume.times())));
         }
         low[own] = least as usize;
@@ -124,14 +119,14 @@ pub fn place_within(mask: &Grid, volume: &Grid) -> Result<MaskPlace> {
     Ok(MaskPlace { axes, forward, low })
 }
 
-/// For each axis of a mask that of the volume, along which its last voxel lies by whole voxels; none where it is none.
+/// The volume axis of each mask axis, if the mask's last voxel is a whole number of voxels away along it.
 fn axes_of(mask: &Grid, columns: &[DVec3; 3]) -> Option<[usize; 3]> {
     let mut axes = [0; 3];
     for (axis, column) in columns.iter().enumerate() {
         let whole = column.round();
         let drift = (*column - whole).abs().max_element() * (mask.size[axis].max(2) - 1) as f64;
-        // Also false for numbers that are none.
-        if !(drift <= OFF_GRID && whole.abs().element_sum() == 1.0) {
+        // The comparison also rejects NaN.
+        if !(drift <= MAX_VOXEL_OFFSET && whole.abs().element_sum() == 1.0) {
             return None;
         }
         axes[axis] = whole.abs().max_position();
@@ -139,14 +134,14 @@ fn axes_of(mask: &Grid, columns: &[DVec3; 3]) -> Option<[usize; 3]> {
     (axes[0] != axes[1] && axes[1] != axes[2] && axes[0] != axes[2]).then_some(axes)
 }
 
-/// What is told of a mask that holds a part of the voxels of its volume.
+/// The note for a mask that covers part of the volume.
 pub fn placed_note(mask: [usize; 3], volume: [usize; 3]) -> String {
     let [own, every] = [mask, volume].map(|size| size.map(|n| n.to_string()).join(" × "));
-    format!("the mask has {own} of the {every} voxels of the volume: placed by its own grid, 0 elsewhere")
+    format!("the mask covers {own} of the {every} voxels of the volume: placed by its own grid, 0 elsewhere")
 }
 
 fn refused(found: String, expected: String) -> Error {
-    Error::new(ErrorKind::Volume, "mask", found, expected).mend(ANOTHER)
+    Error::new(ErrorKind::Volume, "mask", found, expected).mend(ADVICE)
 }
 
 #[cfg(test)]
@@ -167,7 +162,7 @@ mod tests {
         let part = grid([10, 8, 6], spaced() * DAffine3::from_translation(DVec3::new(5.0, 6.0, 7.0)));
         let place = place_of(&part, &volume).expect("a part").expect("a place");
         assert_eq!(place, MaskPlace { axes: [0, 1, 2], forward: [true; 3], low: [5, 6, 7] });
-        // Stored along k, -i, j.
+        // Stored along k, −i, j.
         let mut turned = part.world_from_index;
         let [i, j, k] = [turned.matrix3.x_axis, turned.matrix3.y_axis, turned.matrix3.z_axis];
         turned.matrix3 = glam::DMat3::from_cols(k, -i, j);
@@ -183,11 +178,11 @@ mod tests {
         let moved = |x: f64, y: f64, z: f64| spaced() * DAffine3::from_translation(DVec3::new(x, y, z));
         let found = |mask: Grid| place_of(&mask, &volume).expect_err("elsewhere").to_string();
         let half = found(grid([10, 8, 6], moved(5.5, 6.0, 7.0)));
-        assert!(half.contains("lie 0.25 mm beside") && half.contains("resample"), "{half}");
+        assert!(half.contains("lie 0.25 mm away from") && half.contains("resample"), "{half}");
         let beyond = found(grid([10, 8, 6], moved(-1.0, 6.0, 7.0)));
-        assert!(beyond.contains("10 × 8 × 6 voxels that reaches beyond the volume"), "{beyond}");
+        assert!(beyond.contains("10 × 8 × 6 voxels that extends beyond the volume"), "{beyond}");
         let finer = found(grid([10, 8, 6], DAffine3::from_scale(DVec3::new(0.25, 0.5, 2.0))));
-        assert!(finer.contains("voxels of 0.25 × 0.5 × 2 mm are none of the volume"), "{finer}");
+        assert!(finer.contains("voxels of 0.25 × 0.5 × 2 mm; expected the voxels of the volume"), "{finer}");
         let same = found(grid([40, 30, 20], moved(1.0, 0.0, 0.0)));
         assert!(same.contains("corners lie up to 0.5 mm"), "{same}");
     }

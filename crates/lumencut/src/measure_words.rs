@@ -1,4 +1,4 @@
-//! What was measured in words, the same in every host.
+//! Measurements in words, the same in every host.
 
 use lumencut_core::named::Named;
 use lumencut_vessels::measure::profile::Source;
@@ -9,11 +9,10 @@ use lumencut_vessels::measure::wall_level::{CT_WALL, WallSource};
 use crate::flag_table::set_in;
 use crate::text::fixed;
 
-/// What is told wherever lengths are in mm because a reader took voxels for 1 mm apart.
-pub const MILLIMETRE_ASSUMED: &str =
-    "1 mm is assumed between voxels: the scan does not say how far they lie apart.";
+/// The note for lengths that assume 1 mm between voxels.
+pub(crate) const MILLIMETRE_ASSUMED: &str = "The scan has no voxel spacing: 1 mm is assumed.";
 
-/// How readers call a method: `NASCET`, `ECST` or `area`.
+/// The name of a method for readers: `NASCET`, `ECST` or `area`.
 pub fn of_method(method: Method) -> String {
     match method {
         Method::Area => method.name().to_owned(),
@@ -21,7 +20,7 @@ pub fn of_method(method: Method) -> String {
     }
 }
 
-/// A stenosis in one line: percent with its method, the diameter with its uncertainty, and what it was compared with.
+/// A stenosis in one line: percentage and method, diameter with uncertainty, and the reference.
 pub fn of_stenosis(graded: &Stenosis) -> String {
     let what = if graded.method == Method::Area { "of the area" } else { "of the diameter" };
     let method = of_method(graded.method);
@@ -39,7 +38,7 @@ pub fn of_stenosis(graded: &Stenosis) -> String {
     )
 }
 
-/// A percentage with its standard deviation, where that is known: rounded upwards, as nothing is sure to less than 1 %.
+/// A percentage with its standard deviation, rounded up: nothing is accurate to less than 1 %.
 fn of_percent(percent: f64, uncertainty: f64) -> String {
     if uncertainty.is_finite() {
         format!("{} ± {}", fixed(percent, 0), fixed(uncertainty.ceil().max(1.0), 0))
@@ -53,7 +52,7 @@ fn places(references: &[[f64; 2]]) -> String {
     if places.is_empty() { String::new() } else { format!(" at {}", places.join(", ")) }
 }
 
-/// What makes a percentage doubtful, a sentence each.
+/// The doubts about a percentage, one sentence each.
 pub fn of_doubts(doubts: &Doubts) -> Vec<String> {
     let flags = of_flags(doubts.flags).join(", ");
     let at_places = (doubts.flags != 0).then(|| format!("At these places: {flags}."));
@@ -62,14 +61,14 @@ pub fn of_doubts(doubts: &Doubts) -> Vec<String> {
     at_places.into_iter().chain(doubts.is_branch_between.then(|| between.to_owned())).collect()
 }
 
-/// A stenosis as [`of_stenosis`] has it, and behind it what makes it doubtful.
+/// A stenosis as in [`of_stenosis`], followed by its doubts.
 pub fn of_doubtful_stenosis(graded: &Stenosis) -> String {
     let doubts = of_doubts(&graded.doubts);
     let words = of_stenosis(graded);
     if doubts.is_empty() { words } else { format!("{words}. {}", doubts.join(" ")) }
 }
 
-/// The angles of a C-arm as they stand on it, such as `RAO 20° CRAN 5°`. What is rounded to 0° has the side of 0.
+/// C-arm angles as displayed on it, such as `RAO 20° CRAN 5°`. The side is that of the rounded angle.
 pub fn of_c_arm(arm: &CArm) -> String {
     let [turn, tilt] = [arm.lao, arm.cranial].map(|angle| angle.to_degrees().round_ties_even());
     let side = if turn < 0.0 { "RAO" } else { "LAO" };
@@ -77,7 +76,7 @@ pub fn of_c_arm(arm: &CArm) -> String {
     format!("{side} {}° {towards} {}°", fixed(turn.abs(), 0), fixed(tilt.abs(), 0))
 }
 
-/// Where the width of a point spread is from: `given`, `estimated on …` or `assumed: …`.
+/// The source of a point-spread width: `given`, `estimated on …` or `assumed: …`.
 pub fn of_source(source: &Source) -> String {
     match source {
         Source::Given => "given".to_owned(),
@@ -86,7 +85,7 @@ pub fn of_source(source: &Source) -> String {
     }
 }
 
-/// Whether walls were told apart from what surrounds the vessel, and by which level.
+/// Whether walls were separated from the surroundings, and at which level.
 pub fn of_wall(source: &WallSource) -> String {
     let level = |[level, deviation]: [f64; 2]| format!("{} ± {}", fixed(level, 0), fixed(deviation, 0));
     let in_ct = || format!("{} HU, as walls in CT", level(CT_WALL));
@@ -100,20 +99,20 @@ pub fn of_wall(source: &WallSource) -> String {
             let others = if count == 1 { "vessel" } else { "vessels" };
             format!("{before}; {pooled} pooled with {count} other {others} of the tree")
         }
-        WallSource::NotAsked => "not told apart, as asked".to_owned(),
-        WallSource::DarkLumen => "not told apart: the lumen is dark".to_owned(),
-        WallSource::AsBright => "not told apart: the surroundings are as bright".to_owned(),
-        WallSource::OtherUnit => "not told apart: nothing says that the values are HU".to_owned(),
+        WallSource::NotAsked => "not separated, as requested".to_owned(),
+        WallSource::DarkLumen => "not separated: the lumen is dark".to_owned(),
+        WallSource::AsBright => "not separated: the surroundings are as bright".to_owned(),
+        WallSource::OtherUnit => "not separated: nothing says that the values are HU".to_owned(),
     }
 }
 
-/// What the calcium or metal beside a lumen leaves open, by the bounds of its diameter (mm); None where nothing is brighter than it.
-pub fn of_bounds([excluded, included]: [f64; 2]) -> Option<String> {
+/// The two bounds of a diameter (mm) next to calcium or metal; None if nothing is brighter than the lumen.
+pub(crate) fn of_bounds([excluded, included]: [f64; 2]) -> Option<String> {
     let [excluded, included] = [excluded, included].map(|mm| mm.is_finite().then(|| fixed(mm, 2)));
-    Some(format!("{} mm if nothing brighter is lumen, {} mm if all of it is", excluded?, included?))
+    Some(format!("{} mm if brighter material is excluded, {} mm if it is included", excluded?, included?))
 }
 
-/// The flags that are set, each as words such as `no clear wall`.
+/// The words of the set flags, such as `no clear wall`.
 pub fn of_flags(flags: u32) -> Vec<String> {
     set_in(flags).map(|flag| flag.word.to_owned()).collect()
 }

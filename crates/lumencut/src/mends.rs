@@ -1,5 +1,4 @@
-//! What mends an error, whichever crate raised it: a name that every host knows, and what can be chosen among. Each host words
-//! it and offers it in its own way.
+//! The remedies ("mends") of errors from all crates: a name and choices; each host words and offers them itself.
 
 use serde::ser::{Serialize, SerializeStruct, Serializer};
 
@@ -7,10 +6,10 @@ pub use lumencut_core::error::Mend as OfCore;
 pub use lumencut_dicom::Mend as OfDicom;
 pub use lumencut_io::Mend as OfCenterlines;
 
-/// A mend of any crate; as JSON `{"name": …, "values": […]}`.
+/// A mend of any crate; in JSON `{"name": …, "values": […]}`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Mend {
-    /// Of views, devices, volumes, tracing and measuring.
+    /// For views, devices, volumes, tracing and measuring.
     Core(OfCore),
     /// Of centerline files.
     Centerlines(OfCenterlines),
@@ -19,7 +18,7 @@ pub enum Mend {
 }
 
 impl Mend {
-    /// The name by which every host knows it.
+    /// The name shared by all hosts.
     pub fn name(&self) -> &'static str {
         match self {
             Self::Core(mend) => mend.name(),
@@ -28,7 +27,7 @@ impl Mend {
         }
     }
 
-    /// What can be chosen among, such as units or phases; empty where there is nothing to choose.
+    /// The choices, such as units or phases; may be empty.
     pub fn values(&self) -> Vec<&str> {
         match self {
             Self::Core(_) => Vec::new(),
@@ -58,14 +57,14 @@ impl From<OfDicom> for Mend {
 
 impl Serialize for Mend {
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        let mut told = to.serialize_struct("Mend", 2)?;
-        told.serialize_field("name", self.name())?;
-        told.serialize_field("values", &self.values())?;
-        told.end()
+        let mut fields = to.serialize_struct("Mend", 2)?;
+        fields.serialize_field("name", self.name())?;
+        fields.serialize_field("values", &self.values())?;
+        fields.end()
     }
 }
 
-/// The names of all mends: a host has words for each of them.
+/// The names of all mends; each host has words for them.
 pub fn names() -> Vec<&'static str> {
     let of_core = OfCore::ALL.into_iter().map(OfCore::name);
     of_core.chain(OfCenterlines::NAMES).chain(OfDicom::NAMES).collect()
@@ -83,12 +82,12 @@ mod tests {
 
     #[test]
     fn a_mend_is_told_by_its_name_and_values() {
-        let told = |mend: Mend| serde_json::to_string(&mend).expect("JSON");
-        assert_eq!(told(OfCore::Bridge.into()), r#"{"name":"bridge","values":[]}"#);
+        let json = |mend: Mend| serde_json::to_string(&mend).expect("JSON");
+        assert_eq!(json(OfCore::Bridge.into()), r#"{"name":"bridge","values":[]}"#);
         assert_eq!(
-            told(OfCenterlines::Coordinates.into()),
+            json(OfCenterlines::Coordinates.into()),
             r#"{"name":"coordinates","values":["lps","ras"]}"#
         );
-        assert_eq!(told(OfDicom::Phase(vec!["400".into()]).into()), r#"{"name":"phase","values":["400"]}"#);
+        assert_eq!(json(OfDicom::Phase(vec!["400".into()]).into()), r#"{"name":"phase","values":["400"]}"#);
     }
 }

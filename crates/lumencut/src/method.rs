@@ -1,4 +1,4 @@
-//! The methods by which a view can be made: the cut surface, and the reformations that it is compared with.
+//! The methods of a view: the cut surface and the reformations it is compared with.
 
 use lumencut_core::error::{Error, ErrorKind, Result};
 use lumencut_core::frame::Frame;
@@ -9,21 +9,21 @@ use lumencut_core::scene::Scene;
 use lumencut_core::settings::Settings;
 use lumencut_gpu::renderer::GpuRenderer;
 
-/// Refuses a focus and chosen vessels in pictures by another method than the cut surface, which has a place for neither.
+/// Rejects a focus and selected vessels for other methods than the cut surface.
 ///
 /// # Errors
-/// [`ErrorKind::Settings`] for settings that have one.
+/// [`ErrorKind::Settings`] if a setting has one.
 pub fn refuse_focus(settings: &Settings) -> Result<()> {
     let Some((setting, what)) = settings.focused() else { return Ok(()) };
-    let found = format!("{what} for another picture than a cut surface");
-    Err(Error::new(ErrorKind::Settings, setting, found, "none: CPR, mpCPR and CR show all of their surface")
+    let found = format!("{what} for a picture that is not a cut surface");
+    Err(Error::new(ErrorKind::Settings, setting, found, "none: CPR, mpCPR and CR show their whole surface")
         .mend(format!("leave the {setting} out")))
 }
 
-/// How the places where the pixels look are found.
+/// How the sampled positions are found.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Method {
-    /// Curved Surface Reformation, by the rules of the settings.
+    /// Curved Surface Reformation, by the settings.
     CutSurface,
     /// Multipath CPR.
     MpCpr,
@@ -32,10 +32,7 @@ pub enum Method {
 }
 
 impl Method {
-    /// A view on the CPU.
-    ///
-    /// # Errors
-    /// Those of the method and of what is shown.
+    /// Renders on the CPU.
     pub fn on_cpu(self, cpu: &mut CpuRenderer, scene: &Scene, request: &Request) -> Result<Frame> {
         let Some(frame) = self.places(scene, request)? else { return cpu.render(scene, request) };
         match &scene.volume {
@@ -44,11 +41,7 @@ impl Method {
         }
     }
 
-    /// A view of which a GPU shows the volume.
-    ///
-    /// # Errors
-    /// As [`Method::on_cpu`], and [`ErrorKind::Device`] where the GPU has no room or fails.
-    pub async fn on_gpu(
+    pub(crate) async fn on_gpu(
         self,
         gpu: &mut GpuRenderer,
         scene: &Scene<'_>,
@@ -61,7 +54,6 @@ impl Method {
         }
     }
 
-    /// Where the pixels look by a reformation.
     fn places(self, scene: &Scene, request: &Request) -> Result<Option<Frame>> {
         if self == Self::CutSurface {
             return Ok(None);

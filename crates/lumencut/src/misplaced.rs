@@ -1,13 +1,13 @@
-//! Centerlines that were read in the wrong space or unit, as a volume tells.
+//! Detects centerlines read in the wrong space or unit.
 
 use glam::DVec3;
 use lumencut_io::{Space, Unit};
 
 use crate::extent::Extent;
 use crate::placement::Judge;
-use crate::places::{Place, Reading, mm, places, readings};
+use crate::places::{CoordinateSystem, Reading, mm, places, readings};
 
-/// Whether points in LPS and mm miss the volume, in whatever space and unit they might be meant.
+/// Whether points in LPS and mm miss the volume in every space and unit.
 pub fn fits_nowhere(points: &[DVec3], volume: &Extent) -> bool {
     let is_outside = |reading: &Reading| match reading.place.unit {
         Unit::Millimetre => reading.inside == 0,
@@ -16,25 +16,25 @@ pub fn fits_nowhere(points: &[DVec3], volume: &Extent) -> bool {
     readings(points, &places(&Space::ALL, &Unit::ALL), volume).iter().all(is_outside)
 }
 
-/// Points that another place fits better.
+/// Points that fit better in another space or unit.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Misplaced {
-    /// What was found, in words.
+    /// The finding, in words.
     pub found: String,
-    /// The place that fits, for points that were read as LPS in mm; its space being RAS, those that were read as RAS fit as LPS.
-    pub meant: Place,
+    /// The place that fits for points read as LPS in mm. If its space is RAS, points read as RAS fit as LPS.
+    pub meant: CoordinateSystem,
 }
 
-/// What is to be said of points in LPS and mm where another place brings twice as many of them into the volume, and a
-/// tenth of all more: as when RAS was read as LPS, or centimetres as millimetres. Or where both spaces fit the volume, and
-/// the points evidently look like lumen with x and y negated alone. Points that are shorter than a few voxels lie nowhere.
+/// A better place for points in LPS and mm: it brings twice as many points, and a tenth of all more, into the volume (RAS read as
+/// LPS, cm as mm). Or both spaces fit, and points clearly look like lumen only with x and y negated. Points spanning a few voxels
+/// are ignored.
 pub fn better_place(points: &[DVec3], volume: &Judge) -> Option<Misplaced> {
     better_by_extent(points, &volume.extent).or_else(|| mirrored_by_values(points, volume))
 }
 
 fn better_by_extent(points: &[DVec3], volume: &Extent) -> Option<Misplaced> {
     let mut candidates = places(&Space::ALL, &Unit::ALL);
-    // The likeliest mistakes first: of places that fit alike the first one is named.
+    // The likeliest mistakes first: ties go to the first place.
     candidates.sort_by_key(|place| place.unit != Unit::Millimetre);
     let readings = readings(points, &candidates, volume);
     let as_read = readings[0];
@@ -60,10 +60,10 @@ fn mirrored_by_values(points: &[DVec3], volume: &Judge) -> Option<Misplaced> {
         return None;
     }
     let (few, count) = ((volume.lumen)(as_read.place), (volume.lumen)(mirrored.place));
-    count.is_evident_beside(few).then(|| {
+    count.is_evident_over(few).then(|| {
         let how = mirrored.place.mistaken();
         let found = format!(
-            "of {} points looked at, {} look like lumen as read, but {} {how}",
+            "of {} sampled points, {} look like lumen as read, but {} {how}",
             count.of, few.like_lumen, count.like_lumen,
         );
         Misplaced { found, meant: mirrored.place }

@@ -1,33 +1,33 @@
-//! What of a vessel was not measured, in words that every host tells.
+//! The unmeasured ends of a vessel, in words for every host.
 
 use lumencut_vessels::measure::profile::Profile;
 use serde::Serialize;
 
-/// A stretch of a vessel that was not measured.
+/// An unmeasured stretch.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub struct NotMeasured {
-    /// Where it begins (arc length, mm).
-    pub from_mm: f64,
-    /// Where it ends (arc length, mm).
-    pub to_mm: f64,
-    /// Where the vessel can be cut so that this stretch is off it (arc length, mm).
-    pub cut_mm: f64,
-    /// That it was not measured, and why.
+    /// Its start (arc length, mm).
+    pub(crate) from_mm: f64,
+    /// Its end (arc length, mm).
+    pub(crate) to_mm: f64,
+    /// Where cutting the vessel removes it (arc length, mm).
+    pub(crate) cut_mm: f64,
+    /// A sentence with the reason.
     pub words: String,
 }
 
-/// A shorter end without a section that was measured is not told (mm): many vessels end so.
-const SHORTEST: f64 = 10.0;
+/// Shorter unmeasured ends are not reported (mm): many vessels have them.
+const MIN_LENGTH_MM: f64 = 10.0;
 
-/// The ends of a vessel that were not measured; none of most vessels.
+/// The unmeasured ends of a vessel.
 pub fn not_measured(profile: &Profile) -> Vec<NotMeasured> {
     let mut measured = (0..profile.len()).filter(|n| profile.area[*n].is_finite());
     let Some(first) = measured.next() else { return Vec::new() };
     let last = measured.next_back().unwrap_or(first);
     let [low, high] = [first, last].map(|n| profile.arc_length[n]);
     let ends = [(low, [0.0, low], "up to"), (high, [high, profile.length()], "from")];
-    let long = ends.into_iter().filter(|(_, [from, to], _)| to - from >= SHORTEST);
+    let long = ends.into_iter().filter(|(_, [from, to], _)| to - from >= MIN_LENGTH_MM);
     long.map(|(cut, [from, to], side)| {
         let is_bright = profile.without_wall.iter().any(|[begin, end]| *begin < to && *end > from);
         let why = if is_bright { "the vessel is as bright as its surroundings" } else { "no wall was found" };

@@ -1,4 +1,4 @@
-//! Why no place is suggested on a vessel, in words that every host tells.
+//! Why no place is suggested on a vessel, in words for every host.
 
 use lumencut_vessels::measure::hindrances::{CHANGE_OF_LUMEN, FLAP, UNSURE};
 use lumencut_vessels::measure::profile::Profile;
@@ -7,12 +7,10 @@ use lumencut_vessels::measure::suggestions::Spot;
 use crate::flag_table::FLAGS;
 use crate::profile_marks::{main_place, offered_references};
 
-/// What hinders a suggestion beside the flags, as words.
-pub const HINDRANCES: [(u32, &str); 3] =
+pub(crate) const HINDRANCES: [(u32, &str); 3] =
     [(CHANGE_OF_LUMEN, "change of lumen"), (FLAP, "flap"), (UNSURE, "unsure diameter")];
 
-/// Why the narrowest place, or any reference, is not suggested beside what a reader marked (arc lengths, mm): a sentence each,
-/// none where they are suggested or marked.
+/// Why the narrowest place or a reference is not suggested, given the marked places (arc lengths, mm): one sentence each.
 pub fn not_suggested(profile: &Profile, at: Option<f64>, references: &[f64]) -> Vec<String> {
     match main_place(profile, at) {
         None => {
@@ -28,39 +26,39 @@ pub fn not_suggested(profile: &Profile, at: Option<f64>, references: &[f64]) -> 
     }
 }
 
-/// So many reasons are told: those of the most sections.
-const MOST_REASONS: usize = 3;
+/// The number of reported reasons: those of the most sections.
+const MAX_REASONS: usize = 3;
 
 fn none_safe(profile: &Profile) -> String {
     let hindrances = profile.hindrances();
     let counted = |bit: u32| hindrances.iter().filter(|found| *found & bit != 0).count();
     let bits = FLAGS.iter().map(|flag| (flag.bit, flag.word)).chain(HINDRANCES);
-    // The reasons so far, from the most sections on: a few, for which a sort would be more code than they are worth.
+    // An insertion into a short list: less code than a sort.
     let mut found: Vec<(usize, &str)> = Vec::new();
     for (bit, word) in bits {
         let count = counted(bit);
         let place = found.partition_point(|(other, _)| *other >= count);
-        if count > 0 && place < MOST_REASONS {
+        if count > 0 && place < MAX_REASONS {
             found.insert(place, (count, word));
-            found.truncate(MOST_REASONS);
+            found.truncate(MAX_REASONS);
         }
     }
     let words: Vec<&str> = found.iter().map(|(_, word)| *word).collect();
     let why = if words.is_empty() { String::new() } else { format!(" ({})", words.join(", ")) };
-    format!("No narrowest place is suggested: no section is safe{why}. Mark it yourself.")
+    format!("No narrowest place is suggested: no section is reliable{why}. Mark it yourself.")
 }
 
 fn only_thinner(end: Spot) -> String {
     format!(
-        "No narrowest place is suggested: the vessel gets thinner towards its end by itself, to {:.2} mm at {:.1} mm. Mark it yourself.",
+        "No narrowest place is suggested: the vessel tapers towards its end, to {:.2} mm at {:.1} mm. Mark it yourself.",
         end.diameter, end.at
     )
 }
 
 fn no_reference(at: f64) -> String {
     format!(
-        "No reference is suggested for {at:.1} mm: no place within 50 mm has parallel walls, is at least as wide, lies one diameter \
-         away, and is safe. Mark it yourself where the vessel is normal."
+        "No reference is suggested for {at:.1} mm: no place within 50 mm is reliable, at least as wide, one \
+         diameter away and between parallel walls. Mark it yourself where the vessel is normal."
     )
 }
 

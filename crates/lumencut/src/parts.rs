@@ -1,4 +1,4 @@
-//! Which lines hang together, and which one hangs on which: those of which one ends at a point of the other.
+//! Which lines are connected, and the parent of each: lines connect where one ends at a point of the other.
 
 use std::collections::{HashMap, VecDeque};
 
@@ -6,8 +6,7 @@ use glam::DVec3;
 use lumencut_core::math::arc_length::arc_lengths;
 use lumencut_core::math::same_place::VESSEL_END;
 
-/// The numbers of the lines that hang together, rising, the parts by their length, the longest first. Lines hang together where an
-/// end of one is a point of the other, to [`VESSEL_END`].
+/// Indices of connected lines in ascending order, the longest part first. Ends match points to [`VESSEL_END`].
 pub fn parts(lines: &[&[DVec3]]) -> Vec<Vec<usize>> {
     let mut heads: Vec<usize> = (0..lines.len()).collect();
     touching(lines, |number, owner| join(&mut heads, number, owner));
@@ -23,9 +22,8 @@ pub fn parts(lines: &[&[DVec3]]) -> Vec<Vec<usize>> {
     ranked.into_iter().map(|(_, part)| part).collect()
 }
 
-/// The line that each one hangs on: from the widest line of a part the way leads to those that touch it, from these to the next, and
-/// so on. The widest one itself hangs on none. `widths` are those of the lines; those that are not known are the narrowest.
-pub fn parents(lines: &[&[DVec3]], widths: &[Option<f64>]) -> Vec<Option<usize>> {
+/// The parent of each line, breadth first from the widest line of each part, which has none. Unknown `widths` count as narrowest.
+pub(crate) fn parents(lines: &[&[DVec3]], widths: &[Option<f64>]) -> Vec<Option<usize>> {
     let mut neighbors = vec![Vec::new(); lines.len()];
     touching(lines, |number, owner| {
         neighbors[number].push(owner);
@@ -51,28 +49,26 @@ pub fn parents(lines: &[&[DVec3]], widths: &[Option<f64>]) -> Vec<Option<usize>>
     parents
 }
 
-/// Hears of the numbers of two lines, each time that an end of the second one is a point of the first one.
-fn touching(lines: &[&[DVec3]], mut hear: impl FnMut(usize, usize)) {
+/// Calls `visit(a, b)` each time an end of line b is a point of line a.
+fn touching(lines: &[&[DVec3]], mut visit: impl FnMut(usize, usize)) {
     let ends = ends(lines);
     for (number, line) in lines.iter().enumerate() {
         for point in *line {
             for (end, owner) in ends.get(&cell(*point)).into_iter().flatten() {
                 if end.distance_squared(*point) <= VESSEL_END * VESSEL_END {
-                    hear(number, *owner);
+                    visit(number, *owner);
                 }
             }
         }
     }
 }
 
-/// A cube of space whose side is [`VESSEL_END`].
 type Cell = [i64; 3];
 
 fn cell(point: DVec3) -> Cell {
     (point / VESSEL_END).floor().to_array().map(|side| side as i64)
 }
 
-/// The ends of all lines with the numbers of these, in every cell that is near enough to one.
 fn ends(lines: &[&[DVec3]]) -> HashMap<Cell, Vec<(DVec3, usize)>> {
     let mut ends: HashMap<Cell, Vec<(DVec3, usize)>> = HashMap::new();
     for (number, line) in lines.iter().enumerate() {
@@ -87,7 +83,6 @@ fn ends(lines: &[&[DVec3]]) -> HashMap<Cell, Vec<(DVec3, usize)>> {
     ends
 }
 
-/// The line that stands for all that hang together with one.
 fn head(heads: &mut [usize], mut number: usize) -> usize {
     while heads[number] != number {
         heads[number] = heads[heads[number]];
@@ -113,7 +108,7 @@ mod tests {
     #[test]
     fn lines_hang_together_by_their_ends_and_by_ends_on_points_between() {
         let trunk = straight([0.0; 3], [0.0, 0.0, 100.0]);
-        // From a point of the trunk, from its end as a file has rounded it, from a branch, and past the trunk.
+        // From a trunk point, from its end as rounded by a file, from a branch, and past the trunk.
         let branch = straight([0.0, 0.0, 50.0], [30.0, 0.0, 50.0]);
         let leg = straight([0.0, 0.0006, 100.0006], [0.0, 20.0, 130.0]);
         let twig = straight([30.0, 5.0, 50.0], [30.0, 0.0, 50.0]);
@@ -135,7 +130,7 @@ mod tests {
         let lines = [&twig, &branch, &trunk, &leg, &alone].map(Vec::as_slice);
         let widths = [Some(2.0), Some(5.0), Some(20.0), Some(9.0), None];
         assert_eq!(parents(&lines, &widths), [Some(1), Some(2), None, Some(2), None]);
-        // Without widths the first line of a part is its root.
+        // Without widths the first line is the root.
         assert_eq!(parents(&lines, &[None; 5]), [None, Some(0), Some(1), Some(2), None]);
         assert!(parents(&[], &[]).is_empty());
     }

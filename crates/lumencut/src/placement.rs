@@ -1,7 +1,7 @@
-//! Space and unit of centerlines: what the caller says, else what their file states, else what fits the volume, by its
-//! extent or, between two spaces, by its values along the lines, else what is usual.
+//! Decides space and unit of centerlines: from the caller, else the file, else the volume (by extent, or between two spaces by
+//! its values), else the usual ones.
 //!
-//! Nothing is decided in silence: every choice that the file does not state comes with the counts behind it.
+//! Every choice that the file does not state is reported with the counts behind it.
 
 use glam::DVec3;
 use lumencut_io::{Result, Space, Unit};
@@ -9,24 +9,24 @@ use lumencut_io::{Result, Space, Unit};
 use crate::choice::{Choice, Chosen};
 use crate::doubted_unit::{Doubt, doubted_unit};
 pub use crate::lumen_points::Judge;
-use crate::places::{Place, Statement, places, readings};
+use crate::places::{CoordinateSystem, Statement, places, readings};
 
-/// What is known of the coordinates of a file before the volume is asked.
+/// What is known about coordinates before the volume is used.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Known {
-    /// The space that the caller asks for.
+    /// The space requested by the caller.
     pub asked_space: Option<Space>,
-    /// The unit that the caller asks for.
+    /// The unit requested by the caller.
     pub asked_unit: Option<Unit>,
-    /// The space that the file states.
+    /// The space stated by the file.
     pub stated_space: Option<Space>,
-    /// The unit that the file states.
+    /// The unit stated by the file.
     pub stated_unit: Option<Unit>,
-    /// The unit that files of its format usually have.
+    /// The usual unit of the file format.
     pub usual_unit: Unit,
 }
 
-/// Who says in which space or unit coordinates are.
+/// The source of a space or unit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Origin {
     /// The caller.
@@ -37,7 +37,7 @@ pub enum Origin {
     Volume,
     /// The values of the volume along the lines.
     Values,
-    /// Nobody.
+    /// A default.
     Assumed,
 }
 
@@ -61,45 +61,43 @@ impl Origin {
         }
     }
 
-    /// The same, where the volume has decided what nobody said.
     fn decided(self) -> Self {
         if self == Self::Assumed { Self::Volume } else { self }
     }
 }
 
-/// How the coordinates of a file are to be understood.
+/// How to read the coordinates of a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Placement {
-    /// The space and unit in which they are read.
-    pub place: Place,
-    /// Who says the space.
+    /// Space and unit.
+    pub place: CoordinateSystem,
+    /// Source of the space.
     pub space_from: Origin,
-    /// Who says the unit.
+    /// Source of the unit.
     pub unit_from: Origin,
-    /// What was decided, and by what; empty where the file or the caller said everything.
+    /// The decision and its reason; empty if file or caller stated everything.
     pub decision: String,
-    /// What the caller would state to confirm the decision of the volume; nothing where there is nothing to confirm.
+    /// What the caller can state to confirm the volume's decision.
     pub confirmed_by: Statement,
-    /// Whether the volume decided against LPS or the usual unit, or the space by its values alone.
+    /// Whether the volume decided against LPS or the usual unit, or decided the space by values only.
     pub is_unusual: bool,
-    /// Units that would fit the volume too, where it decided for the usual one.
+    /// Other units that fit, if the volume decided for the usual one.
     pub also: Vec<Unit>,
-    /// What speaks against the unit that the file states, or that was assumed.
+    /// Evidence against the stated or assumed unit.
     pub doubt: Option<Doubt>,
 }
 
-/// Decides how the points of a file, as they stand in it, are to be understood; without a volume by what is usual.
+/// Decides how to read the points of a file; without a volume by what is usual.
 ///
 /// # Errors
-/// An [`lumencut_io::Error`] without the file's name where the volume is there to decide and cannot: several places fit it alike, or
-/// none does.
+/// [`lumencut_io::Error`] without a file name if the volume cannot decide: several places fit equally, or none.
 pub fn placement(known: &Known, points: &[DVec3], volume: Option<&Judge>) -> Result<Placement> {
     let usual = known.usual();
     let space_from = Origin::of(known.asked_space, known.stated_space);
     let unit_from = Origin::of(known.asked_unit, known.stated_unit);
     let open = [("space", space_from), ("unit", unit_from)].into_iter();
     let open: Vec<&str> = open.filter(|(_, from)| *from == Origin::Assumed).map(|(what, _)| what).collect();
-    let told = |place, space_from, unit_from, decision| Placement {
+    let placed = |place, space_from, unit_from, decision| Placement {
         place,
         space_from,
         unit_from,
@@ -113,7 +111,7 @@ pub fn placement(known: &Known, points: &[DVec3], volume: Option<&Judge>) -> Res
         },
     };
     if open.is_empty() {
-        return Ok(told(usual, space_from, unit_from, known.overruled()));
+        return Ok(placed(usual, space_from, unit_from, known.overruled()));
     }
     let nothing = format!("the file states no {}", open.join(" and no "));
     if let Some(volume) = volume {
@@ -128,30 +126,29 @@ pub fn placement(known: &Known, points: &[DVec3], volume: Option<&Judge>) -> Res
         if let Some(by_values) = by_values {
             let from = |is_chosen, from: Origin| if is_chosen { Origin::Values } else { from.decided() };
             let froms = [from(by_values.space, space_from), from(by_values.unit, unit_from)];
-            let placement = told(best.place, froms[0], froms[1], format!("{nothing}; {}", by_values.words));
+            let placement = placed(best.place, froms[0], froms[1], format!("{nothing}; {}", by_values.words));
             confirmed_by.space = confirmed_by.space.or(by_values.space.then_some(best.place.space));
             return Ok(Placement { is_unusual: true, confirmed_by, also, ..placement });
         }
         if best.inside > 0 {
-            let decision = format!("{nothing}; {}", choice.told(best));
-            let placement = told(best.place, space_from.decided(), unit_from.decided(), decision);
+            let decision = format!("{nothing}; {}", choice.decision_words(best));
+            let placement = placed(best.place, space_from.decided(), unit_from.decided(), decision);
             return Ok(Placement { confirmed_by, also, ..placement });
         }
     }
     let decision = format!("{nothing}; {usual} is assumed");
-    Ok(told(usual, space_from, unit_from, decision))
+    Ok(placed(usual, space_from, unit_from, decision))
 }
 
 impl Known {
-    /// The place that is taken where the volume does not speak against it.
-    pub fn usual(&self) -> Place {
-        Place {
+    /// The place taken unless the volume contradicts it.
+    pub fn usual(&self) -> CoordinateSystem {
+        CoordinateSystem {
             space: self.asked_space.or(self.stated_space).unwrap_or(Space::Lps),
             unit: self.asked_unit.or(self.stated_unit).unwrap_or(self.usual_unit),
         }
     }
 
-    /// What the file states and the caller contradicts.
     fn overruled(&self) -> String {
         let names = [
             (self.stated_space.map(Space::name), self.asked_space.map(Space::name)),

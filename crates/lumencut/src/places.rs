@@ -1,4 +1,4 @@
-//! The places that coordinates can be meant in, and how many points each of them brings into a volume.
+//! Candidate spaces and units of coordinates, and how many points each brings into a volume.
 
 use std::fmt;
 
@@ -9,35 +9,34 @@ use crate::extent::Extent;
 use crate::fused;
 use crate::text::rounded;
 
-/// Extents between these (mm) pass for vessels of a body.
+/// Plausible extents of vessels lie between these (mm).
 pub const SMALLEST: f64 = 8.0;
 /// See [`SMALLEST`].
 pub const LARGEST: f64 = 2500.0;
-/// A line that is shorter than this many voxels shows nothing, where it is shorter than [`SHORTEST`] too.
+/// A line shorter than this many voxels and than [`SHORTEST`] carries no information.
 const FEW_VOXELS: f64 = 3.0;
-/// A line of this length (mm) is one, however large the voxels are.
+/// A line at least this long (mm) counts for any voxel size.
 const SHORTEST: f64 = 1.0;
-/// Digits of a length in words.
 const DIGITS: usize = 3;
-/// A place is as good as another if it brings at least this part of the other's points into the volume.
+/// A place is as good as another with at least this fraction of its points inside.
 const AS_GOOD: f64 = 0.8;
 
 /// A space and a unit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Place {
+pub struct CoordinateSystem {
     /// Patient coordinates, LPS or RAS.
     pub space: Space,
-    /// Their unit.
+    /// The unit.
     pub unit: Unit,
 }
 
-impl Place {
-    /// What brings coordinates of the place to LPS in mm, axis by axis.
+impl CoordinateSystem {
+    /// Factors from this place to LPS in mm, per axis.
     pub fn scale(self) -> DVec3 {
         signs(self.space) * self.unit.in_mm()
     }
 
-    /// How coordinates of this place that were read as LPS in mm would have to be changed.
+    /// The correction for coordinates of this place that were read as LPS in mm.
     pub(crate) fn mistaken(self) -> String {
         let mut how = Vec::new();
         if self.space == Space::Ras {
@@ -50,22 +49,22 @@ impl Place {
     }
 }
 
-impl fmt::Display for Place {
+impl fmt::Display for CoordinateSystem {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{} in {}", self.space.name(), self.unit.name())
     }
 }
 
-/// What a caller can state of coordinates.
+/// What a caller can state about coordinates.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Statement {
-    /// Their space.
+    /// The space.
     pub space: Option<Space>,
-    /// Their unit.
+    /// The unit.
     pub unit: Option<Unit>,
 }
 
-/// What brings coordinates of the space to LPS, axis by axis.
+/// The signs from a space to LPS, per axis.
 pub fn signs(space: Space) -> DVec3 {
     match space {
         Space::Lps => DVec3::ONE,
@@ -73,51 +72,47 @@ pub fn signs(space: Space) -> DVec3 {
     }
 }
 
-/// All places of these spaces and units, the spaces one after the other.
-pub fn places(spaces: &[Space], units: &[Unit]) -> Vec<Place> {
-    spaces.iter().flat_map(|space| units.iter().map(|unit| Place { space: *space, unit: *unit })).collect()
+/// All combinations, grouped by space.
+pub fn places(spaces: &[Space], units: &[Unit]) -> Vec<CoordinateSystem> {
+    spaces
+        .iter()
+        .flat_map(|space| units.iter().map(|unit| CoordinateSystem { space: *space, unit: *unit }))
+        .collect()
 }
 
-/// How many points lie inside a volume where their coordinates are read in a place.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Reading {
-    /// The place.
-    pub place: Place,
-    /// How many points lie inside.
+pub(crate) struct Reading {
+    pub place: CoordinateSystem,
     pub inside: usize,
-    /// The size of the vessels, from corner to corner (mm).
+    /// The extent of the vessels, corner to corner (mm).
     pub across: f64,
-    /// Whether vessels can have that size: in mm they may be short pieces, of a few voxels at least; in another unit they have a
-    /// size of a body's.
-    pub is_plausible: bool,
+    /// Whether vessels can have that size: in mm also short pieces of a few voxels; in other units a body-sized extent.
+    pub(crate) is_plausible: bool,
 }
 
 impl Reading {
-    /// How many points lie inside; none of vessels without a plausible size.
-    pub fn fits(&self) -> usize {
+    /// The points inside; 0 if the size is implausible.
+    pub(crate) fn fits(&self) -> usize {
         if self.is_plausible { self.inside } else { 0 }
     }
 
-    /// Whether the vessels are shorter than most, so that another unit is as likely where it fits.
-    pub fn is_short(&self) -> bool {
+    /// Whether the vessels are so short that another fitting unit is as likely.
+    pub(crate) fn is_short(&self) -> bool {
         self.across < SMALLEST
     }
 
-    /// Whether it brings about as many points into the volume as a place that brings this many.
-    pub fn is_as_good_as(&self, inside: usize) -> bool {
+    pub(crate) fn is_as_good_as(&self, inside: usize) -> bool {
         self.fits() as f64 >= AS_GOOD * inside as f64
     }
 
-    /// Whether it brings twice as many points into the volume, and a tenth of all more.
-    pub fn is_clearly_better_than(&self, inside: usize, total: usize) -> bool {
+    pub(crate) fn is_clearly_better_than(&self, inside: usize, total: usize) -> bool {
         self.fits() >= 2 * inside && self.fits() >= inside + (total / 10).max(1)
     }
 }
 
-/// What each place makes of the points.
-pub fn readings(points: &[DVec3], candidates: &[Place], volume: &Extent) -> Vec<Reading> {
+pub(crate) fn readings(points: &[DVec3], candidates: &[CoordinateSystem], volume: &Extent) -> Vec<Reading> {
     let bare = across(points);
-    let reading = |place: &Place| {
+    let reading = |place: &CoordinateSystem| {
         let across = bare * place.unit.in_mm();
         let is_of_body = place.unit == Unit::Millimetre || (SMALLEST..=LARGEST).contains(&across);
         let is_plausible = is_of_body && across >= (FEW_VOXELS * volume.smallest_side()).min(SHORTEST);
@@ -128,12 +123,12 @@ pub fn readings(points: &[DVec3], candidates: &[Place], volume: &Extent) -> Vec<
     candidates.iter().map(reading).collect()
 }
 
-/// A length in words.
+/// A length for messages.
 pub fn mm(length: f64) -> String {
     format!("{} mm", rounded(length, DIGITS))
 }
 
-/// The diagonal of the box around the points, 0 of no points.
+/// The diagonal of the points' bounding box; 0 without points.
 pub fn across(points: &[DVec3]) -> f64 {
     let (low, high) =
         points.iter().fold((DVec3::MAX, DVec3::MIN), |(low, high), p| (low.min(*p), high.max(*p)));
@@ -149,7 +144,7 @@ mod tests {
 
     #[test]
     fn a_place_brings_coordinates_to_lps_in_mm() {
-        let place = Place { space: Space::Ras, unit: Unit::Centimetre };
+        let place = CoordinateSystem { space: Space::Ras, unit: Unit::Centimetre };
         assert_eq!(DVec3::new(1.0, 2.0, 3.0) * place.scale(), DVec3::new(-10.0, -20.0, 30.0));
         assert_eq!(place.to_string(), "ras in cm");
     }
@@ -158,8 +153,8 @@ mod tests {
     fn places_go_space_by_space() {
         let all = places(&Space::ALL, &Unit::ALL);
         assert_eq!(all.len(), 10);
-        assert_eq!(all[1], Place { space: Space::Lps, unit: Unit::Millimetre });
-        assert_eq!(all[5], Place { space: Space::Ras, unit: Unit::Micrometre });
+        assert_eq!(all[1], CoordinateSystem { space: Space::Lps, unit: Unit::Millimetre });
+        assert_eq!(all[5], CoordinateSystem { space: Space::Ras, unit: Unit::Micrometre });
     }
 
     #[test]
@@ -171,7 +166,7 @@ mod tests {
                 .map(Reading::fits)
                 .collect::<Vec<_>>()
         };
-        // 4 units: a short piece in mm, 40 mm in cm, 400 mm in dm, of which one end leaves the volume; 4 m.
+        // 4 units: a short piece in mm, 40 mm in cm, 400 mm in dm with one end outside; 4 m.
         assert_eq!(counted(&[DVec3::ZERO, DVec3::X * 4.0]), [0, 2, 2, 1, 0]);
         // Shorter than three voxels and than 1 mm.
         assert_eq!(counted(&[DVec3::ZERO, DVec3::X * 0.9]), [0, 0, 2, 2, 1]);

@@ -1,91 +1,88 @@
-//! What the distribution of a volume's voxels says of its padding, its tissue and its lumen.
+//! Estimates padding, tissue and lumen from the distribution of a volume's voxels.
 
 use lumencut_core::volume::Volume;
 use lumencut_core::with_voxels;
 
 use lumencut_core::math::statistics::{median, quantile, two_groups};
 
-/// The side of the cubes whose largest values tell lumen from tissue (voxels), and how many of them are looked at.
-const SIDE: usize = 4;
-const MOST_CUBES: f64 = 32768.0;
+/// The cube side (voxels) whose maxima separate lumen from tissue, and the number of cubes.
+const CUBE_SIDE: usize = 4;
+const MAX_CUBES: f64 = 32768.0;
 
-/// Which part of all voxels has the same dark value where that is padding, and which part is darker at most.
-const PADDING: f64 = 0.05;
-const DARKEST: f64 = 0.01;
+/// A dark value is padding if this fraction of voxels has it, and at most this fraction is darker.
+const MIN_PADDING_FRACTION: f64 = 0.05;
+const MAX_DARKER_FRACTION: f64 = 0.01;
 
-/// Which part of the voxels is at most as bright as the peak.
-const PEAK: f64 = 0.999;
+/// The quantile of the peak.
+const PEAK_QUANTILE: f64 = 0.999;
 
-/// Voxels brighter than air are farther from the darkest than this part of the way to the brightest.
-const AIR: f64 = 0.25;
+/// Voxels within this fraction of the range above the darkest are air.
+const AIR_FRACTION: f64 = 0.25;
 
-/// Padding is air where the darkest other voxel is nearer to it than this part of the way to the brightest.
-const GAP: f64 = 0.05;
+/// Padding is air if the next voxel value is within this fraction of the range.
+const MAX_GAP_FRACTION: f64 = 0.05;
 
-/// Where fewer voxels than this part are left, they are vessels alone.
-const VESSELS_ALONE: f64 = 0.08;
+/// If less than this fraction remains, the volume shows vessels only.
+const VESSELS_ONLY_FRACTION: f64 = 0.08;
 
-/// Which part of what is brighter than air is darker than what stands for the darkest tissue.
-const DARKEST_TISSUE: f64 = 0.1;
+/// The quantile, among voxels brighter than air, of the darkest tissue.
+const DARKEST_TISSUE_QUANTILE: f64 = 0.1;
 
-/// Which part of all cubes is brighter than tissue at most, and how often the brighter ones are parted for it.
-const BRIGHTER: f64 = 1.0 / 3.0;
-const PARTINGS: usize = 8;
+/// The largest fraction of cubes brighter than tissue, and the number of splits to get there.
+const MAX_BRIGHTER_FRACTION: f64 = 1.0 / 3.0;
+const MAX_SPLITS: usize = 8;
 
-/// Cubes of tissue alone: up to here it counts as dark. Brighter cubes: up to here are edges, from here on lumen.
-const BRIGHTEST_TISSUE: f64 = 0.95;
+/// Quantiles of cubes: the end of dark tissue; of the brighter cubes the end of edges and the lumen.
+const BRIGHTEST_TISSUE_QUANTILE: f64 = 0.95;
 const EDGES: f64 = 0.2;
 
-/// Vessels alone: which part of them are edges, and where their lumen is.
+/// Vessels only: the quantiles of edges and of lumen.
 const ALONE_EDGES: f64 = 0.05;
 const ALONE_LUMEN: f64 = 0.75;
-/// The least difference of the two, as a part of the way from the darkest voxel to the lumen.
+/// The least difference of the two, as a fraction of the range from darkest voxel to lumen.
 const ALONE_DIFFERENCE: f64 = 0.25;
-/// How much darker than the lumen edges are at least, as a part of the same.
+/// How much darker edges must be than the lumen, in the same fraction.
 const EDGE: f64 = 0.1;
 
-/// Voxels of cubes that are evenly spread over a volume, at most about two million.
-pub struct Looked {
-    /// All finite ones.
+pub(crate) struct VoxelSample {
+    /// All finite voxels.
     pub voxels: Vec<f64>,
-    /// The largest of each cube.
+    /// The maximum of each cube.
     pub largest: Vec<f64>,
-    /// How many there are, with those that are not finite.
+    /// The number of voxels, including non-finite ones.
     pub count: usize,
 }
 
-impl Looked {
-    /// Looks at a volume.
-    // Of the ten types of voxels some fit into f64 as they are, others only by a cast.
+impl VoxelSample {
     #[allow(clippy::cast_lossless, clippy::unnecessary_cast)]
-    pub fn at(volume: &Volume) -> Self {
+    pub(crate) fn at(volume: &Volume) -> Self {
         let (size, strides) = (volume.size(), volume.strides());
-        let cubes = size.map(|n| n.div_ceil(SIDE));
+        let cubes = size.map(|n| n.div_ceil(CUBE_SIDE));
         let all = cubes.iter().product::<usize>() as f64;
-        let step = ((all / MOST_CUBES).cbrt().ceil() as usize).max(1) * SIDE;
+        let step = ((all / MAX_CUBES).cbrt().ceil() as usize).max(1) * CUBE_SIDE;
         let starts = |axis: usize| (0..size[axis]).step_by(step);
         let places = |axis: usize, start: usize| {
-            (start..(start + SIDE).min(size[axis])).map(move |n| n * strides[axis])
+            (start..(start + CUBE_SIDE).min(size[axis])).map(move |n| n * strides[axis])
         };
-        let mut looked = Self { voxels: Vec::new(), largest: Vec::new(), count: 0 };
+        let mut sampled = Self { voxels: Vec::new(), largest: Vec::new(), count: 0 };
         with_voxels!(volume.voxels(), voxels => {
             for (k, j, i) in starts(2).flat_map(|k| starts(1).flat_map(move |j| starts(0).map(move |i| (k, j, i)))) {
-                let before = looked.voxels.len();
+                let before = sampled.voxels.len();
                 for (z, y) in places(2, k).flat_map(|z| places(1, j).map(move |y| (z, y))) {
-                    looked.count += places(0, i).len();
+                    sampled.count += places(0, i).len();
                     let row = places(0, i).map(|x| voxels[x + y + z] as f64);
-                    looked.voxels.extend(row.filter(|value| value.is_finite()));
+                    sampled.voxels.extend(row.filter(|value| value.is_finite()));
                 }
-                looked.largest.extend(looked.voxels[before..].iter().copied().reduce(f64::max));
+                sampled.largest.extend(sampled.voxels[before..].iter().copied().reduce(f64::max));
             }
         });
-        looked
+        sampled
     }
 }
 
-/// The smallest and the largest finite voxel; the first is the larger one where there is none.
+/// The smallest and largest finite voxel; reversed if there is none.
 #[allow(clippy::cast_lossless, clippy::unnecessary_cast)]
-pub fn range(volume: &Volume) -> [f64; 2] {
+pub(crate) fn range(volume: &Volume) -> [f64; 2] {
     let (size, strides) = (volume.size(), volume.strides());
     let mut ends = [f64::INFINITY, f64::NEG_INFINITY];
     with_voxels!(volume.voxels(), voxels => {
@@ -99,67 +96,63 @@ pub fn range(volume: &Volume) -> [f64; 2] {
     ends
 }
 
-/// The padding: a dark value that many voxels have, where not all have it. Sorts the voxels.
-pub fn padding(voxels: &mut [f64]) -> Option<f64> {
+/// The padding: a dark value shared by many but not all voxels. Sorts the voxels.
+pub(crate) fn padding(voxels: &mut [f64]) -> Option<f64> {
     voxels.sort_unstable_by(f64::total_cmp);
-    let darkest = *voxels.get((voxels.len() as f64 * DARKEST) as usize)?;
+    let darkest = *voxels.get((voxels.len() as f64 * MAX_DARKER_FRACTION) as usize)?;
     let start = voxels.partition_point(|value| *value < darkest);
     let end = voxels.partition_point(|value| *value <= darkest);
-    let is_padding = (end - start) as f64 >= PADDING * voxels.len() as f64 && end < voxels.len();
+    let is_padding = (end - start) as f64 >= MIN_PADDING_FRACTION * voxels.len() as f64 && end < voxels.len();
     is_padding.then_some(darkest)
 }
 
-/// The voxels that are brighter than the padding, all where there is none; sorted.
-pub fn without_padding(voxels: &mut [f64]) -> &mut [f64] {
+pub(crate) fn without_padding(voxels: &mut [f64]) -> &mut [f64] {
     let start = padding(voxels).map_or(0, |padding| voxels.partition_point(|value| *value <= padding));
     &mut voxels[start..]
 }
 
-/// What stands for tissue and lumen in a volume without centerlines.
+/// Levels of tissue and lumen of a volume without centerlines.
 ///
-/// Padding, a dark value that a twentieth of all voxels has, is left out, then air: what is darker than a quarter of the
-/// way from the 1st to the 99th percentile. Where less than 8 % of the volume is left, it is vessels alone: their edges
-/// stand for the tissue, three quarters of them lie below what stands for the lumen.
+/// Excluded are padding (a dark value of at least 5 % of voxels) and air (below a quarter of the range from the 1st to the 99th
+/// percentile). If less than 8 % remains, the volume shows vessels only: their edges stand for the tissue, and three quarters of
+/// them lie below the lumen level.
 ///
-/// Otherwise cubes of 4 × 4 × 4 voxels are told apart by their largest value: noise hardly moves it, and thin vessels
-/// have a larger part in it than of the voxels. Above the median the cubes are parted in two groups, on a scale that
-/// compresses what is far brighter so that bone does not count more than lumen (asinh), and the brighter group again
-/// until it is less than a third of all. The 95th percentile of the darker cubes is the brightest tissue; the lumen is
-/// the 20th percentile of the brighter ones, as bone and metal are the larger part of them.
-pub struct Populations {
-    /// The smallest voxel that was looked at.
+/// Otherwise cubes of 4 × 4 × 4 voxels are classified by their maximum: noise hardly changes it, and thin vessels weigh more.
+/// Cubes above the median are split in two groups on an asinh scale, so that bone does not outweigh lumen; the brighter group is
+/// split again until it is below a third of all. The brightest tissue is the 95th percentile of the darker cubes. The lumen is
+/// the 20th percentile of the brighter ones, because bone and metal make up most of these.
+pub(crate) struct Populations {
+    /// The smallest sampled voxel.
     pub smallest: f64,
-    /// The darkest voxels (1st percentile).
-    pub darkest: f64,
-    /// The median of the tissue.
-    pub tissue: f64,
-    /// What hardly a ray through tissue exceeds.
-    pub brightest_tissue: f64,
-    /// The lumen.
+    /// The 1st percentile.
+    pub(crate) darkest: f64,
+    pub(crate) tissue: f64,
+    /// A level that rays through tissue rarely exceed.
+    pub(crate) brightest_tissue: f64,
     pub lumen: f64,
-    /// The brightest voxels (99th percentile of what is no padding).
+    /// The 99th percentile without padding.
     pub brightest: f64,
-    /// What is brighter than nearly all of them (99.9th percentile of the same).
-    pub peak: f64,
-    /// Whether vessels alone are shown, and their edges are darker than their lumen.
-    pub has_edges: bool,
+    /// The 99.9th percentile without padding.
+    pub(crate) peak: f64,
+    /// Whether the volume shows vessels only, with edges darker than the lumen.
+    pub(crate) has_edges: bool,
 }
 
 impl Populations {
-    /// What the voxels are; None of no voxels.
-    pub fn of(looked: &mut Looked) -> Option<Self> {
-        let Air { smallest, darkest, ends, at: air, .. } = Air::of(looked)?;
-        let enough = VESSELS_ALONE * looked.count as f64;
-        let shown = without_padding(&mut looked.voxels);
-        let peak = quantile(shown, PEAK)?;
+    /// None without voxels.
+    pub(crate) fn of(sampled: &mut VoxelSample) -> Option<Self> {
+        let Air { smallest, darkest, ends, at: air, .. } = Air::of(sampled)?;
+        let enough = VESSELS_ONLY_FRACTION * sampled.count as f64;
+        let shown = without_padding(&mut sampled.voxels);
+        let peak = quantile(shown, PEAK_QUANTILE)?;
         let mut body: Vec<f64> = shown.iter().copied().filter(|value| *value > air).collect();
         let is_body = body.len() as f64 >= enough && !body.is_empty();
-        // Of one value alone, or of few voxels beside padding, all count.
+        // A constant volume, or few voxels besides padding: all count.
         let is_few = (shown.len() as f64) < enough || body.is_empty();
         let vessels = if is_few { shown } else { &mut body };
         let [edges, bright] = [quantile(vessels, ALONE_EDGES)?, quantile(vessels, ALONE_LUMEN)?];
         let [tissue, brightest_tissue, lumen] = if is_body {
-            let cubes = looked.largest.iter().copied().filter(|value| *value > air).collect();
+            let cubes = sampled.largest.iter().copied().filter(|value| *value > air).collect();
             of_body(median(vessels)?, cubes)?
         } else {
             let tissue = bright - (bright - edges).max(ALONE_DIFFERENCE * (bright - darkest));
@@ -170,50 +163,44 @@ impl Populations {
     }
 }
 
-/// Where air ends, and how dark the voxels are.
 struct Air {
-    /// The smallest voxel that was looked at.
     smallest: f64,
-    /// The darkest voxels (1st percentile).
     darkest: f64,
-    /// The 1st and the 99th percentile of what is no padding.
+    /// The 1st and 99th percentile without padding.
     ends: [f64; 2],
-    /// What is darker is air.
     at: f64,
-    /// Whether air was cut off: many voxels have the darkest value, and the others follow it without a gap.
+    /// Whether air was clipped: many voxels share the darkest value, and the others follow without a gap.
     is_cut_off: bool,
 }
 
 impl Air {
-    fn of(looked: &mut Looked) -> Option<Self> {
-        let darkest = quantile(&mut looked.voxels, DARKEST)?;
-        let has_padding = padding(&mut looked.voxels).is_some();
-        let smallest = *looked.voxels.first()?;
-        let shown = without_padding(&mut looked.voxels);
+    fn of(sampled: &mut VoxelSample) -> Option<Self> {
+        let darkest = quantile(&mut sampled.voxels, MAX_DARKER_FRACTION)?;
+        let has_padding = padding(&mut sampled.voxels).is_some();
+        let smallest = *sampled.voxels.first()?;
+        let shown = without_padding(&mut sampled.voxels);
         let first = *shown.first()?;
-        let ends = [quantile(shown, DARKEST)?, quantile(shown, 1.0 - DARKEST)?];
-        // Padding that the other values follow without a gap is air that was cut off.
-        let is_air = first - darkest < GAP * (ends[1] - darkest);
+        let ends = [quantile(shown, MAX_DARKER_FRACTION)?, quantile(shown, 1.0 - MAX_DARKER_FRACTION)?];
+        // Padding followed by other values without a gap is clipped air.
+        let is_air = first - darkest < MAX_GAP_FRACTION * (ends[1] - darkest);
         let low = if is_air { darkest } else { ends[0] };
-        let at = low + AIR * (ends[1] - low);
+        let at = low + AIR_FRACTION * (ends[1] - low);
         Some(Self { smallest, darkest, ends, at, is_cut_off: has_padding && is_air })
     }
 }
 
-/// The darkest tissue of a volume, which is fat in a CT: the 10th percentile of what is brighter than air. Where air was cut
-/// off at a value that is at least `cut_off`, that value, as tissue may be darker than what counts as air then. None where
-/// little but vessels is shown.
-pub fn darkest_tissue(looked: &mut Looked, cut_off: f64) -> Option<f64> {
-    let air = Air::of(looked)?;
+/// The darkest tissue (fat in CT): the 10th percentile of voxels above air. If air was clipped at a value of at least `cut_off`,
+/// that value, because tissue may be darker than the air limit. None if the volume shows hardly anything but vessels.
+pub(crate) fn darkest_tissue(sampled: &mut VoxelSample, cut_off: f64) -> Option<f64> {
+    let air = Air::of(sampled)?;
     if air.is_cut_off && air.darkest >= cut_off {
         return Some(air.darkest);
     }
-    let enough = VESSELS_ALONE * looked.count as f64;
-    let mut body: Vec<f64> = looked.voxels.iter().copied().filter(|value| *value > air.at).collect();
-    if (body.len() as f64) < enough { None } else { quantile(&mut body, DARKEST_TISSUE) }
+    let enough = VESSELS_ONLY_FRACTION * sampled.count as f64;
+    let mut body: Vec<f64> = sampled.voxels.iter().copied().filter(|value| *value > air.at).collect();
+    if (body.len() as f64) < enough { None } else { quantile(&mut body, DARKEST_TISSUE_QUANTILE) }
 }
 
-/// The tissue, the brightest tissue and the lumen of vessels among tissue and bone, by the largest values of cubes.
 fn of_body(tissue: f64, mut cubes: Vec<f64>) -> Option<[f64; 3]> {
     let middle = median(&mut cubes)?;
     let scale = quantile(&mut cubes, 0.75)? - quantile(&mut cubes, 0.25)?;
@@ -221,16 +208,16 @@ fn of_body(tissue: f64, mut cubes: Vec<f64>) -> Option<[f64; 3]> {
     let scale = if scale > 0.0 { scale } else { f64::MIN_POSITIVE.max(1e-9 * middle.abs()) };
     let above: Vec<f64> = cubes.iter().map(|value| ((value - middle).max(0.0) / scale).asinh()).collect();
     let mut start = 0;
-    for _ in 0..PARTINGS {
+    for _ in 0..MAX_SPLITS {
         let Some(larger) = two_groups(&above[start..]) else { break };
         start += larger;
-        if (above.len() - start) as f64 <= BRIGHTER * above.len() as f64 {
+        if (above.len() - start) as f64 <= MAX_BRIGHTER_FRACTION * above.len() as f64 {
             break;
         }
     }
     let (darker, brighter) = cubes.split_at_mut(start);
     let lumen = quantile(brighter, EDGES)?;
-    Some([tissue, quantile(darker, BRIGHTEST_TISSUE).unwrap_or(lumen), lumen])
+    Some([tissue, quantile(darker, BRIGHTEST_TISSUE_QUANTILE).unwrap_or(lumen), lumen])
 }
 
 #[cfg(test)]

@@ -1,10 +1,10 @@
-//! From pixels to the world and back. A pixel (i, j) is counted from the left and from the top; its centre lies at
-//! (i, j), world points are in mm (LPS).
+//! Conversions between pixels and the world. Pixel (i, j) counts from the top left, its centre at (i, j); world points in mm
+//! (LPS).
 
 use glam::DVec3;
 use lumencut_core::camera::Camera;
 
-/// The world point at depth `depth` (mm) behind the pixel (i, j), which may lie between the centres of pixels.
+/// The world point at `depth` (mm) behind the pixel (i, j), which may be fractional.
 pub fn world_from_pixel(camera: &Camera, [i, j]: [f64; 2], depth: f64) -> DVec3 {
     let [width, height] = camera.size().map(|n| n as f64);
     let x = (i + 0.5 - width / 2.0) * camera.pixel_spacing();
@@ -13,7 +13,7 @@ pub fn world_from_pixel(camera: &Camera, [i, j]: [f64; 2], depth: f64) -> DVec3 
     camera.center() + plane + depth * camera.direction()
 }
 
-/// The world point of each pixel of a picture, row by row from the top, where `depth` holds its depths (mm).
+/// The world point of each pixel, row by row from the top, for the depths `depth` (mm).
 pub fn positions<'a>(camera: &'a Camera, depth: &'a [f32]) -> impl Iterator<Item = DVec3> + 'a {
     let rows = depth.chunks(camera.size()[0]).enumerate();
     rows.flat_map(move |(j, row)| {
@@ -24,16 +24,16 @@ pub fn positions<'a>(camera: &'a Camera, depth: &'a [f32]) -> impl Iterator<Item
     })
 }
 
-/// A place in a picture.
+/// A position in a picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PixelPlace {
-    /// Column and row, also between the centres of pixels and beyond the picture.
+    /// Column and row; may be fractional or outside.
     pub pixel: [f64; 2],
-    /// Depth (mm), growing away from the viewer, 0 at the camera's center.
+    /// Depth (mm), growing away from the viewer; 0 at the camera's center.
     pub depth: f64,
 }
 
-/// Where a world point is seen.
+/// The pixel of a world point.
 pub fn pixel_from_world(camera: &Camera, point: DVec3) -> PixelPlace {
     let [width, height] = camera.size().map(|n| n as f64);
     let view = camera.view_from_world(point);

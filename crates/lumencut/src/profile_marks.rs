@@ -1,4 +1,4 @@
-//! Places on a measured vessel: those that a reader marked with what is told of them, and suggestions for what was not marked.
+//! Marks on a measured vessel with their results, and suggestions for what is not marked.
 
 use lumencut_core::error::Result;
 use lumencut_vessels::measure::groups::Territory;
@@ -9,41 +9,39 @@ use lumencut_vessels::measure::suggestions::Spot;
 use crate::measure_words::{MILLIMETRE_ASSUMED, of_doubts, of_stenosis};
 use crate::scan_details::ScanDetails;
 
-/// What a reader marked on one vessel to have it graded. It may hold what another method than the chosen one needs: readers try
-/// several, and nothing that they gave is lost.
+/// A reader's marks on one vessel. It keeps inputs of other methods too, so that switching methods loses nothing.
 #[derive(Clone, Debug)]
 pub struct Marked {
-    /// The place of a stenosis, an arc length (mm).
+    /// The stenosis, an arc length (mm).
     pub at: Option<f64>,
-    /// How it is graded.
+    /// The grading method.
     pub method: Method,
-    /// What it is compared with.
+    /// The reference.
     pub compared: Compared,
-    /// The vessel whose groups of the field are asked for.
+    /// The territory whose severity groups are requested.
     pub group: Option<Territory>,
-    /// Places whose diameters are noted, whatever is graded (arc lengths, mm).
+    /// Arc lengths (mm) whose diameters are noted.
     pub diameters: Vec<f64>,
 }
 
-/// What a place is called whose diameter a reader noted.
-pub const NOTED: &str = "noted diameter";
+pub(crate) const NOTED: &str = "noted diameter";
 
-/// What is told of a place that a reader marked.
+/// The result at a marked place.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Grade {
     /// A percentage.
     Graded {
         /// The stenosis.
         stenosis: Stenosis,
-        /// Its group of the field with its source, where a territory was named and its method has groups.
+        /// The severity group with its source, if a territory was named and the method has groups.
         group: Option<String>,
     },
-    /// Why there is none: what is still missing, or what is wrong with a place.
+    /// Why there is no percentage: a missing mark or an invalid place.
     NotGraded(String),
 }
 
 impl Grade {
-    /// The stenosis, where there is a percentage.
+    /// The stenosis, if graded.
     pub fn stenosis(&self) -> Option<&Stenosis> {
         match self {
             Self::Graded { stenosis, .. } => Some(stenosis),
@@ -51,7 +49,7 @@ impl Grade {
         }
     }
 
-    /// The group of the stenosis.
+    /// The severity group.
     pub fn group(&self) -> Option<&str> {
         match self {
             Self::Graded { group, .. } => group.as_deref(),
@@ -67,12 +65,12 @@ impl Grade {
         }
     }
 
-    /// All of it in lines: the percentage, what makes it doubtful, and its group; or why there is none.
+    /// All lines: percentage, doubts and group, or why there is none.
     pub fn lines(&self) -> Vec<String> {
         match self {
             Self::NotGraded(reason) => vec![format!("no percentage: {reason}")],
             Self::Graded { stenosis, group } => {
-                let group = group.iter().map(|group| format!("group of the field: {group}"));
+                let group = group.iter().map(|group| format!("severity group: {group}"));
                 [of_stenosis(stenosis)].into_iter().chain(of_doubts(&stenosis.doubts)).chain(group).collect()
             }
         }
@@ -80,8 +78,7 @@ impl Grade {
 }
 
 impl Marked {
-    /// What is told of the marked place; None where nothing is marked. Of what was given only what the method uses counts, and
-    /// only a method that has groups gets one.
+    /// Grades the marked place; None without one. Uses only the inputs of the method; only methods with groups get one.
     pub fn grade(&self, profile: &Profile) -> Option<Grade> {
         let is_marked = self.at.is_some() || !self.compared.reference.is_empty();
         is_marked.then(|| self.graded(profile).unwrap_or_else(Grade::NotGraded))
@@ -95,26 +92,24 @@ impl Marked {
             return Err(missing.to_owned());
         }
         let stenosis = profile.stenosis(at, self.method, &self.used()).map_err(words)?;
-        // Other methods than that of the groups have none.
+        // Other methods have no groups.
         let group = self.group.and_then(|territory| stenosis.group(territory).ok());
         Ok(Grade::Graded { stenosis, group })
     }
 
-    /// What its method still needs to be given.
     fn missing(&self) -> Option<&'static str> {
         match self.method {
             Method::Ecst => self
                 .compared
                 .original
                 .is_none()
-                .then_some("ECST needs the diameter that the vessel is assumed to have had there."),
+                .then_some("ECST needs the assumed original diameter at that place."),
             Method::Nascet | Method::Area => {
                 self.compared.reference.is_empty().then_some("Mark a reference: where the vessel is normal.")
             }
         }
     }
 
-    /// What its method uses of what was given.
     fn used(&self) -> Compared {
         let Compared { reference, original, comparison } = self.compared.clone();
         let none = Compared::default();
@@ -125,15 +120,12 @@ impl Marked {
         }
     }
 
-    /// The references that are offered beside what was marked; see [`offered_references`].
-    ///
-    /// # Errors
-    /// [`lumencut_core::error::ErrorKind::Measuring`] for a place beyond the vessel.
-    pub fn offered_references(&self, profile: &Profile) -> Result<[Option<Spot>; 2]> {
+    /// The references offered in addition to the marks; see [`offered_references`].
+    pub(crate) fn offered_references(&self, profile: &Profile) -> Result<[Option<Spot>; 2]> {
         offered_references(profile, self.at, &self.compared.reference)
     }
 
-    /// The places to look at, as [`marks`] has them, then those whose diameters are noted; without those where nothing was measured.
+    /// All places to review: [`marks`], then the noted diameters; without unmeasured ones.
     pub fn places(&self, profile: &Profile) -> Vec<Mark> {
         let is_measured = |place: &f64| profile.diameter_at(*place).is_ok();
         let references: Vec<f64> = self.compared.reference.iter().copied().filter(is_measured).collect();
@@ -142,7 +134,6 @@ impl Marked {
         found
     }
 
-    /// The places whose diameters are noted, rising, without those where nothing was measured.
     fn noted(&self, profile: &Profile) -> Vec<Mark> {
         let mut places = self.diameters.clone();
         places.sort_unstable_by(f64::total_cmp);
@@ -154,50 +145,49 @@ impl Marked {
     }
 }
 
-/// A measured vessel with what was graded on it.
+/// A measured vessel with its grade.
 #[derive(Clone, Debug)]
 pub struct Measured<'a> {
-    /// Its id in the tree, or those of the vessels that it is made of.
+    /// Its id in the tree; several ids for a path.
     pub id: String,
-    /// Its name, where it has one.
+    /// Its name, if any.
     pub name: Option<String>,
     /// Its sections.
     pub profile: &'a Profile,
-    /// How the scan was made that they were measured in.
+    /// How the scan was made.
     pub scan: &'a ScanDetails,
-    /// What is told of the place that a reader marked, where one is marked.
+    /// The result at the marked place, if any.
     pub grade: Option<&'a Grade>,
-    /// Whether its lengths are in mm only because a reader took the voxels for 1 mm apart; every output tells so.
+    /// Whether 1 mm between voxels is assumed; every output states it.
     pub is_millimetre_assumed: bool,
 }
 
 impl Measured<'_> {
-    /// What is assumed of its lengths, in words.
+    /// The assumption about lengths, in words.
     pub fn assumed(&self) -> Option<&'static str> {
         self.is_millimetre_assumed.then_some(MILLIMETRE_ASSUMED)
     }
 }
 
-/// A place that somebody should look at.
+/// A place to review.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mark {
-    /// What it is: `marked place`, `narrowest place`, `reference` or [`NOTED`].
+    /// `marked place`, `narrowest place`, `reference` or [`NOTED`].
     pub name: &'static str,
-    /// Its arc length (mm).
+    /// Arc length (mm).
     pub at: f64,
-    /// The diameter of a circle of the same area there (mm).
+    /// Diameter of the circle of the same area (mm).
     pub diameter: f64,
-    /// Whether it is offered; a reader named it otherwise.
+    /// Suggested, not marked.
     pub is_suggestion: bool,
 }
 
-/// The places to look at: those that a reader named, and suggestions for what was not named. They are rising, but for the
-/// place of a stenosis, which is the first.
+/// The places to review: marks, and suggestions for what is not marked. Ascending, except that a stenosis comes first.
 ///
 /// # Errors
-/// [`lumencut_core::error::ErrorKind::Measuring`] for a place beyond the vessel or where nothing was measured.
+/// [`lumencut_core::error::ErrorKind::Measuring`] for a place beyond the vessel or without a measurement.
 pub fn marks(profile: &Profile, at: Option<f64>, references: &[f64]) -> Result<Vec<Mark>> {
-    // The diameter at the place itself; references of a stenosis are medians around their places.
+    // The diameter at the place itself; references of a stenosis use medians.
     let mark = |name, at, is_suggestion| {
         profile.diameter_at(at).map(|(diameter, _)| Mark { name, at, diameter, is_suggestion })
     };
@@ -214,12 +204,9 @@ pub fn marks(profile: &Profile, at: Option<f64>, references: &[f64]) -> Result<V
     Ok(main.into_iter().chain(beside).collect())
 }
 
-/// The references that are offered before and after the place of a stenosis, or the narrowest place where none is marked: one on
-/// each side on which a reader marked none, and none once two are marked. Nothing is graded with them before a reader takes them.
-///
-/// # Errors
-/// [`lumencut_core::error::ErrorKind::Measuring`] for a place beyond the vessel.
-pub fn offered_references(
+/// References offered before and after the stenosis (or the narrowest place): one on each side without a mark; none once two are
+/// marked. They do not count until a reader accepts them.
+pub(crate) fn offered_references(
     profile: &Profile,
     at: Option<f64>,
     references: &[f64],
@@ -230,7 +217,7 @@ pub fn offered_references(
     Ok([before.filter(|_| is_free(true)), after.filter(|_| is_free(false))])
 }
 
-/// The place of a stenosis: the marked one, or the narrowest one.
+/// The stenosis: the marked or the narrowest place.
 pub(crate) fn main_place(profile: &Profile, at: Option<f64>) -> Option<f64> {
     at.or_else(|| profile.narrowest().map(|spot| spot.at))
 }

@@ -1,4 +1,4 @@
-//! Profiles as JSON for programs. Numbers have all their digits, and what could not be measured is null.
+//! Profiles as JSON for programs: full precision; null for what was not measured.
 
 use lumencut_core::named::Named;
 use lumencut_vessels::measure::profile::Profile;
@@ -13,27 +13,27 @@ use crate::profile_marks::{Grade, Mark, Measured, marks};
 use crate::profile_table::columns;
 use crate::scan_details::ScanDetails;
 
-/// What every file says of itself.
+/// The notice in every file.
 pub const NOTICE: &str = "Lumencut is not a medical device.";
 
-/// What was asked for; places are those of the one vessel that was marked.
+/// The request of a measurement; places are those of the one marked vessel.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct Asked {
-    /// The distance of sections (mm).
+    /// Distance of sections (mm).
     pub step_mm: f64,
-    /// The width of the point spread (mm), where it was given.
+    /// Point-spread width (mm), if given.
     pub fwhm_mm: Option<f64>,
-    /// The place of a stenosis (mm).
+    /// The stenosis (mm).
     pub at_mm: Option<f64>,
-    /// The places of its references (mm).
+    /// Its references (mm).
     pub reference_mm: Option<Vec<f64>>,
-    /// The name of the method.
+    /// The method's name.
     pub method: Option<String>,
     /// The assumed original diameter (mm).
     pub original_mm: Option<f64>,
-    /// The diameter of a vessel like the normal one (mm).
+    /// The diameter of a comparable normal vessel (mm).
     pub comparison_mm: Option<f64>,
-    /// The name of the vessel whose groups of the field were asked for.
+    /// The territory of the severity groups.
     pub group: Option<String>,
 }
 
@@ -42,7 +42,7 @@ pub fn profile_json(profile: &Profile, scan: &ScanDetails) -> String {
     document(&ProfileRecord::of(profile, scan))
 }
 
-/// Measured vessels as JSON, with what was asked for.
+/// Measured vessels as JSON, with the request.
 pub fn vessels_json(asked: &Asked, vessels: &[Measured]) -> String {
     #[derive(Serialize)]
     struct Vessels<'a> {
@@ -52,7 +52,6 @@ pub fn vessels_json(asked: &Asked, vessels: &[Measured]) -> String {
     document(&Vessels { settings: asked, vessels: vessels.iter().map(VesselRecord::of).collect() })
 }
 
-/// A record as JSON, after the version of the software and what it is not.
 fn document<T: Serialize>(content: &T) -> String {
     #[derive(Serialize)]
     struct Document<'a, T> {
@@ -65,7 +64,7 @@ fn document<T: Serialize>(content: &T) -> String {
     let whole = Document { software, notice: NOTICE, content };
     let mut text = Vec::new();
     let mut writer = serde_json::Serializer::with_formatter(&mut text, PrettyFormatter::with_indent(b" "));
-    // Writing to memory does not fail, nor do numbers and texts.
+    // Neither writing to memory nor numbers and texts can fail.
     let written = whole.serialize(&mut writer);
     debug_assert!(written.is_ok(), "{written:?}");
     text.push(b'\n');
@@ -141,12 +140,12 @@ struct Longest {
 }
 
 #[derive(Serialize)]
-struct Place {
+struct PlaceRecord {
     arc_length_mm: f64,
     diameter_mm: f64,
 }
 
-impl From<&Mark> for Place {
+impl From<&Mark> for PlaceRecord {
     fn from(mark: &Mark) -> Self {
         Self { arc_length_mm: mark.at, diameter_mm: mark.diameter }
     }
@@ -154,8 +153,8 @@ impl From<&Mark> for Place {
 
 #[derive(Serialize)]
 struct Suggestions {
-    narrowest: Option<Place>,
-    references: Vec<Place>,
+    narrowest: Option<PlaceRecord>,
+    references: Vec<PlaceRecord>,
     not_suggested: Vec<String>,
 }
 
@@ -163,13 +162,12 @@ impl Suggestions {
     fn of(profile: &Profile) -> Self {
         // Suggested places are sections that count.
         let found = marks(profile, None, &[]).unwrap_or_default();
-        let narrowest = found.first().map(Place::from);
-        let references = found.iter().skip(1).map(Place::from).collect();
+        let narrowest = found.first().map(PlaceRecord::from);
+        let references = found.iter().skip(1).map(PlaceRecord::from).collect();
         Self { narrowest, references, not_suggested: not_suggested(profile, None, &[]) }
     }
 }
 
-/// A list for each column.
 struct Sections {
     numbers: Vec<(&'static str, Vec<f64>)>,
     counts: Vec<bool>,
@@ -186,7 +184,7 @@ impl Sections {
     }
 }
 
-/// The planes of the sections: their unit vectors to the right and downwards (LPS).
+/// Planes of the sections: unit vectors right and down (LPS).
 fn axes(profile: &Profile) -> impl Iterator<Item = (&'static str, Vec<f64>)> {
     const NAMES: [[&str; 3]; 2] =
         [["right_x_lps", "right_y_lps", "right_z_lps"], ["down_x_lps", "down_y_lps", "down_z_lps"]];
@@ -215,7 +213,7 @@ struct StenosisRecord {
     diameter_mm: f64,
     uncertainty_mm: f64,
     reference_mm: f64,
-    references: Vec<Place>,
+    references: Vec<PlaceRecord>,
     group: Option<String>,
     doubts: Vec<String>,
 }
@@ -223,7 +221,7 @@ struct StenosisRecord {
 impl StenosisRecord {
     fn of(grade: &Grade) -> Option<Self> {
         let graded = grade.stenosis()?;
-        let place = |[at, diameter]: &[f64; 2]| Place { arc_length_mm: *at, diameter_mm: *diameter };
+        let place = |[at, diameter]: &[f64; 2]| PlaceRecord { arc_length_mm: *at, diameter_mm: *diameter };
         Some(Self {
             percent: graded.percent,
             percent_uncertainty: graded.percent_uncertainty,

@@ -1,4 +1,4 @@
-//! Profiles as a table: CSV with one line for each section.
+//! Profiles as CSV, one line per section.
 
 use lumencut_io::marked_cell;
 use lumencut_vessels::measure::parts::Part;
@@ -9,13 +9,10 @@ use crate::profile_marks::{Grade, Measured};
 use crate::scan_details::ScanDetails;
 use crate::text::rounded;
 
-/// Significant digits of a number in a table.
 const DIGITS: usize = 7;
 
-/// Names and values of columns that are the same in all lines of a vessel.
 type Same = Vec<(&'static str, String)>;
 
-/// A profile between columns that are the same in all its lines.
 struct Block<'a> {
     before: Same,
     profile: &'a Profile,
@@ -23,7 +20,7 @@ struct Block<'a> {
     behind: Same,
 }
 
-/// The numbers of all sections by their names with units.
+/// The numbers of all sections, by name with unit.
 pub fn columns(profile: &Profile) -> Vec<(&'static str, Vec<f64>)> {
     let centers = |axis: usize| profile.center.iter().map(|point| point[axis]).collect();
     let normals = |axis: usize| profile.normal.iter().map(|normal| normal[axis]).collect();
@@ -61,37 +58,35 @@ pub fn columns(profile: &Profile) -> Vec<(&'static str, Vec<f64>)> {
     ]
 }
 
-/// A profile as a table, a line for each section after the line of the names. Numbers have seven digits, and what could not be
-/// measured is empty.
+/// A profile as CSV with a header line. Seven significant digits; empty for what was not measured.
 pub fn profile_csv(profile: &Profile, scan: &ScanDetails) -> String {
     csv_text(&[Block { before: Same::new(), profile, scan, behind: Same::new() }])
 }
 
-/// Vessels as one table: the columns of [`profile_csv`] between those that say which vessel it is and what is told of the place
-/// that a reader marked on it.
+/// Vessels as one table: the columns of [`profile_csv`] between those of the vessel and those of its marked place.
 pub fn vessels_csv(vessels: &[Measured]) -> String {
     let blocks: Vec<Block> = vessels
         .iter()
         .map(|one| {
             let name = one.name.clone().unwrap_or_default();
             let before = vec![("vessel", one.id.clone()), ("name", name)];
-            Block { before, profile: one.profile, scan: one.scan, behind: told(one) }
+            Block { before, profile: one.profile, scan: one.scan, behind: grade_columns(one) }
         })
         .collect();
     csv_text(&blocks)
 }
 
-/// What is told of a marked place, empty where none is marked; and what is assumed of lengths, where something is.
-fn told(one: &Measured) -> Same {
+/// Columns of the marked place (empty without one), and of assumed lengths.
+fn grade_columns(one: &Measured) -> Same {
     let grade = one.grade;
     let stenosis = grade.and_then(Grade::stenosis);
-    let mut told = vec![
+    let mut columns = vec![
         ("stenosis", stenosis.map(of_stenosis).unwrap_or_default()),
         ("doubts", stenosis.map(|graded| of_doubts(&graded.doubts).join(" ")).unwrap_or_default()),
         ("not_graded", grade.and_then(Grade::not_graded).unwrap_or_default().to_owned()),
     ];
-    told.extend(one.assumed().map(|words| ("assumed", words.to_owned())));
-    told
+    columns.extend(one.assumed().map(|words| ("assumed", words.to_owned())));
+    columns
 }
 
 fn csv_text(blocks: &[Block]) -> String {
@@ -116,7 +111,6 @@ fn csv_text(blocks: &[Block]) -> String {
     text
 }
 
-/// What stands behind the numbers of a section.
 fn words(profile: &Profile, n: usize) -> [String; 6] {
     let counts = if profile.counts(n) { "yes" } else { "no" };
     [
@@ -139,7 +133,6 @@ fn write_line(text: &mut String, fields: impl Iterator<Item = String>) {
     text.push('\n');
 }
 
-/// A field that no spreadsheet runs as a formula, in quotes where it would not be read as one without.
 fn cell(text: &str) -> String {
     let field = marked_cell(text);
     if field.contains(['"', ',', '\n', '\r']) {

@@ -1,4 +1,4 @@
-//! Rays across a vessel, from its middle to where the lumen ends.
+//! Rays across a vessel, from its middle to the end of the lumen.
 
 use std::f64::consts::TAU;
 
@@ -7,29 +7,27 @@ use glam::DVec3;
 use lumencut_core::reformations::cpr::Straightened;
 use lumencut_vessels::voxels::Voxels;
 
-/// The distance of samples on a ray, in the sides that [`Voxels::sampling_side`] tells.
-const SAMPLE: f64 = 0.4;
+/// Sample distance on a ray, in units of [`Voxels::sampling_side`].
+const SAMPLE_STEP: f64 = 0.4;
 
-/// What is brighter than the lumen by this share of its contrast is no lumen, but calcium or metal.
-pub const TOO_BRIGHT: f64 = 0.5;
+/// Values above the lumen by this fraction of its contrast are calcium or metal.
+pub(crate) const TOO_BRIGHT: f64 = 0.5;
 
-/// Beyond its reach a ray is followed this much farther, to see whether bone or calcium begins there that touches the vessel.
-const FARTHER: f64 = 0.5;
+/// A ray is followed this fraction beyond its reach, to detect touching bone or calcium.
+const EXTRA_REACH: f64 = 0.5;
 
-/// What a ray from the middle of the vessel meets.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Fall {
-    /// A wall, so far away (mm).
+pub(crate) enum Fall {
+    /// A wall at this distance (mm).
     Wall(f64),
-    /// Lumen as far as it was followed.
     Open,
     /// It begins outside the lumen, or leaves the volume.
     Unknown,
 }
 
 impl Fall {
-    /// How far away a wall is (mm), where one is beyond the middle.
-    pub fn radius(self) -> Option<f64> {
+    /// The distance of a wall (mm) beyond the middle.
+    pub(crate) fn radius(self) -> Option<f64> {
         match self {
             Self::Wall(radius) if radius > 0.0 => Some(radius),
             _ => None,
@@ -37,26 +35,27 @@ impl Fall {
     }
 }
 
-/// Rays across a vessel through a volume.
-pub struct RaysAcross<'a, 'v> {
-    /// The volume.
+pub(crate) struct RaysAcross<'a, 'v> {
     pub voxels: &'a Voxels<'v>,
-    /// The space around the vessel.
     pub straightened: &'a Straightened,
-    /// In how many directions they go.
+    /// Number of directions.
     pub directions: usize,
 }
 
 impl RaysAcross<'_, '_> {
-    /// What each ray in the section at an arc length meets within its reach (mm), where values first fall half of the way from the
-    /// lumen's level to that of the surroundings. Bone that touches the vessel leaves no such fall: where values rise to it just beyond the
-    /// reach, the wall lies where they are lowest before.
-    pub fn falls(&self, at: f64, [lumen, around]: [f64; 2], reach: impl Fn(usize) -> f64) -> Vec<Fall> {
+    /// What each ray of a section meets within its reach (mm): the wall is where values first fall midway from lumen to
+    /// surroundings. If values rise to touching bone just beyond the reach, the wall is their minimum before that.
+    pub(crate) fn falls(
+        &self,
+        at: f64,
+        [lumen, around]: [f64; 2],
+        reach: impl Fn(usize) -> f64,
+    ) -> Vec<Fall> {
         let frame = self.straightened.frame(at);
         let index = &self.voxels.index_from_world;
         let middle = self.straightened.world_from_straightened(DVec3::new(0.0, 0.0, at));
         let start = index.transform_point3(middle);
-        let step = SAMPLE * self.voxels.sampling_side;
+        let step = SAMPLE_STEP * self.voxels.sampling_side;
         let depth = |value: f32| (f64::from(value) - lumen) / (around - lumen);
         let ray = |k: usize| {
             let (sine, cosine) = (TAU * k as f64 / self.directions as f64).sin_cos();
@@ -70,7 +69,7 @@ impl RaysAcross<'_, '_> {
                 values[..samples(reach)].iter().map(|value| depth(*value)).collect()
             };
             match fall(&depths(reach(k)), step) {
-                Fall::Open => touching(&depths((1.0 + FARTHER) * reach(k)), step),
+                Fall::Open => touching(&depths((1.0 + EXTRA_REACH) * reach(k)), step),
                 met => met,
             }
         };
@@ -78,8 +77,7 @@ impl RaysAcross<'_, '_> {
     }
 }
 
-/// Where a ray whose depths (0 in lumen, 1 in its surroundings) are sampled every so many mm falls to half, or meets calcium or
-/// metal, which lie in a wall.
+/// Where the depths of a ray (0 in lumen, 1 outside; `step` mm apart) pass one half, or meet calcium or metal in the wall.
 fn fall(depths: &[f64], step: f64) -> Fall {
     let mut before = f64::NAN;
     for (n, &depth) in depths.iter().enumerate() {
@@ -89,7 +87,7 @@ fn fall(depths: &[f64], step: f64) -> Fall {
         if depth >= 0.5 {
             return Fall::Wall((n as f64 - (depth - 0.5) / (depth - before)) * step);
         }
-        // Noise does not reach that far twice in a row.
+        // Noise does not reach this level twice in a row.
         if depth.max(before) < -TOO_BRIGHT {
             return Fall::Wall(n as f64 * step);
         }
@@ -98,11 +96,11 @@ fn fall(depths: &[f64], step: f64) -> Fall {
     Fall::Open
 }
 
-/// The wall of a vessel that touches bone or calcium: where its values are lowest before they rise to that. Open where they do not.
+/// The wall next to touching bone or calcium: the minimum before the rise. Open without a rise.
 fn touching(depths: &[f64], step: f64) -> Fall {
     let rises = |pair: &[f64]| pair.iter().all(|depth| *depth < -TOO_BRIGHT);
     let Some(rise) = depths.windows(2).position(rises) else { return Fall::Open };
     let lowest = |best: usize, n: usize| if depths[n] >= depths[best] { n } else { best };
-    // Next to the middle it is noise that decides which value is lowest.
+    // Close to the middle noise decides the minimum.
     Fall::Wall((rise / 2..rise).fold(rise / 2, lowest) as f64 * step)
 }

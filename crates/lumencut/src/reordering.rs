@@ -1,4 +1,4 @@
-//! Points of a centerline file put into their order along the vessel, where it is found without doubt.
+//! Sorts the points of a centerline file along the vessel, if the order is unambiguous.
 
 use glam::DVec3;
 use lumencut_io::{Centerlines, Error, Line, Result};
@@ -6,16 +6,16 @@ use lumencut_io::{Centerlines, Error, Line, Result};
 use crate::line_doubts::{DoubtedLine, LineDoubt, found_order, order_doubts_of};
 use crate::mends::OfCenterlines;
 
-/// How the note ends that says of a line that its points were moved.
-pub const REORDERED: &str = "points were put in another order";
+/// How the note about a reordered line ends.
+pub const REORDERED: &str = "points were reordered";
 
-/// The lines of a file with their points in the order along the vessel; radii keep to their points, and each line keeps the
-/// direction that is nearest to the given order. A note says how many points were moved.
+/// The lines with their points in order along the vessel; radii follow their points, and each line keeps its direction. A note
+/// counts the moved points.
 ///
-/// Lists of points that were parted at long steps become one line again where their points form one.
+/// Lists that were split at long steps become one line again if their points form one.
 ///
 /// # Errors
-/// Without the file's name, where the order of a line is doubtful and no other is found without doubt.
+/// Without a file name, if the order is doubtful and no unambiguous one exists.
 pub fn in_order(mut lines: Centerlines) -> Result<Centerlines> {
     let given = std::mem::take(&mut lines.lines);
     for (number, line) in rejoined(&given).into_iter().enumerate() {
@@ -39,7 +39,7 @@ pub fn in_order(mut lines: Centerlines) -> Result<Centerlines> {
     Ok(lines)
 }
 
-/// What is doubtful where a list of points was parted at long steps, although its points form one line in another order.
+/// The doubt for a list that was split at long steps although its points form one line.
 pub fn parted_doubt(lines: &Centerlines) -> Option<LineDoubt> {
     let joined = rejoined(&lines.lines);
     let vessel = (0..joined.len()).find(|n| joined[*n].points.len() != lines.lines[*n].points.len())?;
@@ -49,14 +49,13 @@ pub fn parted_doubt(lines: &Centerlines) -> Option<LineDoubt> {
         other: None,
         kind: "order",
         found: format!(
-            "a list of points was parted into {parts} lines at long steps: perhaps it is one line in another order"
+            "a list of points was split into {parts} lines at long steps: perhaps it is one line in the wrong order"
         ),
         advice: "sort its points along the vessel",
         mend: Some(OfCenterlines::Reorder.into()),
     })
 }
 
-/// The lines, of which those that one list of points was parted into are one where its points form one line.
 fn rejoined(lines: &[Line]) -> Vec<Line> {
     let mut joined: Vec<Line> = Vec::with_capacity(lines.len());
     let mut from = 0;
@@ -75,7 +74,6 @@ fn rejoined(lines: &[Line]) -> Vec<Line> {
     joined
 }
 
-/// Several lines as one.
 fn one_of(parts: &[Line]) -> Line {
     let has_radius = parts.iter().all(|line| line.radius.is_some());
     Line {
@@ -87,13 +85,11 @@ fn one_of(parts: &[Line]) -> Line {
     }
 }
 
-/// An order or its reverse, whichever leaves more points as they were given.
 fn along_given(order: Vec<usize>) -> Vec<usize> {
     let reversed: Vec<usize> = order.iter().rev().copied().collect();
     if rising(&reversed) > rising(&order) { reversed } else { order }
 }
 
-/// The length of the longest series of rising numbers in their order.
 fn rising(numbers: &[usize]) -> usize {
     let mut lowest_ends: Vec<usize> = Vec::new();
     for number in numbers {
@@ -112,7 +108,7 @@ fn sorted(line: Line, order: &[usize]) -> Line {
     Line { points, radius: line.radius.map(values), confidence: line.confidence.map(values), ..line }
 }
 
-/// Refuses a line whose order is doubtful; one with a gap alone may be in order.
+/// Rejects a line of doubtful order; a gap alone is accepted.
 fn refuse_doubtful(number: usize, line: &Line) -> Result<()> {
     let name = line.name.as_deref().unwrap_or_default();
     let looked_at = DoubtedLine { points: &line.points, radius: None, name };
@@ -120,8 +116,8 @@ fn refuse_doubtful(number: usize, line: &Line) -> Result<()> {
     let Some(doubt) = doubt else { return Ok(()) };
     let subject =
         if name.is_empty() { format!("points of line {number}") } else { format!("points of {name}") };
-    let expected = "points of which each is nearest to its neighbours along one line";
-    let error = Error::new(subject, format!("no order without doubt: {}", doubt.found), expected);
+    let expected = "points along one line, each nearest to its neighbours";
+    let error = Error::new(subject, format!("no unambiguous order: {}", doubt.found), expected);
     Err(error.mend(doubt.advice))
 }
 

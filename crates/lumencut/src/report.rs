@@ -1,15 +1,14 @@
-//! The report of measured vessels as a web page that needs nothing beside itself: no script, no address, and of the patient
-//! only what its pictures show and the names of vessels; the name of the scan where a host gives it. Hosts give pictures,
-//! the facade all words, their order and their look.
+//! The report of measured vessels: a self-contained web page without scripts or addresses. It shows only pictures and vessel
+//! names, and the scan's name if a host gives it. Hosts supply pictures, the facade all else.
 
 mod curves;
 mod findings;
 mod markup;
+mod method_text;
 mod places;
 mod plan;
 mod plot;
 mod scale;
-mod told;
 
 use lumencut_core::error::Result;
 use lumencut_vessels::measure::profile::Profile;
@@ -20,44 +19,44 @@ use crate::profile_marks::Measured;
 use crate::profile_record::{Asked, NOTICE};
 use crate::study::view::method_word;
 use findings::findings;
-pub use findings::{Sentence, distances, sentences};
+pub(crate) use findings::{Sentence, distances, sentences};
 use markup::{escaped, figure, paragraph};
-pub use places::{Place, ReportMark};
+pub use method_text::Stated;
+use method_text::{EXPLAINED, UNITLESS, method_text};
+pub use places::{ReportMark, ReportPlace};
 use places::{places, row, table, widest_row};
 pub use plan::{Plan, plan};
 use plot::Plot;
-pub use told::Stated;
-use told::{EXPLAINED, UNITLESS, told};
 
 const STYLE: &str = include_str!("report/style.css");
 
 /// What all vessels of a report share.
 #[derive(Clone, Debug)]
 pub struct Shown {
-    /// The name of the scan, where it is asked for.
+    /// The scan's name, if requested.
     pub scan: Option<String>,
     /// When the report was saved, in words.
     pub saved: Option<String>,
-    /// What is known of the scan's grid.
+    /// What the scan states about its grid.
     pub stated: Stated,
-    /// What was asked for.
+    /// The request.
     pub asked: Asked,
-    /// Level and width of the window of its pictures.
+    /// Level and width of the pictures.
     pub window: [f64; 2],
-    /// How its pictures were made beside that: names and values.
+    /// Other settings of the pictures: names and values.
     pub settings: Vec<[String; 2]>,
 }
 
-/// A measured vessel with its pictures, all of them PNGs in base64.
+/// A measured vessel with its pictures (PNG, base64).
 #[derive(Clone, Debug)]
 pub struct VesselPage<'a> {
-    /// The vessel, its sections and its stenosis.
+    /// The vessel with sections and stenosis.
     pub measured: Measured<'a>,
     /// Marked and suggested places.
     pub marks: Vec<ReportMark>,
-    /// What else a reader measured.
+    /// Other lengths.
     pub lengths: Lengths,
-    /// A view of all vessels, and the name of its method.
+    /// A view of all vessels.
     pub view: Option<View>,
     /// The straightened vessel.
     pub strip: Option<Strip>,
@@ -65,44 +64,44 @@ pub struct VesselPage<'a> {
     pub sections: Vec<String>,
 }
 
-/// What a reader measured beside a stenosis.
+/// Measurements other than the stenosis.
 #[derive(Clone, Debug, Default)]
 pub struct Lengths {
-    /// Places whose diameters are noted (arc lengths, mm).
+    /// Places of noted diameters (arc lengths, mm).
     pub diameters: Vec<f64>,
-    /// Stretches of the vessel, from one arc length to another (mm): two at most.
+    /// Up to two stretches of the vessel, by arc lengths (mm).
     pub stretches: Vec<[f64; 2]>,
     /// Straight distances (mm).
-    pub distances: Vec<f64>,
+    pub(crate) distances: Vec<f64>,
 }
 
 /// A view of all vessels.
 #[derive(Clone, Debug, Deserialize)]
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename = "ReportView"))]
 pub struct View {
-    /// A PNG in base64.
+    /// PNG in base64.
     pub picture: String,
-    /// The name of its method, such as `csr`.
+    /// Its method, such as `csr`.
     #[cfg_attr(test, ts(type = "Method"))]
     pub method: String,
 }
 
-/// The straightened vessel from left to right: the middle of its first column is the beginning of the vessel.
+/// The straightened vessel from left to right; its start is the middle of the first column.
 #[derive(Clone, Debug, Deserialize)]
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename = "ReportStrip"))]
 pub struct Strip {
-    /// A PNG in base64.
+    /// PNG in base64.
     pub picture: String,
     /// Columns and rows.
     pub size: [usize; 2],
-    /// The side of a pixel (mm).
+    /// Pixel side (mm).
     pub spacing: f64,
 }
 
 /// The report as HTML.
 ///
 /// # Errors
-/// [`lumencut_core::error::ErrorKind::Settings`] for a picture that is not base64.
+/// [`lumencut_core::error::ErrorKind::Settings`] if a picture is not base64.
 pub fn html(shown: &Shown, vessels: &[VesselPage]) -> Result<String> {
     let title = match vessels {
         [one] => format!("lumen of {}", name_of(&one.measured)),
@@ -116,7 +115,6 @@ pub fn html(shown: &Shown, vessels: &[VesselPage]) -> Result<String> {
     ))
 }
 
-/// What a vessel is called: its name, and where it has none, its id.
 fn name_of(measured: &Measured) -> String {
     measured.name.clone().unwrap_or_else(|| format!("vessel {}", measured.id))
 }
@@ -135,11 +133,10 @@ fn page(shown: &Shown, vessel: &VesselPage) -> Result<String> {
         plot.svg()?,
         tables(shown, vessel, &places)?,
         paragraph("small", EXPLAINED),
-        paragraph("small", &told(shown, vessel)),
+        paragraph("small", &method_text(shown, vessel)),
     ))
 }
 
-/// The name of the vessel, what the report is of, and what it is not.
 fn head(shown: &Shown, vessel: &VesselPage) -> String {
     let length = shown.stated.length(vessel.measured.profile.length(), 1);
     let name = vessel.measured.name.clone().unwrap_or_else(|| format!("Vessel {}", vessel.measured.id));
@@ -149,16 +146,14 @@ fn head(shown: &Shown, vessel: &VesselPage) -> String {
     head + &saved.unwrap_or_default() + &paragraph("notice", NOTICE)
 }
 
-/// The view beside what was found.
 fn top(shown: &Shown, vessel: &VesselPage) -> Result<String> {
     let found = findings(shown, vessel);
     let Some(view) = &vessel.view else { return Ok(found) };
-    let words = format!("{} of the vessels, as it was shown", method_word(&view.method));
+    let words = format!("{} of the vessels, as shown", method_word(&view.method));
     Ok(format!("<div class=\"top\">\n{}<div>\n{found}</div>\n</div>\n", figure(&view.picture, &words)?))
 }
 
-/// What was marked, and apart from it what nobody confirmed.
-fn tables(shown: &Shown, vessel: &VesselPage, places: &[Place]) -> Result<String> {
+fn tables(shown: &Shown, vessel: &VesselPage, places: &[ReportPlace]) -> Result<String> {
     let profile = vessel.measured.profile;
     let rows = |is_suggestion: bool| {
         let these = places.iter().filter(move |place| place.is_suggestion == is_suggestion);
@@ -168,7 +163,10 @@ fn tables(shown: &Shown, vessel: &VesselPage, places: &[Place]) -> Result<String
     offered.extend(profile.offered_widest().map(|spot| widest_row(profile, spot.at, shown)));
     let mut text = "<h2>Places</h2>\n".to_owned();
     if marked.is_empty() && offered.is_empty() {
-        text += &paragraph("", "No place is marked, and no section is safe to suggest: see the flags.");
+        text += &paragraph(
+            "",
+            "No place is marked, and no section is reliable enough to suggest: see the flags.",
+        );
         return Ok(text);
     }
     text += &if marked.is_empty() {
@@ -178,15 +176,19 @@ fn tables(shown: &Shown, vessel: &VesselPage, places: &[Place]) -> Result<String
     };
     text += &sections(shown, vessel, places, false)?;
     if !offered.is_empty() {
-        text += "<h2>Suggestions, not looked at</h2>\n";
+        text += "<h2>Suggestions, not confirmed</h2>\n";
         text += &table(&offered, shown.stated.has_units);
         text += &sections(shown, vessel, places, true)?;
     }
     Ok(text)
 }
 
-/// The pictures of the sections at marked places, or at suggested ones.
-fn sections(shown: &Shown, vessel: &VesselPage, places: &[Place], is_suggestion: bool) -> Result<String> {
+fn sections(
+    shown: &Shown,
+    vessel: &VesselPage,
+    places: &[ReportPlace],
+    is_suggestion: bool,
+) -> Result<String> {
     let with_pictures = places.iter().zip(&vessel.sections);
     let these = with_pictures.filter(|(place, _)| place.is_suggestion == is_suggestion);
     let figures = these.map(|(place, picture)| figure(picture, &place.caption(shown.stated.unit())));
@@ -198,7 +200,6 @@ fn sections(shown: &Shown, vessel: &VesselPage, places: &[Place], is_suggestion:
     Ok(format!("{head}\n<div class=\"sections\">\n{figures}</div>\n"))
 }
 
-/// The flags that are set somewhere, in their order.
 fn flag_rows(profile: &Profile) -> Vec<&'static FlagLook> {
     FLAGS.iter().filter(|flag| profile.flags.iter().any(|bits| bits & flag.bit > 0)).collect()
 }

@@ -1,15 +1,12 @@
-//! Several samples for each pixel of a picture: the same view from places within a pixel, and the mean of what they show.
+//! Supersampling: views from positions within a pixel, and their mean.
 
 use lumencut_core::camera::Camera;
 use lumencut_core::error::Result;
 
 use crate::views::panned;
 
-/// The views of `samples` × `samples` places that lie evenly within a pixel, row by row. Only the places within the view
-/// plane differ: depths stay what they are.
-///
-/// # Errors
-/// As [`panned`], where the camera moves out of the world.
+/// The views at `samples` × `samples` even positions within a pixel, row by row. Only in-plane positions differ, so depths stay
+/// valid.
 pub(crate) fn sub_views(camera: &Camera, samples: usize) -> Result<Vec<Camera>> {
     let offset = |n: usize| ((n as f64 + 0.5) / samples as f64 - 0.5) * camera.pixel_spacing();
     let places = (0..samples).flat_map(|j| (0..samples).map(move |i| (i, j)));
@@ -21,21 +18,19 @@ pub(crate) fn sub_views(camera: &Camera, samples: usize) -> Result<Vec<Camera>> 
         .collect()
 }
 
-/// The mean of pictures with straight alpha. Colours count as much as they are opaque.
 pub(crate) struct Mean {
-    /// Of each pixel: the sum of its colours times their opacity, and of its opacities.
+    /// Per pixel: opacity-weighted colour sums, and the sum of opacities.
     sums: Vec<[u32; 4]>,
     pictures: u32,
 }
 
 impl Mean {
-    /// The mean of no pictures yet, each with this number of pixels.
-    pub fn of(pixels: usize) -> Self {
+    /// An empty mean for this number of pixels.
+    pub(crate) fn of(pixels: usize) -> Self {
         Self { sums: vec![[0; 4]; pixels], pictures: 0 }
     }
 
-    /// Takes one more picture.
-    pub fn add(&mut self, picture: &[[u8; 4]]) {
+    pub(crate) fn add(&mut self, picture: &[[u8; 4]]) {
         assert_eq!(picture.len(), self.sums.len(), "pixels of a sample");
         for (sum, pixel) in self.sums.iter_mut().zip(picture) {
             let [red, green, blue, alpha] = pixel.map(u32::from);
@@ -46,8 +41,8 @@ impl Mean {
         self.pictures += 1;
     }
 
-    /// The mean as RGBA with straight alpha; black where nothing is opaque at all.
-    pub fn pixels(&self) -> Vec<[u8; 4]> {
+    /// RGBA with straight alpha; black where fully transparent.
+    pub(crate) fn pixels(&self) -> Vec<[u8; 4]> {
         let pixel = |&[red, green, blue, alpha]: &[u32; 4]| {
             let color = [red, green, blue].map(|sum| rounded(sum, alpha));
             [color[0], color[1], color[2], rounded(alpha, self.pictures)]
@@ -56,7 +51,7 @@ impl Mean {
     }
 }
 
-/// The nearest whole number to a quotient that is at most 255; 0 where there is nothing to divide by.
+/// A rounded quotient of at most 255; 0 for division by 0.
 fn rounded(sum: u32, count: u32) -> u8 {
     if count == 0 { 0 } else { ((2 * sum + count) / (2 * count)).min(255) as u8 }
 }

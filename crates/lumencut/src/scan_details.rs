@@ -1,34 +1,32 @@
-//! How a scan was made, as its file tells it: a number that is measured depends on it, and is told with it.
+//! How a scan was made, as its file states; reported with measurements that depend on it.
 
 use serde::{Deserialize, Serialize};
 
 use crate::text::rounded;
 
-/// Digits of a number.
 const DIGITS: usize = 6;
 
-/// What a file tells of how its scan was made; None of what it does not tell. Nothing of it names a patient.
+/// The stated acquisition details; None if not stated. Nothing identifies a patient.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
 #[serde(default)]
 pub struct ScanDetails {
-    /// The number of the series.
+    /// Series number.
     pub series_number: Option<String>,
-    /// What the series is called.
+    /// Series description.
     pub series_description: Option<String>,
-    /// The phase of the heart, of the contrast medium and of the series, as far as they are stated.
+    /// Phase of the heart, of the contrast medium and of the series, as far as stated.
     pub phase: Option<String>,
-    /// How thick slices are (mm).
+    /// Slice thickness (mm).
     pub slice_thickness_mm: Option<f64>,
-    /// The kernel of the reconstruction.
+    /// Reconstruction kernel.
     pub kernel: Option<String>,
 }
 
-/// What tables write of a text that the file does not state.
-pub const NOT_STATED: &str = "not stated";
+/// In tables, for details that are not stated.
+pub(crate) const NOT_STATED: &str = "not stated";
 
 impl ScanDetails {
-    /// That of a file that tells nothing.
-    pub const NOTHING: Self = Self {
+    pub(crate) const NOTHING: Self = Self {
         series_number: None,
         series_description: None,
         phase: None,
@@ -36,7 +34,7 @@ impl ScanDetails {
         kernel: None,
     };
 
-    /// All of it in words, with what is not stated.
+    /// All details in words, including what is not stated.
     pub fn words(&self) -> String {
         let series = match (&self.series_number, &self.series_description) {
             (Some(number), Some(description)) => Some(format!("series {number}, {description}")),
@@ -53,13 +51,13 @@ impl ScanDetails {
             ("kernel", self.kernel.as_ref().map(|kernel| format!("kernel {kernel}"))),
         ];
         let missing: Vec<&str> =
-            named.iter().filter(|(_, told)| told.is_none()).map(|(name, _)| *name).collect();
-        let told = named.iter().filter_map(|(_, told)| told.clone());
+            named.iter().filter(|(_, stated)| stated.is_none()).map(|(name, _)| *name).collect();
+        let stated = named.iter().filter_map(|(_, stated)| stated.clone());
         let missing = (!missing.is_empty()).then(|| format!("{} {NOT_STATED}", missing.join(", ")));
-        told.chain(missing).collect::<Vec<_>>().join("; ")
+        stated.chain(missing).collect::<Vec<_>>().join("; ")
     }
 
-    /// Names and values of the columns of a table.
+    /// Names and values of table columns.
     pub fn columns(&self) -> [(&'static str, String); 5] {
         let text = |stated: &Option<String>| stated.clone().unwrap_or_else(|| NOT_STATED.to_owned());
         [

@@ -1,4 +1,4 @@
-//! A profile as plain columns of numbers, from which the same profile is made again: what programs keep of it.
+//! A profile as plain columns that restore it exactly.
 
 use glam::DVec3;
 use lumencut_core::error::{Error, ErrorKind, Result};
@@ -7,16 +7,16 @@ use lumencut_vessels::measure::profile::{Profile, Source};
 use lumencut_vessels::measure::tree_walls::PooledWall;
 use lumencut_vessels::measure::wall_level::WallSource;
 
-/// The columns of a profile, its flags, and where its point spread and its wall are from.
+/// The columns, flags and sources of a profile.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StoredProfile {
-    /// Each column by its name, in mm, LPS or the unit of the volume; points follow each other.
+    /// Columns by name, in mm, LPS or the volume's unit; points are flattened.
     pub columns: Vec<(String, Vec<f64>)>,
     /// The flags of each section.
     pub flags: Vec<u32>,
-    /// Where the point spread is from: a name, and the words of that kind.
+    /// The source of the point spread: kind and words.
     pub fwhm_source: (String, String),
-    /// Where the wall is from: a name, and the numbers of that kind.
+    /// The source of the wall: kind and numbers.
     pub wall_source: (String, Vec<f64>),
 }
 
@@ -33,10 +33,10 @@ impl StoredProfile {
         }
     }
 
-    /// The profile of these columns, equal to the bit.
+    /// The profile of these columns, bit-identical.
     ///
     /// # Errors
-    /// [`ErrorKind::Measuring`] for columns that are missing, or that do not belong to one profile.
+    /// [`ErrorKind::Measuring`] for missing or inconsistent columns.
     pub fn profile(&self) -> Result<Profile> {
         let mut profile = empty();
         for (name, column) in columns(&mut profile) {
@@ -56,7 +56,6 @@ impl StoredProfile {
     }
 }
 
-/// A part of a profile that is stored as numbers.
 enum Column<'a> {
     Number(&'a mut f64),
     Numbers(&'a mut Vec<f64>),
@@ -64,11 +63,9 @@ enum Column<'a> {
     Parts(&'a mut Vec<Parts>),
     Points(&'a mut Vec<DVec3>),
     PointPairs(&'a mut Vec<[DVec3; 2]>),
-    /// Each list of points behind its length.
     Contours(&'a mut Vec<Vec<DVec3>>),
 }
 
-/// All columns by their names.
 fn columns(profile: &mut Profile) -> [(&'static str, Column<'_>); 21] {
     [
         ("arc_length", Column::Numbers(&mut profile.arc_length)),
@@ -110,7 +107,7 @@ impl Column<'_> {
         }
     }
 
-    /// Takes the place of what was there; nothing where there are too many or too few numbers.
+    /// Replaces the content; None for a wrong number of values.
     fn filled(self, numbers: &[f64]) -> Option<()> {
         match self {
             Self::Number(number) => {
@@ -141,7 +138,6 @@ fn parts_of(numbers: &[f64; 5]) -> Parts {
     Parts { noise, point_spread, wall, lumen, surroundings }
 }
 
-/// Groups of N, where nothing is left over.
 fn groups<T, const N: usize>(values: &[T]) -> Option<&[[T; N]]> {
     let (groups, rest) = values.as_chunks::<N>();
     rest.is_empty().then_some(groups)
@@ -154,7 +150,7 @@ fn points_of(numbers: &[f64]) -> Option<Vec<DVec3>> {
 fn lists_of(mut numbers: &[f64]) -> Option<Vec<Vec<DVec3>>> {
     let mut lists = Vec::new();
     while let Some((count, after)) = numbers.split_first() {
-        // A count that is no whole number, or larger than what follows, belongs to no profile.
+        // A fractional or too large count is invalid.
         let length = 3 * whole(*count)?;
         lists.push(points_of(after.get(..length)?)?);
         numbers = &after[length..];
@@ -162,7 +158,6 @@ fn lists_of(mut numbers: &[f64]) -> Option<Vec<Vec<DVec3>>> {
     Some(lists)
 }
 
-/// A count as it is stored.
 fn whole(number: f64) -> Option<usize> {
     ((0.0..1e9).contains(&number) && number.fract() == 0.0).then_some(number as usize)
 }
@@ -222,7 +217,6 @@ fn restored_wall((name, numbers): &(String, Vec<f64>)) -> Result<WallSource> {
     found.ok_or_else(|| damaged(format!("a wall from '{name}' with {} numbers", numbers.len())))
 }
 
-/// A profile without sections, to be filled.
 fn empty() -> Profile {
     Profile {
         arc_length: Vec::new(),
@@ -252,7 +246,6 @@ fn empty() -> Profile {
     }
 }
 
-/// How many sections each column has.
 fn lengths(profile: &Profile) -> [usize; 18] {
     [
         profile.arc_length.len(),

@@ -1,45 +1,42 @@
-//! The sides of the patient that a straightened volume states: the axes nearest to its true frame at the middle of the vessel.
+//! The patient sides of a straightened volume: the axes nearest to its frame at the middle of the vessel.
 
 use glam::DVec3;
 use lumencut_core::math::frames::MovingFrame;
 use lumencut_core::reformations::cpr::Straightened;
 
-use crate::letters::{PREFERRED, nearest_axes, sides};
+use crate::letters::{PREFERRED_AXES, nearest_axes, sides};
 
-/// Readers are warned where a true axis turns farther than this from its stated side (degrees).
-const MOST_TURN: f64 = 45.0;
+/// Readers are warned if a true axis deviates more from its stated side (degrees).
+const MAX_TURN_DEGREES: f64 = 45.0;
 
-/// How far before and after the middle of the vessel its frame is looked at (mm), and at how many places, less one.
-const MIDDLE: f64 = 5.0;
-const PLACES: u32 = 40;
+/// Half the length (mm) over which the middle frame is averaged, and the number of samples less one.
+const MIDDLE_HALF_LENGTH_MM: f64 = 5.0;
+const MIDDLE_SAMPLES: u32 = 40;
 
-/// The letters of sides with the words for them.
 const SIDES: [(char, &str); 6] =
     [('R', "right"), ('L', "left"), ('A', "front"), ('P', "back"), ('I', "feet"), ('S', "head")];
 
-/// What stands before the letters, and after the angle, of [`StraightenedSides::mark`].
+/// Text before the letters and after the angle of [`StraightenedSides::mark`].
 const MARK: [&str; 2] = ["Lumencut straightened vessel; sides ", " deg off"];
 
-/// So many letters of a text are looked at behind the beginning of a mark.
-const LONGEST: usize = 64;
+/// Letters searched after the start of a mark.
+const MAX_MARK_LETTERS: usize = 64;
 
-/// What stands between them where the scan does not state its orientation, and where it does.
+/// Text between them for scans without and with a stated orientation.
 const BETWEEN: [&str; 2] = [" if the scan is LPS; up to ", " at its middle; up to "];
 
-/// The sides that the axes of a straightened volume state.
+/// The stated sides of a straightened volume.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StraightenedSides {
-    /// The sides that i (across the section), j (into the picture) and k (along the vessel) run to, as letters.
+    /// The sides towards which i (across), j (into the picture) and k (along) run.
     letters: String,
-    /// How far a true axis turns from its stated side anywhere along the vessel (tenths of a degree).
+    /// The largest deviation of a true axis from its side along the vessel (0.1 degrees).
     turn: u32,
-    /// Whether the scan states its orientation.
     is_stated: bool,
 }
 
 impl StraightenedSides {
-    /// The signed axes of the patient nearest to the frame at the middle of the vessel, with the handedness of the frame. Along
-    /// the vessel the frame is compared with them every `step` mm.
+    /// The patient axes nearest to the frame at the middle, with its handedness; the deviation is sampled every `step` mm.
     pub fn of(space: &Straightened, step: f64, is_stated: bool) -> Self {
         let stated = nearest_axes(middle(space));
         let sections = (space.length() / step).floor() as usize;
@@ -49,10 +46,10 @@ impl StraightenedSides {
         Self { letters: stated.map(sides).concat(), turn, is_stated }
     }
 
-    /// What [`StraightenedSides::mark`] says, where it stands in a text, such as the header of a file.
+    /// Parses a [`StraightenedSides::mark`] found in a text, such as a file header.
     pub fn read(text: &str) -> Option<Self> {
         let (_, rest) = text.split_once(MARK[0])?;
-        let rest = rest.get(..LONGEST.min(rest.len())).unwrap_or(rest);
+        let rest = rest.get(..MAX_MARK_LETTERS.min(rest.len())).unwrap_or(rest);
         let (is_stated, between) =
             [false, true].into_iter().zip(BETWEEN).find(|(_, words)| rest.contains(words))?;
         let (letters, rest) = rest.split_once(between)?;
@@ -68,38 +65,37 @@ impl StraightenedSides {
         &self.letters
     }
 
-    /// The directions (LPS) that the sides stand for.
+    /// The directions (LPS) of the sides.
     pub fn axes(&self) -> [DVec3; 3] {
-        let axis = |letter: char| PREFERRED.into_iter().find(|axis| sides(*axis).starts_with(letter));
+        let axis = |letter: char| PREFERRED_AXES.into_iter().find(|axis| sides(*axis).starts_with(letter));
         let mut letters = self.letters.chars();
         [(); 3].map(|()| letters.next().and_then(axis).unwrap_or_default())
     }
 
-    /// A short text that files carry; at most 79 letters of ASCII.
+    /// A short ASCII text for files, at most 79 characters.
     pub fn mark(&self) -> String {
         let ([before, after], between) = (MARK, BETWEEN[usize::from(self.is_stated)]);
         format!("{before}{}{between}{:.1}{after}", self.letters, self.degrees())
     }
 
-    /// What a reader of the volume must know of its sides; nothing where they are true enough along the whole vessel.
+    /// Warnings for readers of the volume; empty if the sides hold along the whole vessel.
     pub fn notes(&self) -> Vec<String> {
         let mut notes = Vec::new();
         if !self.is_stated {
-            let words =
-                "the scan states no orientation: sides of the straightened vessel are those of a scan in LPS";
+            let words = "the scan states no orientation: the sides of the straightened vessel assume LPS";
             notes.push(words.to_owned());
         }
         let along = self.letters.chars().nth(2).unwrap_or_default();
         if !matches!(along, 'I' | 'S') {
             let side = word(along).unwrap_or_default();
             notes.push(format!(
-                "the vessel runs across the body at its middle: its sections follow each other to the patient's {side}"
+                "the vessel runs across the body at its middle: its sections progress to the patient's {side}"
             ));
         }
-        if self.degrees() > MOST_TURN {
+        if self.degrees() > MAX_TURN_DEGREES {
             let off = self.degrees();
             notes.push(format!(
-                "sides of the straightened vessel are true at its middle; along the vessel they are up to {off:.1}° off"
+                "the sides of the straightened vessel hold at its middle; along the vessel they are up to {off:.1}° off"
             ));
         }
         notes
@@ -110,19 +106,17 @@ impl StraightenedSides {
     }
 }
 
-/// The directions of i, j and k at the middle of the vessel, in the mean over a short way: noise of the line does not decide.
 fn middle(space: &Straightened) -> [DVec3; 3] {
     let half = space.length() / 2.0;
-    let reach = MIDDLE.min(half);
-    let frames =
-        (0..=PLACES).map(|n| space.frame(half + reach * (2.0 * f64::from(n) / f64::from(PLACES) - 1.0)));
+    let reach = MIDDLE_HALF_LENGTH_MM.min(half);
+    let frames = (0..=MIDDLE_SAMPLES)
+        .map(|n| space.frame(half + reach * (2.0 * f64::from(n) / f64::from(MIDDLE_SAMPLES) - 1.0)));
     let [tangent, ahead] = frames
         .map(|frame| [frame.tangent, frame.ahead])
         .fold([DVec3::ZERO; 2], |sum, frame| [sum[0] + frame[0], sum[1] + frame[1]]);
     axes(MovingFrame::looking(tangent.normalize_or(space.frame(half).tangent), ahead))
 }
 
-/// The directions of i, j and k.
 fn axes(frame: MovingFrame) -> [DVec3; 3] {
     [frame.across, frame.ahead, frame.tangent]
 }
@@ -131,7 +125,6 @@ fn cosines(one: [DVec3; 3], other: [DVec3; 3]) -> [f64; 3] {
     [0, 1, 2].map(|axis| one[axis].dot(other[axis]))
 }
 
-/// The word for a side.
 fn word(letter: char) -> Option<&'static str> {
     SIDES.iter().find(|(known, _)| *known == letter).map(|(_, word)| *word)
 }

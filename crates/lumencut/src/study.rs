@@ -1,54 +1,54 @@
-//! The study that a viewer has open: a volume, the lines of its vessels and their edits, tracing, picking, what was measured
-//! and marked, and saved sessions. Its functions take and give plain values and JSON, so that every viewer works alike.
+//! The study open in a viewer: volume, vessel lines with edits, tracing, picking, measurements, marks and sessions. It exchanges
+//! plain values and JSON, so that all viewers work alike.
 //!
-//! Points are in world space (LPS, mm) unless their documentation says otherwise.
+//! Points are in world space (LPS, mm) unless stated otherwise.
 
-pub mod after_edit;
+mod after_edit;
 pub mod asking;
 pub mod brightest;
-pub mod centerline_files;
-pub mod content;
-pub mod document;
-pub mod doubts;
+mod centerline_files;
+mod content;
+mod document;
+mod doubts;
 mod draft;
 mod editing;
-pub mod edits;
+mod edits;
 pub mod failure;
 pub mod held_volume;
-pub mod histogram;
-pub mod labels;
+mod histogram;
+mod labels;
 pub mod line_edits;
-pub mod line_facts;
+mod line_facts;
 pub mod line_path;
 pub mod lines;
-pub mod lumens;
-pub mod masks;
-pub mod measure_messages;
-pub mod measuring;
+mod lumens;
+mod masks;
+mod measure_messages;
+mod measuring;
 pub mod names;
 pub mod open_study;
 mod opening;
-pub mod palette;
-pub mod picking;
-pub mod place_turn;
-pub mod planes;
+mod palette;
+mod picking;
+mod place_turn;
+mod planes;
 mod points_along;
-pub mod profiles;
+mod profiles;
 pub mod questions;
-pub mod reformations;
-pub mod reformed;
-pub mod reforming;
-pub mod regions;
-pub mod report_messages;
-pub mod session_files;
-pub mod settings;
-pub mod straightened;
-pub mod straightening;
-pub mod telling;
+mod reformations;
+mod reformed;
+mod reforming;
+mod regions;
+mod report_messages;
+mod session_files;
+mod settings;
+mod straightened;
+mod straightening;
+mod trace_report;
 pub mod tracing;
 pub mod view;
 pub mod voxels;
-pub mod whole_vessel;
+mod whole_vessel;
 
 #[cfg(test)]
 pub(crate) mod tests;

@@ -1,7 +1,7 @@
-//! Numbers in messages, as Python writes them.
+//! Formats numbers in messages as Python does.
 
-/// A number with the fewest digits that tell it from all others, such as `0.5`, `2.0`, `1e-05` or `nan`.
-pub fn shortest(number: f64) -> String {
+/// The shortest text that identifies a number, such as `0.5`, `2.0`, `1e-05` or `nan`.
+pub(crate) fn shortest(number: f64) -> String {
     let magnitude = number.abs();
     if !number.is_finite() {
         return special(number);
@@ -14,8 +14,8 @@ pub fn shortest(number: f64) -> String {
     format!("{digits}e{}", two_digits(exponent))
 }
 
-/// A number rounded to `digits` significant digits, without zeros at its end, such as `0.5`, `12.3` or `1e+06`.
-pub fn rounded(number: f64, digits: usize) -> String {
+/// Rounded to `digits` significant digits without trailing zeros, such as `0.5`, `12.3` or `1e+06`.
+pub(crate) fn rounded(number: f64, digits: usize) -> String {
     if !number.is_finite() {
         return special(number);
     }
@@ -28,8 +28,8 @@ pub fn rounded(number: f64, digits: usize) -> String {
     without_zeros(&format!("{number:.decimals$}")).to_owned()
 }
 
-/// A number with a given count of digits behind the point, such as `12.30`.
-pub fn fixed(number: f64, decimals: usize) -> String {
+/// With `decimals` digits after the point, such as `12.30`.
+pub(crate) fn fixed(number: f64, decimals: usize) -> String {
     if number.is_finite() { format!("{number:.decimals$}") } else { special(number) }
 }
 

@@ -1,4 +1,4 @@
-//! Turns: the angles of their frames, and the view at which every one of them fits.
+//! Turntables: frame angles, and a view that fits every frame.
 
 use glam::DVec3;
 use lumencut_core::camera::Camera;
@@ -7,13 +7,13 @@ use lumencut_core::error::{Error, ErrorKind, Result};
 use crate::text::shortest;
 use crate::views::{Axis, MARGIN, centered, in_plane, rotated, spacing_for};
 
-/// How many views find the widest extent of a turn to a fraction of the margin: it changes slowly.
+/// Sampled views: enough for the widest extent to a fraction of the margin.
 const VIEWS_OF_A_TURN: usize = 72;
 
-/// The angles of the frames of a turn (radians); the last of a whole turn comes before its end.
+/// The frame angles of a turn (radians); a full turn stops one step before its end.
 ///
 /// # Errors
-/// [`ErrorKind::Camera`] for an angle that is not finite.
+/// [`ErrorKind::Camera`] for a non-finite angle.
 pub fn frame_angles(frames: usize, degrees: f64) -> Result<Vec<f64>> {
     if !degrees.is_finite() {
         let (found, expected) = (shortest(degrees), "a finite number");
@@ -23,7 +23,7 @@ pub fn frame_angles(frames: usize, degrees: f64) -> Result<Vec<f64>> {
     let is_whole = degrees % 360.0 == 0.0;
     let steps = if is_whole { frames } else { frames.saturating_sub(1) };
     let step = end / steps.max(1) as f64;
-    // Added to 0, so that a turn the other way begins at 0 too, not at -0.
+    // Adding 0 avoids -0 as the first angle of a reverse turn.
     let mut angles: Vec<f64> = (0..frames).map(|frame| 0.0 + frame as f64 * step).collect();
     if !is_whole && frames > 1 {
         angles[frames - 1] = end;
@@ -31,11 +31,10 @@ pub fn frame_angles(frames: usize, degrees: f64) -> Result<Vec<f64>> {
     Ok(angles)
 }
 
-/// The camera in the middle of the points, with a pixel spacing at which every frame of a turn about its center fits;
-/// its direction, up and size are kept.
+/// The camera at the centre of the points that fits every frame of a turn; direction, up and size are kept.
 ///
 /// # Errors
-/// [`ErrorKind::Camera`] for no points, an angle that is not finite, or an axis that is no direction.
+/// [`ErrorKind::Camera`] without points, for a non-finite angle or an invalid axis.
 pub fn fitted_turn(camera: &Camera, points: &[DVec3], degrees: f64, axis: Axis) -> Result<Camera> {
     let first = centered(camera, points)?;
     let mut reach = [0.0f64; 2];
@@ -78,13 +77,13 @@ mod tests {
 
     #[test]
     fn the_widest_of_all_views_fits() {
-        // A rod along the line of sight is widest after a quarter of the turn, when its 80 mm lie across the image.
+        // A rod along the line of sight is widest after a quarter turn: its 80 mm lie across the image.
         let ends = [DVec3::new(1.0, -40.0, 2.0), DVec3::new(1.0, 40.0, 2.0)];
         let fitted = fitted_turn(&front(), &ends, 360.0, Axis::Superior).unwrap();
         assert_eq!(fitted.center(), DVec3::new(1.0, 0.0, 2.0));
         assert!((fitted.pixel_spacing() - 80.0 / (100.0 * 0.88)).abs() < 1e-12);
         assert_eq!(fitted.direction(), DVec3::Y);
-        // Seen against its own axis it never is.
+        // Turned about the line of sight it never is.
         let fitted = fitted_turn(&front(), &ends, 360.0, Axis::Direction).unwrap();
         assert_eq!(fitted.pixel_spacing(), 1e-3);
     }

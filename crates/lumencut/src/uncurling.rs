@@ -1,4 +1,4 @@
-//! A view in which a vessel fits at every amount of uncurling.
+//! A view that fits a vessel at every amount of uncurling.
 
 use std::sync::Arc;
 
@@ -10,27 +10,27 @@ use lumencut_core::vessel_tree::Vessel;
 
 use crate::views::{fitted, spacing_for};
 
-/// How much of the image the vessel takes.
-const FILLED: f64 = 0.9;
+/// The fraction of the image that the vessel fills.
+const FILLED_FRACTION: f64 = 0.9;
 
-/// How many amounts from 0 to 1 the view is fitted to.
-const STEPS: usize = 17;
+/// Sampled amounts from 0 to 1.
+const SAMPLED_AMOUNTS: usize = 17;
 
-/// The camera in the middle of a vessel, with pixels at which it fits at every amount of uncurling; direction, up and size are kept.
+/// The camera centred on a vessel that fits it at every amount of uncurling; direction, up and size are kept.
 ///
 /// # Errors
-/// [`lumencut_core::error::ErrorKind::VesselTree`] for a vessel without length, [`lumencut_core::error::ErrorKind::Settings`] for a
-/// smoothing (mm) out of its range.
+/// [`lumencut_core::error::ErrorKind::VesselTree`] for a vessel without length, [`lumencut_core::error::ErrorKind::Settings`] for
+/// an invalid smoothing (mm).
 pub fn fitted_uncurling(camera: &Camera, vessel: &Vessel, smoothing: f64) -> Result<Camera> {
     let path = Arc::new(CenterlinePath::new(vessel, smoothing)?);
     let middle = fitted(camera, vessel.points())?;
     let mut reach = [0.0f64; 2];
-    for step in 0..STEPS {
-        let amount = step as f64 / (STEPS - 1) as f64;
+    for step in 0..SAMPLED_AMOUNTS {
+        let amount = step as f64 / (SAMPLED_AMOUNTS - 1) as f64;
         let extent = Uncurl::new(Arc::clone(&path), middle, amount, None)?.extent();
         reach = [reach[0].max(extent.x), reach[1].max(extent.y)];
     }
-    let spacing = spacing_for(&middle, reach.map(|side| 2.0 * side), FILLED);
+    let spacing = spacing_for(&middle, reach.map(|side| 2.0 * side), FILLED_FRACTION);
     let made = Camera::new(middle.center(), middle.direction(), middle.up(), middle.size(), spacing)?;
     made.with_axes(middle.direction(), middle.right(), middle.up())
 }

@@ -1,7 +1,7 @@
-//! Colours for measured values, as maps of radius and thickness have them.
+//! Colour maps for measured values, such as radius and thickness.
 
-/// Viridis at even steps: from dark blue over green to yellow, of evenly rising lightness, so that it also reads in grey and by
-/// those who see few colours. By Nathaniel Smith and Stéfan van der Walt, dedicated to the public domain (CC0).
+/// Viridis at even steps: lightness rises evenly, so that it works in grey and for colour-blind readers. By Nathaniel Smith and
+/// Stéfan van der Walt, public domain (CC0).
 const VIRIDIS: [[u8; 3]; 10] = [
     [68, 1, 84],
     [72, 40, 120],
@@ -17,12 +17,12 @@ const VIRIDIS: [[u8; 3]; 10] = [
 
 const GREYS: [[u8; 3]; 2] = [[0; 3], [255; 3]];
 
-/// Of which colours values are.
+/// A colour map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Colours {
-    /// From dark blue over green to yellow.
+    /// Dark blue over green to yellow.
     Viridis,
-    /// From black to white.
+    /// Black to white.
     Grey,
 }
 
@@ -35,8 +35,7 @@ impl Colours {
     }
 }
 
-/// The colours (RGBA) of values between the first colour at one end and the last at the other, and of values beyond the ends those of
-/// the ends. What is not finite is transparent.
+/// RGBA colours of values between `low` and `high`, clamped; transparent if not finite.
 pub fn coloured(values: &[f32], [low, high]: [f64; 2], colours: Colours) -> Vec<[u8; 4]> {
     let table = colours.table();
     let last = (table.len() - 1) as f64;
@@ -55,7 +54,7 @@ pub fn coloured(values: &[f32], [low, high]: [f64; 2], colours: Colours) -> Vec<
     values.iter().map(colour).collect()
 }
 
-/// The value at which colours of lengths end (mm): the largest of them, rounded up to half a millimetre, and half of one at least.
+/// The upper end of a colour scale of lengths (mm): the maximum, rounded up to 0.5 mm, at least 0.5.
 pub fn scale_end(values: &[f32]) -> f64 {
     let largest = values.iter().copied().filter(|value| value.is_finite()).fold(0.0, f32::max);
     ((f64::from(largest) * 2.0).ceil() / 2.0).max(0.5)

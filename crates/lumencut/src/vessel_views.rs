@@ -1,4 +1,4 @@
-//! Views of one vessel: about a place on it, and from where most of it is seen.
+//! Views of one vessel: about a place on it, and the one that shows most of it.
 
 use std::f64::consts::PI;
 
@@ -12,28 +12,25 @@ use lumencut_core::vessel_tree::Vessel;
 use crate::text::rounded;
 use crate::views::{Axis, FINEST, fitted, rotated};
 
-/// How far a view about a place reaches to each side of it, in radii of the vessel there.
-const REACH: f64 = 8.0;
-/// What stands for a radius that is not known (mm), as `unknown_radius` by default.
-const UNKNOWN_RADIUS: f64 = 1.0;
-/// The sine of the angle within which a vessel runs along an anterior view, and has no view nearest to it.
-const ALONG: f64 = 0.05;
-/// The directions that are tried.
-const DIRECTIONS: usize = 256;
-/// The steps along the vessel at which it is judged what is seen.
-const STEPS: usize = 200;
-/// How far around a vessel the view of all of it reaches at least, in radii.
-const AROUND: f64 = 2.0;
-/// What a turn by half a circle costs, as a share of the length of the vessel.
+/// Half the width of a view about a place, in radii there.
+const HALF_WIDTH_RADII: f64 = 8.0;
+/// Stands for unknown radii (mm), as the default of `unknown_radius`.
+const UNKNOWN_RADIUS_MM: f64 = 1.0;
+/// Sine of the angle to the anterior view below which a vessel has no nearest view.
+const MIN_ANTERIOR_SINE: f64 = 0.05;
+const TRIED_DIRECTIONS: usize = 256;
+const VISIBILITY_SAMPLES: usize = 200;
+/// Least margin around a whole vessel, in radii.
+const MARGIN_RADII: f64 = 2.0;
+/// The cost of a half turn, as a fraction of the vessel's length.
 const TURN_COST: f64 = 0.2;
 
-/// The view about a place on a vessel, `at` mm from its first point: the vessel runs upwards in the middle of the picture, which
-/// reaches eight radii to each side. At angle 0 it is the one of these views that is nearest to the anterior view; from there the
-/// viewer moves by `angle` (radians) about the vessel, as [`rotated`] about the axis `up` does.
+/// The view about a place `at` mm along a vessel, which runs upwards through the middle; it extends eight radii to each side.
+/// Angle 0 is nearest to the anterior view; from there the viewer moves by `angle` (radians), as [`rotated`] about `up`.
 ///
 /// # Errors
-/// [`ErrorKind::Camera`] for a place that is not on the vessel, an angle that is not finite, or a size that makes no camera;
-/// [`ErrorKind::VesselTree`] for a vessel without length.
+/// [`ErrorKind::Camera`] for a place off the vessel, a non-finite angle or an invalid size; [`ErrorKind::VesselTree`] without
+/// length.
 pub fn about(vessel: &Vessel, at: f64, angle: f64, size: [usize; 2]) -> Result<Camera> {
     let first = about_lumen(vessel, Lumen { at, radius: radius_at(vessel, at) }, size)?;
     rotated(&first, angle, Axis::Up)
@@ -42,17 +39,14 @@ pub fn about(vessel: &Vessel, at: f64, angle: f64, size: [usize; 2]) -> Result<C
 /// The lumen at a place on a vessel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lumen {
-    /// How far the place is from the vessel's first point (mm).
+    /// Arc length (mm).
     pub at: f64,
-    /// Its radius there (mm).
+    /// Radius (mm).
     pub radius: f64,
 }
 
-/// The view of [`about`] at angle 0, for a radius that is known otherwise than from the vessel.
-///
-/// # Errors
-/// As [`about`].
-pub fn about_lumen(vessel: &Vessel, Lumen { at, radius }: Lumen, size: [usize; 2]) -> Result<Camera> {
+/// As [`about`] at angle 0, for a radius from elsewhere.
+pub(crate) fn about_lumen(vessel: &Vessel, Lumen { at, radius }: Lumen, size: [usize; 2]) -> Result<Camera> {
     let path = CenterlinePath::new(vessel, 0.0)?;
     if !(0.0..=path.length()).contains(&at) {
         let found = format!("{} mm on a vessel of {} mm", rounded(at, 6), rounded(path.length(), 6));
@@ -62,25 +56,25 @@ pub fn about_lumen(vessel: &Vessel, Lumen { at, radius }: Lumen, size: [usize; 2
     let tangent = tangent_at(&path, at);
     let up = if tangent.z < 0.0 { -tangent } else { tangent };
     let across = DVec3::Y.reject_from_normalized(up);
-    let ahead = if across.length() < ALONG { DVec3::Z.reject_from_normalized(up) } else { across };
+    let ahead =
+        if across.length() < MIN_ANTERIOR_SINE { DVec3::Z.reject_from_normalized(up) } else { across };
     let shorter = size[0].min(size[1]).max(1) as f64;
-    let spacing = (2.0 * REACH * radius / shorter).max(FINEST);
+    let spacing = (2.0 * HALF_WIDTH_RADII * radius / shorter).max(FINEST);
     Camera::new(path.at(at), ahead, up, size, spacing)
 }
 
-/// The direction of a path at a place, whose corners are rounded.
 fn tangent_at(path: &CenterlinePath, at: f64) -> DVec3 {
     let first = MovingFrame::looking(path.direction()[0], DVec3::Y);
     Frames::new(path, first).at(at).tangent.normalize()
 }
 
-/// The radius of a vessel at a place (mm), linear between its points; 1 mm where it is not known.
+/// The radius of a vessel at a place (mm), linear between points; 1 mm if unknown.
 pub fn radius_at(vessel: &Vessel, at: f64) -> f64 {
-    known_radius_at(vessel, at).unwrap_or(UNKNOWN_RADIUS)
+    known_radius_at(vessel, at).unwrap_or(UNKNOWN_RADIUS_MM)
 }
 
-/// The same; None where it is not known.
-pub fn known_radius_at(vessel: &Vessel, at: f64) -> Option<f64> {
+/// As [`radius_at`]; None if unknown.
+pub(crate) fn known_radius_at(vessel: &Vessel, at: f64) -> Option<f64> {
     let lengths = vessel.arc_length();
     let after = lengths.partition_point(|length| *length < at).clamp(1, lengths.len() - 1);
     let step = lengths[after] - lengths[after - 1];
@@ -89,11 +83,9 @@ pub fn known_radius_at(vessel: &Vessel, at: f64) -> Option<f64> {
     Some(from + (to - from) * t).filter(|radius| *radius > 0.0)
 }
 
-/// The view from which most of a vessel is seen, fitted to all within two radii of it, so that a short one is seen amid what lies
-/// beside it: of 256 directions the one with the largest
-/// ∫ visible·|T × v| ds − 0.2·L·turn/π, where T is the direction of the vessel, v that of the view, L the length of the vessel and
-/// the turn the angle from `camera`. A place is visible where no other stretch of the vessel lies before it. Head, or front, is up;
-/// the size is that of `camera`.
+/// The view that shows most of a vessel, fitted to it with a margin of two radii. Of 256 directions it maximises ∫
+/// visible·sin∠(T, v) ds − 0.2·L·turn/π: T is the vessel's direction, v the view's, L the length, and turn the angle from
+/// `camera`. A place is visible if no other stretch lies before it. Head, else front, is up; the size is that of `camera`.
 ///
 /// # Errors
 /// [`ErrorKind::VesselTree`] for a vessel without length.
@@ -104,7 +96,7 @@ pub fn refocused(camera: &Camera, vessel: &Vessel) -> Result<Camera> {
         let turn = direction.dot(camera.direction()).clamp(-1.0, 1.0).acos();
         steps.seen(*direction) - TURN_COST * path.length() * turn / PI
     };
-    // Where the view does not turn it costs nothing.
+    // The current direction has no turning cost.
     let best = std::iter::once(camera.direction())
         .chain(directions())
         .map(|direction| (worth(&direction), direction))
@@ -117,26 +109,24 @@ pub fn refocused(camera: &Camera, vessel: &Vessel) -> Result<Camera> {
     fitted(&view, &steps.surroundings(&view))
 }
 
-/// Directions that lie evenly all around: along a spiral by the golden angle.
 fn directions() -> impl Iterator<Item = DVec3> {
     let golden = PI * (3.0 - 5f64.sqrt());
-    (0..DIRECTIONS).map(move |n| {
-        let z = 1.0 - (2 * n + 1) as f64 / DIRECTIONS as f64;
+    (0..TRIED_DIRECTIONS).map(move |n| {
+        let z = 1.0 - (2 * n + 1) as f64 / TRIED_DIRECTIONS as f64;
         let (sine, cosine) = (golden * n as f64).sin_cos();
         let across = (1.0 - z * z).sqrt();
         DVec3::new(across * cosine, across * sine, z)
     })
 }
 
-/// What points upwards in a view: the head, or the front where the view runs along the body.
+/// Up in a view: the head, or the front if the view runs along the body.
 fn upright(direction: DVec3) -> DVec3 {
     let across = direction.x.hypot(direction.y);
-    if across > ALONG * direction.z.abs() { DVec3::Z } else { DVec3::NEG_Y }
+    if across > MIN_ANTERIOR_SINE * direction.z.abs() { DVec3::Z } else { DVec3::NEG_Y }
 }
 
-/// Places at even steps along a vessel.
 struct Steps {
-    /// The length of a step (mm).
+    /// Step (mm).
     length: f64,
     points: Vec<DVec3>,
     tangents: Vec<DVec3>,
@@ -145,8 +135,8 @@ struct Steps {
 
 impl Steps {
     fn along(path: &CenterlinePath, vessel: &Vessel) -> Self {
-        let length = path.length() / STEPS as f64;
-        let places: Vec<_> = (0..STEPS).map(|n| (n as f64 + 0.5) * length).collect();
+        let length = path.length() / VISIBILITY_SAMPLES as f64;
+        let places: Vec<_> = (0..VISIBILITY_SAMPLES).map(|n| (n as f64 + 0.5) * length).collect();
         Self {
             length,
             points: places.iter().map(|at| path.at(*at)).collect(),
@@ -155,24 +145,23 @@ impl Steps {
         }
     }
 
-    /// The length of the vessel (mm) that is seen along a direction, as long as it is in the picture.
+    /// The visible length (mm) along a direction, in projection.
     fn seen(&self, direction: DVec3) -> f64 {
         let seen = |n: usize| self.tangents[n].cross(direction).length();
-        (0..STEPS).filter(|n| !self.is_hidden(*n, direction)).map(seen).sum::<f64>() * self.length
+        (0..VISIBILITY_SAMPLES).filter(|n| !self.is_hidden(*n, direction)).map(seen).sum::<f64>()
+            * self.length
     }
 
-    /// The outermost points of all that is to be seen around the vessel in a view.
     fn surroundings(&self, view: &Camera) -> Vec<DVec3> {
         let around = |n: usize| {
-            let reach = AROUND * self.radii[n];
+            let reach = MARGIN_RADII * self.radii[n];
             [view.right(), -view.right(), view.up(), -view.up()].map(|side| self.points[n] + side * reach)
         };
-        (0..STEPS).flat_map(around).collect()
+        (0..VISIBILITY_SAMPLES).flat_map(around).collect()
     }
 
-    /// Whether another stretch of the vessel, farther along it than both are wide, lies before a place.
     fn is_hidden(&self, n: usize, direction: DVec3) -> bool {
-        (0..STEPS).any(|other| {
+        (0..VISIBILITY_SAMPLES).any(|other| {
             let offset = self.points[other] - self.points[n];
             let along = other.abs_diff(n) as f64 * self.length;
             let depth = offset.dot(direction);

@@ -1,6 +1,6 @@
-//! The six views of the body, views fitted to a scene, and what turning, zooming and panning do.
+//! The six standard views, fitted views, rotation, zoom and pan.
 //!
-//! Every function returns another camera and leaves the given one as it is. Points are in world space (LPS, mm).
+//! Every function returns a new camera. Points are in world space (LPS, mm).
 
 use glam::{DMat3, DVec3};
 use lumencut_core::camera::Camera;
@@ -9,16 +9,16 @@ use lumencut_core::error::{Error, ErrorKind, Result};
 use crate::fused;
 use crate::text::shortest;
 
-/// What a fitted view leaves free on each side, as a fraction of the image.
+/// The margin of a fitted view on each side, as a fraction of the image.
 pub(crate) const MARGIN: f64 = 0.06;
 
 /// The smallest pixel spacing of a fitted view (mm).
 pub(crate) const FINEST: f64 = 1e-3;
 
-/// A view of the body.
+/// A standard view.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NamedView {
-    /// Its name: the side of the patient that the viewer stands on.
+    /// The patient's side on which the viewer stands.
     pub name: &'static str,
     /// Unit vector from the viewer into the scene (LPS).
     pub direction: DVec3,
@@ -26,7 +26,7 @@ pub struct NamedView {
     pub up: DVec3,
 }
 
-/// The six views of the body.
+/// The six standard views.
 pub const VIEWS: [NamedView; 6] = [
     NamedView { name: "anterior", direction: DVec3::Y, up: DVec3::Z },
     NamedView { name: "posterior", direction: DVec3::NEG_Y, up: DVec3::Z },
@@ -36,7 +36,7 @@ pub const VIEWS: [NamedView; 6] = [
     NamedView { name: "inferior", direction: DVec3::Z, up: DVec3::NEG_Y },
 ];
 
-/// The view of the body with this name.
+/// The standard view of this name.
 ///
 /// # Errors
 /// [`ErrorKind::Camera`] for another name.
@@ -47,14 +47,14 @@ pub fn named(name: &str) -> Result<NamedView> {
     })
 }
 
-/// An axis to turn a view about.
+/// An axis of rotation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Axis {
-    /// From the patient's feet to the head.
+    /// From feet to head.
     Superior,
     /// Upwards in the image.
     Up,
-    /// To the right in the image.
+    /// Rightwards in the image.
     Right,
     /// Away from the viewer.
     Direction,
@@ -63,7 +63,7 @@ pub enum Axis {
 }
 
 impl Axis {
-    /// The axis of this name: `superior`, `up`, `right` or `direction`.
+    /// The axis named `superior`, `up`, `right` or `direction`.
     ///
     /// # Errors
     /// [`ErrorKind::Camera`] for another name.
@@ -80,7 +80,6 @@ impl Axis {
         }
     }
 
-    /// The axis in world space.
     fn of(self, camera: &Camera) -> DVec3 {
         match self {
             Self::Superior => DVec3::Z,
@@ -92,10 +91,10 @@ impl Axis {
     }
 }
 
-/// The camera moved and magnified so that all points just fit into its image; its direction, up and size are kept.
+/// The camera moved and zoomed so that all points just fit; direction, up and size are kept.
 ///
 /// # Errors
-/// [`ErrorKind::Camera`] for no points, or an invalid view of them.
+/// [`ErrorKind::Camera`] without points, or for an invalid view.
 pub fn fitted(camera: &Camera, points: &[DVec3]) -> Result<Camera> {
     let camera = centered(camera, points)?.with_axes(camera.direction(), camera.right(), camera.up())?;
     let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
@@ -112,7 +111,7 @@ pub fn fitted(camera: &Camera, points: &[DVec3]) -> Result<Camera> {
     Camera::new(center, camera.direction(), camera.up(), camera.size(), spacing)
 }
 
-/// The camera in the middle of the box around the points, at 1 mm per pixel.
+/// The camera at the centre of the points' bounding box, at 1 mm per pixel.
 pub(crate) fn centered(camera: &Camera, points: &[DVec3]) -> Result<Camera> {
     if points.is_empty() {
         return Err(Error::new(ErrorKind::Camera, "scene of the view", "no points", "one or more"));
@@ -122,29 +121,28 @@ pub(crate) fn centered(camera: &Camera, points: &[DVec3]) -> Result<Camera> {
     Camera::new((low + high) / 2.0, camera.direction(), camera.up(), camera.size(), 1.0)
 }
 
-/// Where a point lies to the right of the camera's center and above it (mm).
+/// The position of a point right of and above the camera's center (mm).
 pub(crate) fn in_plane(camera: &Camera, point: DVec3) -> [f64; 2] {
     let offset = point - camera.center();
     [fused::dot(offset, camera.right()), fused::dot(offset, camera.up())]
 }
 
-/// The pixel spacing (mm) at which lengths along the image's axes (mm) take `part` of them.
+/// The pixel spacing (mm) at which in-plane lengths (mm) fill `part` of the image.
 pub(crate) fn spacing_for(camera: &Camera, lengths: [f64; 2], part: f64) -> f64 {
     let [across, upwards] = [0, 1].map(|axis| lengths[axis] / (camera.size()[axis] as f64 * part));
     across.max(upwards).max(FINEST)
 }
 
-/// The camera turned about its center by an angle (radians), counterclockwise as seen against the axis.
+/// The camera rotated about its center by an angle (radians), counterclockwise as seen against the axis.
 ///
 /// # Errors
-/// [`ErrorKind::Camera`] for an angle or axis that is not finite, or an axis of no length.
+/// [`ErrorKind::Camera`] for a non-finite angle, or an invalid axis.
 pub fn rotated(camera: &Camera, angle: f64, axis: Axis) -> Result<Camera> {
     let turn = rotation(axis.of(camera), angle)?;
     let [direction, up] = [camera.direction(), camera.up()].map(|vector| fused::product(&turn, vector));
     Camera::new(camera.center(), direction, up, camera.size(), camera.pixel_spacing())
 }
 
-/// Rotation matrix by Rodrigues' formula.
 fn rotation(axis: DVec3, angle: f64) -> Result<DMat3> {
     let largest = axis.abs().max_element();
     if !(angle.is_finite() && axis.is_finite() && largest > 0.0) {
@@ -167,10 +165,10 @@ fn rotation(axis: DVec3, angle: f64) -> Result<DMat3> {
     Ok((DMat3::IDENTITY + cross * angle.sin()) + squared)
 }
 
-/// The camera magnified about its center by a factor above 0.
+/// The camera magnified about its center by a positive factor.
 ///
 /// # Errors
-/// [`ErrorKind::Camera`] for another factor, or a pixel spacing beyond its range.
+/// [`ErrorKind::Camera`] for another factor, or a spacing out of range.
 pub fn zoomed(camera: &Camera, factor: f64) -> Result<Camera> {
     if !(factor.is_finite() && factor > 0.0) {
         let expected = "a number above 0";
@@ -180,10 +178,10 @@ pub fn zoomed(camera: &Camera, factor: f64) -> Result<Camera> {
     Camera::new(camera.center(), camera.direction(), camera.up(), camera.size(), spacing)
 }
 
-/// The camera moved in its plane, to the right and upwards (mm).
+/// The camera moved right and up in its plane (mm).
 ///
 /// # Errors
-/// [`ErrorKind::Camera`] for distances that are not finite, or that lead beyond the reach of cameras.
+/// [`ErrorKind::Camera`] for non-finite or too large distances.
 pub fn panned(camera: &Camera, right: f64, up: f64) -> Result<Camera> {
     if !(right.is_finite() && up.is_finite()) {
         let found = format!("[{}, {}]", shortest(right), shortest(up));

@@ -1,4 +1,4 @@
-//! The windows that have a name, and which of them a context takes where its user chooses none.
+//! Named windows, and the default window of each context.
 
 use lumencut_core::error::Result;
 use lumencut_core::named::Named;
@@ -8,10 +8,10 @@ use lumencut_core::volume::Volume;
 
 use crate::windows;
 
-/// The windows that are taken from the data.
+/// A window computed from the data.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DataWindow {
-    /// Lumen apart from its surroundings: [`windows::along`] the vessels, or [`windows::of_volume`].
+    /// Separates lumen from surroundings: [`windows::along`] the vessels, or [`windows::of_volume`].
     Auto,
     /// [`windows::of_mip`].
     Mip,
@@ -34,10 +34,10 @@ impl Named for DataWindow {
 }
 
 impl DataWindow {
-    /// Finds the window; the tree matters to [`DataWindow::Auto`] alone.
+    /// Computes the window; only [`DataWindow::Auto`] uses the tree.
     ///
     /// # Errors
-    /// [`ErrorKind::Volume`](lumencut_core::error::ErrorKind::Volume) for values beyond all windows.
+    /// [`ErrorKind::Volume`](lumencut_core::error::ErrorKind::Volume) for values out of range.
     pub fn find(self, volume: &Volume, tree: Option<&VesselTree>) -> Result<Window> {
         match (self, tree) {
             (Self::Auto, Some(tree)) => windows::along(volume, tree),
@@ -49,34 +49,34 @@ impl DataWindow {
         }
     }
 
-    /// The window of a context where its user chooses none.
+    /// The default window of a context.
     pub fn of_context(context: ContextName, has_tree: bool) -> Self {
         match context {
             ContextName::Mip if !has_tree => Self::Mip,
-            // The smallest values and the means along rays lie far below those of the vessels.
+            // Minima and means along rays lie far below the vessels.
             ContextName::Minip | ContextName::Average => Self::Whole,
             ContextName::Mida | ContextName::Dvr | ContextName::Mip => Self::Auto,
         }
     }
 }
 
-/// Where a window that has a name comes from.
+/// The source of a named window.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum PresetSource {
-    /// The same for every volume (HU).
+    /// Constant (HU).
     Fixed(Window),
     /// From the data.
     Data(DataWindow),
 }
 
-/// A window that users choose by its name.
+/// A named window.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WindowPreset {
-    /// Its name on the command line, in files and in Python.
+    /// Its name in Python, in files and on the command line.
     pub name: &'static str,
-    /// What a page calls it.
+    /// Its label.
     pub words: &'static str,
-    /// Where it comes from.
+    /// Its source.
     pub source: PresetSource,
 }
 
@@ -88,7 +88,7 @@ const fn from_data(name: &'static str, words: &'static str, window: DataWindow) 
     WindowPreset { name, words, source: PresetSource::Data(window) }
 }
 
-/// The windows that have a name, in the order to show them to users; those of bone and lung are the OHIF viewer's.
+/// The named windows in display order; bone and lung are those of the OHIF viewer.
 pub const WINDOW_PRESETS: [WindowPreset; 8] = [
     from_data("auto", "From the data", DataWindow::Auto),
     fixed("cta", "CT angiography", 300.0, 900.0),
@@ -97,7 +97,7 @@ pub const WINDOW_PRESETS: [WindowPreset; 8] = [
     fixed("lung", "Lung", -600.0, 1500.0),
     from_data("full", "All values", DataWindow::Full),
     from_data("mra", "MR angiography", DataWindow::Mra),
-    // The struts apart from the lumen within them.
+    // Separates struts from the lumen inside.
     fixed("stent", "Stent", 400.0, 1500.0),
 ];
 

@@ -1,4 +1,4 @@
-//! The abdomen and the pelvis: the anatomy of the `aorta` workload, and the upper part of the `runoff`.
+//! Abdomen and pelvis: the `aorta` workload, and the upper part of `runoff`.
 
 use super::spine::{Vertebra, spine};
 use super::{Anatomy, abdominal_vessels, both_sides, chain, ellipsoid, plate, rod, torso};
@@ -6,7 +6,7 @@ use crate::network::Network;
 use crate::shape::Shape;
 use crate::tissue::{AIR, Solid, Tissue};
 
-/// The patient of the `aorta` workload, about `segments` segments of vessels.
+/// The `aorta` patient, with about `segments` vessel segments.
 pub(crate) fn abdomen(seed: u64, segments: usize) -> Anatomy {
     let mut network = Network::new(seed);
     let external_iliac = [[50.0, 21.0, -84.0, 4.5], [62.0, 0.0, -108.0, 4.4], [68.0, -14.0, -124.0, 4.3]];
@@ -21,7 +21,6 @@ pub(crate) fn abdomen(seed: u64, segments: usize) -> Anatomy {
     Anatomy { vasculature: network.finish(segments), solids, background: AIR }
 }
 
-/// Skin, fat and muscle of the trunk, and of legs that grow out of it.
 pub(super) fn layers(trunk: &[Shape], legs: &[Shape]) -> Vec<Solid> {
     let all = [trunk, legs].concat();
     vec![
@@ -32,7 +31,6 @@ pub(super) fn layers(trunk: &[Shape], legs: &[Shape]) -> Vec<Solid> {
     ]
 }
 
-/// Lumbar spine and pelvis.
 pub(super) fn bones() -> Vec<Solid> {
     let mut solids = spine(&lumbar_vertebrae());
     let pelvis = Tissue::Bone { cortex: 1.6, marrow: 230.0 };
@@ -43,7 +41,7 @@ pub(super) fn bones() -> Vec<Solid> {
     solids
 }
 
-/// T10 to L5 along a gentle lordosis.
+/// T10 to L5 with a slight lordosis.
 fn lumbar_vertebrae() -> Vec<Vertebra> {
     let level = |n: u8| {
         let z = -30.0 + 36.0 * f32::from(n);
@@ -63,7 +61,6 @@ fn sacrum() -> Vec<Shape> {
     shapes
 }
 
-/// The left one.
 fn hip_bone() -> Vec<Shape> {
     let (joint, back) = ([55.0, 74.0, -66.0], [62.0, 84.0, -28.0]);
     let (crest, spine) = ([104.0, 38.0, 2.0], [122.0, -30.0, -44.0]);
@@ -97,7 +94,6 @@ fn femoral_head(radius: f32) -> Shape {
     ellipsoid([91.0, 6.0, -150.0], [radius; 3])
 }
 
-/// Head, neck and trochanters of the left femur.
 fn proximal_femur() -> Vec<Shape> {
     vec![
         femoral_head(24.0),

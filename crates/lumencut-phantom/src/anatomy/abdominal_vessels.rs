@@ -1,17 +1,15 @@
-//! Abdominal aorta and its branches down to the iliac arteries; z = 0 at the aortic bifurcation.
+//! Abdominal aorta and branches to the iliac arteries; z = 0 at the aortic bifurcation.
 
 use super::{Branch, SIDES, on_side};
 use crate::curve::WayPoint;
 use crate::network::{Network, TrunkId};
 
-/// The lines that other regions go on from.
 pub(super) struct AbdominalVessels {
-    /// External iliac arteries, right and left.
     pub(super) external_iliac: [TrunkId; 2],
 }
 
-/// Draws the aorta from height `top` down, and the external iliac arteries along `external_iliac`
-/// (way points for the left side, from the common iliac's end).
+/// Draws the aorta from height `top` down, with external iliac arteries along `external_iliac` (left way points from the common
+/// iliac's end).
 pub(super) fn draw(network: &mut Network, top: f64, external_iliac: &[WayPoint]) -> AbdominalVessels {
     let way: Vec<WayPoint> = [
         [2.0, 24.0, 168.0, 12.0],
@@ -146,7 +144,6 @@ fn inferior_mesenteric(network: &mut Network, aorta: TrunkId) {
     network.branch(trunk, "left colic artery", &way, 1.0);
 }
 
-/// Three pairs around the vertebral bodies.
 fn lumbars(network: &mut Network, aorta: TrunkId) {
     for (level, z) in [("L2", 66.0), ("L3", 40.0), ("L4", 16.0)] {
         for (side, name) in SIDES {
@@ -161,7 +158,6 @@ fn lumbars(network: &mut Network, aorta: TrunkId) {
     }
 }
 
-/// Common, internal and external iliac artery of one side.
 fn iliacs(network: &mut Network, aorta: TrunkId, side: f64, name: &str, external: &[WayPoint]) -> TrunkId {
     let mut way = on_side(
         side,

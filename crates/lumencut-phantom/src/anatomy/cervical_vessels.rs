@@ -4,7 +4,7 @@ use super::{Branch, SIDES, on_side};
 use crate::curve::WayPoint;
 use crate::network::{Network, TrunkId, Vasculature};
 
-/// From above the aortic valve over the arch down to the sixth thoracic vertebra.
+/// From above the aortic valve over the arch to T6.
 const ARCH: [WayPoint; 8] = [
     [-18.0, -30.0, -70.0, 15.5],
     [-15.0, -35.0, -42.0, 15.2],
@@ -16,7 +16,7 @@ const ARCH: [WayPoint; 8] = [
     [23.0, 37.0, -72.0, 12.0],
 ];
 
-/// Where both common carotid arteries go along the neck; the right one mirrored.
+/// Both common carotid arteries; the right one is mirrored.
 const CAROTID: [WayPoint; 2] = [[31.0, -13.0, 98.0, 3.5], [33.0, -8.0, 138.0, 3.9]];
 
 const INTERNAL_CAROTID: [WayPoint; 10] = [
@@ -32,7 +32,6 @@ const INTERNAL_CAROTID: [WayPoint; 10] = [
     [13.0, -22.0, 232.0, 2.1],
 ];
 
-/// To the temple.
 const EXTERNAL_CAROTID: [WayPoint; 6] = [
     [33.0, -8.0, 138.0, 2.7],
     [33.0, -16.0, 152.0, 2.6],
@@ -90,7 +89,7 @@ const EXTERNAL_CAROTID_BRANCHES: [Branch<4>; 5] = [
     ),
 ];
 
-/// From the subclavian artery through the transverse processes around the atlas to the start of the basilar.
+/// From the subclavian artery through the transverse processes around the atlas to the basilar artery.
 const VERTEBRAL: [WayPoint; 10] = [
     [42.0, -16.0, 49.0, 2.3],
     [33.0, 4.0, 66.0, 2.0],
@@ -112,7 +111,6 @@ const SUBCLAVIAN_BRANCHES: [Branch<3>; 2] = [
     ),
 ];
 
-/// Draws all arteries, about `segments` segments.
 pub(super) fn draw(seed: u64, segments: usize) -> Vasculature {
     let mut network = Network::new(seed);
     let arch = network.trunk("aortic arch", &ARCH, 0.8);
@@ -125,7 +123,6 @@ pub(super) fn draw(seed: u64, segments: usize) -> Vasculature {
     network.finish(segments)
 }
 
-/// Carotid and subclavian artery share a trunk.
 fn right_side(network: &mut Network, arch: TrunkId, basilar: TrunkId) {
     let (side, name) = SIDES[0];
     let way = [[-2.0, -30.0, -12.0, 6.8], [-12.0, -31.0, 8.0, 6.5], [-24.0, -27.0, 34.0, 6.2]];
@@ -138,7 +135,6 @@ fn right_side(network: &mut Network, arch: TrunkId, basilar: TrunkId) {
     arm_arteries(network, [trunk, basilar], &start, side, name);
 }
 
-/// Carotid and subclavian artery come from the arch one by one.
 fn left_side(network: &mut Network, arch: TrunkId, basilar: TrunkId) {
     let (side, name) = SIDES[1];
     let mut way = vec![[6.0, -20.0, -6.0, 4.2], [10.0, -26.0, 22.0, 3.8], [24.0, -21.0, 58.0, 3.6]];
@@ -149,7 +145,6 @@ fn left_side(network: &mut Network, arch: TrunkId, basilar: TrunkId) {
     arm_arteries(network, [arch, basilar], &start, side, name);
 }
 
-/// External and internal carotid artery of one side with their branches.
 fn head_arteries(network: &mut Network, common: TrunkId, side: f64, name: &str) {
     network.scatter_calcium(common, 2, [0.86, 0.97]);
     let way = on_side(side, INTERNAL_CAROTID);
@@ -164,7 +159,6 @@ fn head_arteries(network: &mut Network, common: TrunkId, side: f64, name: &str) 
     }
 }
 
-/// Middle and anterior cerebral artery of one side.
 fn cerebral_arteries(network: &mut Network, internal: TrunkId, side: f64, name: &str) {
     let way = on_side(
         side,
@@ -193,8 +187,7 @@ fn cerebral_arteries(network: &mut Network, internal: TrunkId, side: f64, name: 
     network.branch(internal, &format!("{name} anterior cerebral artery"), &way, 0.5);
 }
 
-/// Subclavian artery of one side from `parent`, and what leaves it; the vertebral artery ends at the start of
-/// the basilar artery.
+/// The subclavian artery of one side and its branches; the vertebral artery ends at the basilar's start.
 fn arm_arteries(
     network: &mut Network,
     [parent, basilar]: [TrunkId; 2],

@@ -6,7 +6,6 @@ use crate::tissue::{AIR, FAT, Solid, Tissue};
 
 const FACIAL_BONE: Tissue = Tissue::Bone { cortex: 1.5, marrow: 350.0 };
 
-/// Everything inside the skin of the head, in the order of painting.
 pub(super) fn head() -> Vec<Solid> {
     let mut solids = face();
     let skull = [ellipsoid([0.0, 16.0, 256.0], [73.0, 91.0, 73.0])];
@@ -40,7 +39,6 @@ fn brain(skull: &[Shape]) -> Vec<Solid> {
     ]
 }
 
-/// Below the brain: clivus and petrous bones.
 fn skull_base() -> Vec<Shape> {
     let mut shapes = both_sides(vec![
         rod([18.0, 2.0, 212.0], [62.0, 26.0, 208.0], [8.0, 12.0]),
@@ -52,7 +50,6 @@ fn skull_base() -> Vec<Shape> {
     shapes
 }
 
-/// What stands up from the base into the brain.
 fn inner_base() -> Vec<Shape> {
     let mut shapes = both_sides(vec![
         rod([22.0, 4.0, 214.0], [56.0, 24.0, 212.0], [6.0, 8.0]),
@@ -62,7 +59,6 @@ fn inner_base() -> Vec<Shape> {
     shapes
 }
 
-/// Jaws, teeth, orbits and airways of the face.
 fn face() -> Vec<Solid> {
     let orbit = both_sides(vec![ellipsoid([32.0, -64.0, 226.0], [20.0, 23.0, 19.0])]);
     let globe = both_sides(vec![ellipsoid([32.0, -73.0, 226.0], [12.0; 3])]);
@@ -118,7 +114,6 @@ fn mandible() -> Vec<Shape> {
     both_sides(shapes)
 }
 
-/// Two rows along the jaws.
 fn teeth() -> Vec<Shape> {
     let mut shapes = Vec::new();
     for n in 0u8..7 {

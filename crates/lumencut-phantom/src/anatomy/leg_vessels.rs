@@ -1,10 +1,10 @@
-//! Arteries of the lower extremities from the groin to the foot, and the bypass between them.
+//! Leg arteries from groin to foot, and the bypass between them.
 
 use super::{Branch, SIDES, on_side};
 use crate::curve::WayPoint;
 use crate::network::{Network, TrunkId};
 
-/// Way points of the left external iliac and common femoral artery down to its fork.
+/// Left external iliac and common femoral artery, down to its bifurcation.
 pub(super) const EXTERNAL_ILIAC: [WayPoint; 6] = [
     [50.0, 21.0, -84.0, 4.5],
     [62.0, 0.0, -108.0, 4.4],
@@ -27,7 +27,7 @@ pub(super) fn draw(network: &mut Network, iliac: [TrunkId; 2]) {
     bypass(network, iliac);
 }
 
-/// From the right common femoral artery through the fat above the pubis to the left one.
+/// From the right common femoral artery through the suprapubic fat to the left.
 fn bypass(network: &mut Network, [right, left]: [TrunkId; 2]) {
     let way = [
         [-74.0, -45.0, -176.0, 4.2],
@@ -80,7 +80,6 @@ fn groin(network: &mut Network, iliac: TrunkId, side: f64, name: &str) {
     }
 }
 
-/// Superficial femoral and popliteal artery, one line down to the origin of the calf arteries.
 fn femoral(network: &mut Network, iliac: TrunkId, side: f64, name: &str) -> TrunkId {
     let way = on_side(
         side,
@@ -118,7 +117,6 @@ fn femoral(network: &mut Network, iliac: TrunkId, side: f64, name: &str) -> Trun
     femoral
 }
 
-/// The three arteries of the calf.
 fn calf(network: &mut Network, popliteal: TrunkId, side: f64, name: &str) {
     let anterior = on_side(
         side,
@@ -138,7 +136,6 @@ fn calf(network: &mut Network, popliteal: TrunkId, side: f64, name: &str) {
     tibioperoneal(network, popliteal, side, name);
 }
 
-/// Peroneal and posterior tibial artery, from their common trunk.
 fn tibioperoneal(network: &mut Network, popliteal: TrunkId, side: f64, name: &str) {
     let trunk =
         on_side(side, [[88.0, 33.0, -665.0, 2.4], [88.0, 33.0, -682.0, 2.3], [87.0, 32.0, -702.0, 2.2]]);

@@ -1,4 +1,4 @@
-//! Both legs: the anatomy of the `runoff` workload below the abdomen.
+//! Both legs: the `runoff` workload below the abdomen.
 
 use super::{
     Anatomy, abdomen, abdominal_vessels, both_sides, chain, ellipsoid, leg_vessels, profile, rod, torso,
@@ -7,11 +7,11 @@ use crate::network::Network;
 use crate::shape::Shape;
 use crate::tissue::{AIR, Solid, Tissue};
 
-/// The patient of the `runoff` workload, about `segments` segments of vessels.
+/// The `runoff` patient, with about `segments` vessel segments.
 pub(crate) fn lower_extremities(seed: u64, segments: usize) -> Anatomy {
     let mut network = Network::new(seed);
     let vessels = abdominal_vessels::draw(&mut network, 169.0, &leg_vessels::EXTERNAL_ILIAC);
-    // What the bypass goes around.
+    // The stenosis that the bypass circumvents.
     network.stenosis(vessels.external_iliac[1], 0.3, 30.0, 92.0);
     leg_vessels::draw(&mut network, vessels.external_iliac);
 
@@ -26,7 +26,6 @@ pub(crate) fn lower_extremities(seed: u64, segments: usize) -> Anatomy {
     Anatomy { vasculature: network.finish(segments), solids, background: AIR }
 }
 
-/// The skin of the left leg down to the ankle.
 fn leg() -> Shape {
     profile(&[
         [-1060.0, 82.0, 14.0, 32.0, 38.0],
@@ -44,7 +43,7 @@ fn leg() -> Shape {
     ])
 }
 
-/// The left foot, pointing up and a little forward as it does in a patient lying down.
+/// The left foot of a supine patient, pointing up and slightly forward.
 fn foot() -> Vec<Shape> {
     let mut shapes = chain(&[
         [82.0, 34.0, -1082.0, 25.0],
@@ -56,7 +55,6 @@ fn foot() -> Vec<Shape> {
     shapes
 }
 
-/// From the femoral shaft to the toes.
 fn leg_bones() -> Vec<Solid> {
     let joint = Tissue::Bone { cortex: 1.3, marrow: 250.0 };
     let shaft = Tissue::Bone { cortex: 5.0, marrow: -40.0 };

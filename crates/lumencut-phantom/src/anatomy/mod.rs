@@ -1,7 +1,5 @@
-//! The anatomy of the workloads in world space (mm, LPS: x to the patient's left, y backwards, z upwards).
-//!
-//! Numbers are of a tall adult lying on the back. One file per region; vessels, bones and soft tissue are
-//! drawn from coordinates, so every file is a table of them with a few words.
+//! Anatomy of the workloads in world space (mm, LPS): a tall adult lying supine. Each region is a file of coordinates for
+//! vessels, bones and soft tissue.
 
 mod abdomen;
 mod abdominal_vessels;
@@ -24,16 +22,12 @@ pub(super) use abdomen::abdomen;
 pub(super) use legs::lower_extremities;
 pub(super) use neck::neck;
 
-/// A patient.
 pub(super) struct Anatomy {
     pub(super) vasculature: Vasculature,
-    /// In the order in which they are painted.
     pub(super) solids: Vec<Solid>,
-    /// What surrounds the patient (HU).
     pub(super) background: f32,
 }
 
-/// A name and the way points of a branch of the left side.
 type Branch<const N: usize> = (&'static str, [WayPoint; N]);
 
 /// The patient's right (x < 0) and left.
@@ -51,14 +45,13 @@ fn plate(corners: [[f32; 3]; 3], radius: f32) -> Shape {
     Shape::Plate { corners: corners.map(Vec3::from), radius }
 }
 
-/// Ellipses [z, centre x, centre y, half axis x, half axis y] stacked in the order of z.
+/// Ellipses [z, centre x, centre y, half axis x, half axis y] in order of z.
 fn profile(rows: &[[f32; 5]]) -> Shape {
     let section =
         |[z, x, y, rx, ry]: [f32; 5]| Section { z, center: Vec2::new(x, y), axes: Vec2::new(rx, ry) };
     Shape::Profile(rows.iter().copied().map(section).collect())
 }
 
-/// Rods through [x, y, z, radius] one after the other.
 fn chain(knots: &[[f32; 4]]) -> Vec<Shape> {
     let link = |pair: &[[f32; 4]]| {
         let [a, b] = [pair[0], pair[1]];
@@ -67,7 +60,6 @@ fn chain(knots: &[[f32; 4]]) -> Vec<Shape> {
     knots.windows(2).map(link).collect()
 }
 
-/// The shapes and their mirror images on the patient's other side.
 fn both_sides(shapes: Vec<Shape>) -> Vec<Shape> {
     let mirror = |v: Vec3| Vec3::new(-v.x, v.y, v.z);
     let mirrored = |shape: &Shape| match shape {
@@ -83,7 +75,7 @@ fn both_sides(shapes: Vec<Shape>) -> Vec<Shape> {
     shapes.into_iter().chain(others).collect()
 }
 
-/// The way points on the patient's side `side` (−1 right, 1 left) of those given for the left.
+/// Left-sided way points moved to `side` (−1 right, 1 left).
 fn on_side<const N: usize>(side: f64, way: [WayPoint; N]) -> [WayPoint; N] {
     way.map(|[x, y, z, radius]| [side * x, y, z, radius])
 }

@@ -1,11 +1,11 @@
-//! Upper chest and neck: with the head the anatomy of the `cervical` workload.
+//! Upper chest and neck of the `cervical` workload.
 
 use super::spine::{Vertebra, spine};
 use super::{Anatomy, both_sides, cervical_vessels, chain, ellipsoid, head, plate, profile, rod, torso};
 use crate::shape::Shape;
 use crate::tissue::{AIR, MUSCLE, Solid, Tissue};
 
-/// The patient of the `cervical` workload, about `segments` segments of vessels.
+/// The `cervical` patient, with about `segments` vessel segments.
 pub(crate) fn neck(seed: u64, segments: usize) -> Anatomy {
     let mut solids = torso::table(-400.0, 400.0, 128.0).to_vec();
     solids.extend(layers());
@@ -45,7 +45,6 @@ fn layers() -> Vec<Solid> {
     ]
 }
 
-/// Lungs, mediastinum, heart, great veins and ribs.
 fn chest() -> Vec<Solid> {
     let lungs = both_sides(vec![ellipsoid([82.0, 6.0, -85.0], [58.0, 82.0, 122.0])]);
     let mediastinum = vec![ellipsoid([0.0, -12.0, -70.0], [40.0, 58.0, 100.0])];
@@ -81,7 +80,6 @@ fn ribs() -> Vec<Shape> {
     shapes
 }
 
-/// Muscles, fat around the vessels, veins and glands of the neck.
 fn soft_tissue() -> Vec<Solid> {
     let sheath =
         both_sides(chain(&[[34.0, -14.0, 56.0, 15.0], [38.0, -8.0, 120.0, 14.0], [40.0, -2.0, 190.0, 11.0]]));
@@ -104,7 +102,6 @@ fn soft_tissue() -> Vec<Solid> {
     ]
 }
 
-/// Trachea, larynx and pharynx, painted late so that they stay open.
 fn airway() -> Vec<Solid> {
     let trachea = chain(&[
         [-6.0, 14.0, -40.0, 9.0],
@@ -148,7 +145,6 @@ fn vertebrae() -> Vec<Vertebra> {
     thoracic.chain(cervical).collect()
 }
 
-/// Sternum, clavicles, shoulder blades and the heads of the humeri.
 fn shoulder_girdle() -> Vec<Shape> {
     let mut shapes = vec![
         plate([[-22.0, -72.0, 18.0], [22.0, -72.0, 18.0], [0.0, -84.0, -26.0]], 6.0),

@@ -1,24 +1,22 @@
-//! Vertebrae, one by one.
+//! Vertebrae.
 
 use super::{ellipsoid, plate, profile, rod};
 use crate::shape::Shape;
 use crate::tissue::{Solid, Tissue};
 
-/// Where a vertebra stands and how large it is (mm).
+/// Position and size of a vertebra (mm).
 #[derive(Clone, Copy)]
 pub(super) struct Vertebra {
-    /// Middle of the body: y and z; x is 0.
+    /// Centre of the body (x is 0).
     pub(super) y: f32,
     pub(super) z: f32,
-    /// Half axes of the body from side to side and from front to back.
+    /// Half axes of the body: lateral, anteroposterior.
     pub(super) half: [f32; 2],
-    /// From one vertebra to the next.
     pub(super) pitch: f32,
 }
 
 const VERTEBRAL_BONE: Tissue = Tissue::Bone { cortex: 1.0, marrow: 260.0 };
 
-/// Bodies, discs, arches and the spinal canal of a row of vertebrae.
 pub(super) fn spine(vertebrae: &[Vertebra]) -> Vec<Solid> {
     let mut solids = Vec::new();
     let discs = vertebrae.iter().map(disc).collect();
@@ -33,7 +31,6 @@ pub(super) fn spine(vertebrae: &[Vertebra]) -> Vec<Solid> {
     solids
 }
 
-/// A waisted drum with flat ends.
 fn body(v: &Vertebra) -> Shape {
     let half = 0.385 * v.pitch;
     let [a, b] = v.half;
@@ -45,7 +42,6 @@ fn body(v: &Vertebra) -> Shape {
     ])
 }
 
-/// The disc below.
 fn disc(v: &Vertebra) -> Shape {
     let [a, b] = v.half;
     let z = v.z - 0.5 * v.pitch;
@@ -57,7 +53,6 @@ fn canal(v: &Vertebra) -> Shape {
     rod([0.0, y, v.z - 0.55 * v.pitch], [0.0, y, v.z + 0.55 * v.pitch], [0.38 * v.half[0]; 2])
 }
 
-/// Pedicles, laminae, transverse and spinous processes.
 fn arch(v: &Vertebra) -> Vec<Shape> {
     let (a, back) = (v.half[0], v.y + v.half[1]);
     let at = |x: f32, y: f32, z: f32| [x * a, back + y * a, v.z + z * v.pitch];

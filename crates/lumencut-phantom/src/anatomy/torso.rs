@@ -1,10 +1,9 @@
-//! Soft tissue and ribs of the abdomen and pelvis.
+//! Soft tissue and ribs of abdomen and pelvis.
 
 use super::{both_sides, chain, ellipsoid, plate, profile, rod};
 use crate::shape::Shape;
 use crate::tissue::{AIR, FAT, MUSCLE, Solid, Tissue};
 
-/// The skin of the trunk down to the crotch.
 pub(super) fn outline() -> Shape {
     profile(&[
         [-262.0, 0.0, 12.0, 40.0, 12.0],
@@ -19,7 +18,6 @@ pub(super) fn outline() -> Shape {
     ])
 }
 
-/// Abdominal and pelvic cavity.
 fn cavity() -> Shape {
     profile(&[
         [-186.0, 0.0, -8.0, 8.0, 6.0],
@@ -32,7 +30,6 @@ fn cavity() -> Shape {
     ])
 }
 
-/// The part of the cavity in which the small bowel lies.
 fn peritoneum() -> Shape {
     profile(&[
         [-118.0, 0.0, -30.0, 56.0, 20.0],
@@ -43,7 +40,6 @@ fn peritoneum() -> Shape {
     ])
 }
 
-/// Cavity, muscles beside the spine, organs, veins and ribs, in the order of painting.
 pub(super) fn organs() -> Vec<Solid> {
     let mut solids = vec![Solid::new(Tissue::Fat, vec![cavity()])];
     solids.push(Solid::new(Tissue::Muscle, psoas()));
@@ -106,7 +102,6 @@ fn kidneys() -> [Solid; 2] {
     [Solid::new(kidney, kidneys), Solid::new(Tissue::Mottled(FAT + 15.0, 30.0), sinus)]
 }
 
-/// Inferior vena cava and iliac veins, hardly enhanced.
 fn veins() -> [Solid; 1] {
     let mut veins = chain(&[
         [-16.0, 14.0, -12.0, 9.0],
@@ -123,13 +118,12 @@ fn veins() -> [Solid; 1] {
     [Solid::new(Tissue::Mottled(115.0, 12.0), veins)]
 }
 
-/// Slanting arcs around the upper abdomen.
 fn ribs() -> Vec<Shape> {
     let mut shapes = Vec::new();
     for (n, last) in [(0u8, 5usize), (1, 7), (2, 9), (3, 9), (4, 9), (5, 9)] {
         let top = 92.0 + 30.0 * f32::from(n);
         let knot = |i: usize| {
-            // From beside the spine (0.2 rad off the back) around to the front.
+            // From 0.2 rad off the back around to the front.
             let turn = 0.2 + 0.27 * i as f32;
             let knot = [136.0 * turn.sin(), 3.0 + 89.0 * turn.cos(), top - 62.0 * (0.6 * turn).sin()];
             [knot[0], knot[1], knot[2], 5.2]
@@ -140,11 +134,11 @@ fn ribs() -> Vec<Shape> {
     shapes
 }
 
-/// The mattress and the table below the patient, along z from `low` to `high`.
+/// Mattress and table below the patient, from z = `low` to `high`.
 pub(super) fn table(low: f32, high: f32, y: f32) -> [Solid; 2] {
     let slab = |depth: f32| -> Vec<Shape> {
         let strip = |n: i16| {
-            // Slightly hollow, as couches are.
+            // Slightly hollow, like CT tables.
             let edge = |n: i16| {
                 let x = 40.0 * f32::from(n);
                 (x, y + depth - 0.00035 * x * x)
@@ -162,7 +156,6 @@ pub(super) fn table(low: f32, high: f32, y: f32) -> [Solid; 2] {
     [Solid::within(&mattress, -2.5, Tissue::Mottled(-930.0, 20.0)), Solid::new(Tissue::Even(-120.0), shell)]
 }
 
-/// Femoral veins of both sides, in the groin and the thigh.
 pub(super) fn femoral_veins() -> Solid {
     let mut veins = Vec::new();
     for side in [-1.0, 1.0] {

@@ -1,21 +1,19 @@
-//! The points of a line in a tree of boxes, which answers which of them lie near a place.
+//! A bounding-box tree over the points of a line, for neighbour queries.
 
 use glam::DVec3;
 
-/// Boxes of this many points are not divided again.
-const LEAF: usize = 8;
+/// Boxes of at most this many points are leaves.
+const MAX_LEAF_POINTS: usize = 8;
 
-/// A box around points: the rows `from..to` of the order of the tree.
 struct Node {
     low: DVec3,
     high: DVec3,
     from: usize,
     to: usize,
-    /// The numbers of the boxes that it is divided into; the first one is the next box.
+    /// Index of the second child; the first is the next box.
     second: Option<usize>,
 }
 
-/// Points and the boxes around them; a box stands before those that it is divided into.
 pub(super) struct Nearby<'a> {
     points: &'a [DVec3],
     order: Vec<usize>,
@@ -23,8 +21,7 @@ pub(super) struct Nearby<'a> {
 }
 
 impl<'a> Nearby<'a> {
-    /// Divides points into boxes of equal counts.
-    pub fn new(points: &'a [DVec3]) -> Self {
+    pub(super) fn new(points: &'a [DVec3]) -> Self {
         let mut nearby = Self { points, order: (0..points.len()).collect(), nodes: Vec::new() };
         if !points.is_empty() {
             nearby.divide(0, points.len());
@@ -40,7 +37,7 @@ impl<'a> Nearby<'a> {
             .fold((DVec3::MAX, DVec3::MIN), |(low, high), n| (low.min(points[*n]), high.max(points[*n])));
         let number = self.nodes.len();
         self.nodes.push(Node { low, high, from, to, second: None });
-        if to - from <= LEAF {
+        if to - from <= MAX_LEAF_POINTS {
             return;
         }
         let sides = (high - low).to_array();
@@ -52,8 +49,8 @@ impl<'a> Nearby<'a> {
         self.divide(from + middle, to);
     }
 
-    /// Calls `hear` with the number of every point at most `reach` from a place, until it returns false.
-    pub fn within(&self, place: DVec3, reach: f64, mut hear: impl FnMut(usize) -> bool) {
+    /// Calls `visit` with each point within `reach` of a position, until it returns false.
+    pub(super) fn within(&self, place: DVec3, reach: f64, mut visit: impl FnMut(usize) -> bool) {
         let mut open: Vec<usize> = if self.nodes.is_empty() { Vec::new() } else { vec![0] };
         while let Some(number) = open.pop() {
             let node = &self.nodes[number];
@@ -65,15 +62,14 @@ impl<'a> Nearby<'a> {
                 continue;
             }
             for n in &self.order[node.from..node.to] {
-                if self.points[*n].distance(place) <= reach && !hear(*n) {
+                if self.points[*n].distance(place) <= reach && !visit(*n) {
                     return;
                 }
             }
         }
     }
 
-    /// For each box the piece that all its points belong to, where there is one.
-    pub fn pieces_of_boxes(&self, piece: &[usize]) -> Vec<Option<usize>> {
+    pub(super) fn pieces_of_boxes(&self, piece: &[usize]) -> Vec<Option<usize>> {
         let mut found = vec![None; self.nodes.len()];
         for (number, node) in self.nodes.iter().enumerate().rev() {
             found[number] = match node.second {
@@ -88,8 +84,8 @@ impl<'a> Nearby<'a> {
         found
     }
 
-    /// The nearest point of another piece than that of point `n`, nearer than `bound`, and its distance.
-    pub fn nearest_of_others(
+    /// The nearest point of another component than point `n`, within `bound`, with its distance.
+    pub(super) fn nearest_of_others(
         &self,
         n: usize,
         piece: &[usize],
@@ -114,10 +110,10 @@ impl<'a> Nearby<'a> {
             for other in self.order[node.from..node.to].iter().copied().filter(|m| piece[*m] != own) {
                 let distance = self.points[other].distance(place);
                 if distance == 0.0 {
-                    // None is nearer; of many points at one place all would be compared with all.
+                    // Nothing can be nearer; stops a quadratic search among coincident points.
                     return Some((distance, other));
                 }
-                // Of points at the same distance the first one counts: so the tree has no circle.
+                // Ties go to the first point, so that the tree has no cycle.
                 if distance < best || (distance == best && found.is_none_or(|(_, before)| other < before)) {
                     (best, found) = (distance, Some((distance, other)));
                 }

@@ -1,4 +1,4 @@
-//! The order of a line's points: whether the given one is doubtful, and the one that is found without doubt.
+//! Checks the order of a line's points, and finds the unambiguous order.
 
 use glam::DVec3;
 use lumencut_core::math::statistics::{median, quantile};
@@ -6,67 +6,57 @@ use lumencut_core::math::statistics::{median, quantile};
 use super::nearby::Nearby;
 use super::shortest_tree::ShortestTree;
 
-/// A step is long at this many times the usual one.
+/// A step is long from this many times the usual step …
 pub(super) const LONG_STEP: f64 = 20.0;
-/// A step is long only beyond this part of the extent of the line.
-const LONG_PART: f64 = 0.05;
-/// A line is too long at this many times the length of a short path through its points.
-const TOO_LONG: f64 = 2.0;
-/// Beside an order that is found without doubt a line is too long already by this factor.
-const LONGER_THAN_FOUND: f64 = 1.2;
-/// Steps are regular where the longest is at most this many times the usual one, and long ones this many times short ones.
-const REGULAR: f64 = 3.0;
-/// A point stands out of the line at this many usual steps from both its neighbours.
-const SPIKE: f64 = 5.0;
-/// In an order without doubt no step is this many times the usual one.
-const LONGEST_FOUND: f64 = 5.0;
-/// Points of another stretch of the line make an order doubtful up to this distance, in longest steps.
-const CLEARANCE: f64 = 1.5;
-/// A stretch is another one where the way to it is this many times the straight distance.
-const OTHER_STRETCH: f64 = 4.0;
-/// Where this many points are near one, no order is without doubt.
-const MOST_NEAR: usize = 256;
-/// Lines of fewer points do not show what step is usual.
-const FEWEST_POINTS: usize = 5;
-/// Of fewer points none stands out.
-const FEWEST_WITH_SPIKE: usize = 8;
+/// … and only beyond this fraction of the line's extent.
+const LONG_STEP_FRACTION: f64 = 0.05;
+/// A line is too long from this many times the length of a short path through its points …
+const MAX_LENGTH_RATIO: f64 = 2.0;
+/// … or this many times if an unambiguous order exists.
+const MAX_LENGTH_RATIO_FOUND: f64 = 1.2;
+/// Steps are regular if the longest is at most this many usual steps, and high quantiles this many times low ones.
+const MAX_REGULAR_RATIO: f64 = 3.0;
+/// A point is a spike at this many usual steps from both neighbours.
+const SPIKE_STEPS: f64 = 5.0;
+/// An unambiguous order has no step of this many usual steps.
+const MAX_FOUND_STEP: f64 = 5.0;
+/// Points of another stretch within this many longest steps make an order ambiguous.
+const CLEARANCE_STEPS: f64 = 1.5;
+/// A stretch is another one if the path to it is this many times the straight distance.
+const OTHER_STRETCH_RATIO: f64 = 4.0;
+/// An order is ambiguous if this many points are near one.
+const MAX_NEIGHBOURS: usize = 256;
+const MIN_POINTS: usize = 5;
+const MIN_POINTS_WITH_SPIKE: usize = 8;
 
-/// What is doubtful about the order of a line.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum OrderDoubt {
-    /// The points seem to stand in another order than along the vessel.
     Disorder(Disorder),
     /// A part seems to be missing at a long step.
     Gap(LongStep),
-    /// Points far from all others, and the distance of the nearest of them.
+    /// Stray points, and their least distance from all others.
     Stray(Vec<usize>, f64),
 }
 
-/// What speaks against the order of a line.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Disorder {
-    /// The longest step, where it is too long.
+    /// The longest step, if it is too long.
     pub step: Option<LongStep>,
-    /// The length of the line and of a short path through its points.
+    /// The lengths of the line and of a short path through its points.
     pub lengths: [f64; 2],
-    /// Whether an order is found without doubt.
-    pub is_found: bool,
+    pub(crate) is_found: bool,
 }
 
-/// A step that is far longer than others.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct LongStep {
-    /// The point before it.
+    /// The index of the point before it.
     pub after: usize,
-    /// Its length.
     pub length: f64,
-    /// The length of the usual step.
     pub usual: f64,
 }
 
-/// What is doubtful about the order of points; nothing of a line in order.
 pub(super) fn order_doubts(points: &[DVec3]) -> Vec<OrderDoubt> {
-    if points.len() < FEWEST_POINTS || is_regular(points) {
+    if points.len() < MIN_POINTS || is_regular(points) {
         return Vec::new();
     }
     let nearby = Nearby::new(points);
@@ -82,7 +72,7 @@ pub(super) fn order_doubts(points: &[DVec3]) -> Vec<OrderDoubt> {
 }
 
 impl OrderDoubt {
-    /// The same for a line of which only the `kept` points were looked at.
+    /// The same doubt in the numbering of the whole line, when only the `kept` points were checked.
     fn among(self, kept: &[usize]) -> Self {
         let moved = |step: LongStep| LongStep { after: kept[step.after], ..step };
         match self {
@@ -97,10 +87,10 @@ impl OrderDoubt {
     }
 }
 
-/// The numbers of the points in the order along the vessel, where it is without doubt: the shortest path through them, with
-/// steps that are alike, on which every point is nearest to its neighbours, seen from either end.
+/// The unambiguous order along the vessel: the shortest path, with regular steps, on which each point is nearest to its
+/// neighbours from both ends.
 pub(crate) fn found_order(points: &[DVec3]) -> Option<Vec<usize>> {
-    if points.len() < FEWEST_POINTS {
+    if points.len() < MIN_POINTS {
         return None;
     }
     let nearby = Nearby::new(points);
@@ -123,14 +113,14 @@ fn found(points: &[DVec3], tree: &ShortestTree, nearby: &Nearby) -> Option<Vec<u
     let mut rank = vec![0; points.len()];
     order.iter().enumerate().for_each(|(place, n)| rank[*n] = place);
     let longest = steps.iter().copied().fold(0.0, f64::max);
-    let reach = CLEARANCE * longest;
+    let reach = CLEARANCE_STEPS * longest;
     let is_clear =
         (0..order.len()).all(|at| is_clear((points, nearby), (&order, &rank), &along, (at, reach)));
-    let is_even = median(&mut steps).is_some_and(|usual| longest <= LONGEST_FOUND * usual);
+    let is_even = median(&mut steps).is_some_and(|usual| longest <= MAX_FOUND_STEP * usual);
     (is_clear && is_even).then_some(order)
 }
 
-/// Whether the neighbours of a point in an order are the nearest points on either side, and no other stretch is near.
+/// Whether a point's neighbours in an order are its nearest points on either side, with no other stretch nearby.
 fn is_clear(
     (points, nearby): (&[DVec3], &Nearby),
     (order, rank): (&[usize], &[usize]),
@@ -145,33 +135,31 @@ fn is_clear(
         let (other, distance) = (rank[n], place.distance(points[n]));
         let nearest = if other < at { before } else { after };
         let is_next = other.abs_diff(at) <= 1;
-        let is_same_stretch = (along[other] - along[at]).abs() <= OTHER_STRETCH * distance;
+        let is_same_stretch = (along[other] - along[at]).abs() <= OTHER_STRETCH_RATIO * distance;
         count += 1;
         is_clear = is_next || (is_same_stretch && nearest.is_none_or(|step| distance > step));
-        is_clear &= count <= MOST_NEAR;
+        is_clear &= count <= MAX_NEIGHBOURS;
         is_clear
     });
     is_clear
 }
 
-/// Whether the steps of a line are about alike, as no disorder leaves them.
 fn is_regular(points: &[DVec3]) -> bool {
     let mut steps: Vec<f64> = steps(points).filter(|step| *step > 0.0).collect();
     let longest = steps.iter().copied().fold(0.0, f64::max);
     let parts = [0.05, 0.5, 0.95].map(|part| quantile(&mut steps, part).unwrap_or(0.0));
     let [short, usual, long] = parts;
-    longest <= REGULAR * usual && long <= REGULAR * short
+    longest <= MAX_REGULAR_RATIO * usual && long <= MAX_REGULAR_RATIO * short
 }
 
 fn steps(points: &[DVec3]) -> impl Iterator<Item = f64> + '_ {
     points.windows(2).map(|pair| pair[0].distance(pair[1]))
 }
 
-/// The usual distance of neighbours along the vessel, and the length beyond which a step is long.
 fn usual_and_long(points: &[DVec3], tree: &ShortestTree) -> (f64, f64) {
     let mut edges: Vec<f64> = tree.edges.iter().map(|edge| edge.2).filter(|length| *length > 0.0).collect();
     let usual = median(&mut edges).unwrap_or(0.0);
-    (usual, (LONG_STEP * usual).max(LONG_PART * extent(points)))
+    (usual, (LONG_STEP * usual).max(LONG_STEP_FRACTION * extent(points)))
 }
 
 fn extent(points: &[DVec3]) -> f64 {
@@ -179,7 +167,6 @@ fn extent(points: &[DVec3]) -> f64 {
     corners.0.distance(corners.1)
 }
 
-/// Points far from all others, and the distance of the nearest of them.
 fn strays(points: &[DVec3], tree: &ShortestTree, nearby: &Nearby) -> (Vec<usize>, f64) {
     let (usual, long) = usual_and_long(points, tree);
     let piece = tree.pieces(long);
@@ -191,7 +178,7 @@ fn strays(points: &[DVec3], tree: &ShortestTree, nearby: &Nearby) -> (Vec<usize>
     let is_run = |part: &&Vec<usize>| part.len() > 1 && part.windows(2).all(|pair| pair[1] == pair[0] + 1);
     let few = members.iter().filter(is_few).filter(|part| !is_run(part) && part.len() < largest);
     let mut strays: Vec<usize> = few.flatten().copied().collect();
-    let far = (SPIKE * usual).max(LONG_PART * extent(points));
+    let far = (SPIKE_STEPS * usual).max(LONG_STEP_FRACTION * extent(points));
     strays.extend((0..points.len()).filter(|n| is_spike(points, nearby, [usual, far], *n)));
     strays.sort_unstable();
     strays.dedup();
@@ -204,15 +191,14 @@ fn strays(points: &[DVec3], tree: &ShortestTree, nearby: &Nearby) -> (Vec<usize>
     (strays, distance)
 }
 
-/// Whether a point stands out of a line that goes on behind it as if it were not there.
 fn is_spike(points: &[DVec3], nearby: &Nearby, [usual, far]: [f64; 2], n: usize) -> bool {
-    if points.len() < FEWEST_WITH_SPIKE || n == 0 || n + 1 == points.len() {
+    if points.len() < MIN_POINTS_WITH_SPIKE || n == 0 || n + 1 == points.len() {
         return false;
     }
     let [before, place, after] = [points[n - 1], points[n], points[n + 1]];
     if before.distance(place) <= far
         || place.distance(after) <= far
-        || before.distance(after) > REGULAR * usual
+        || before.distance(after) > MAX_REGULAR_RATIO * usual
     {
         return false;
     }
@@ -224,7 +210,6 @@ fn is_spike(points: &[DVec3], nearby: &Nearby, [usual, far]: [f64; 2], n: usize)
     is_alone
 }
 
-/// What speaks against the order of a line without strays.
 fn disorder(points: &[DVec3], tree: &ShortestTree, nearby: &Nearby) -> Option<OrderDoubt> {
     let (usual, long) = usual_and_long(points, tree);
     let length: f64 = steps(points).sum();
@@ -233,8 +218,10 @@ fn disorder(points: &[DVec3], tree: &ShortestTree, nearby: &Nearby) -> Option<Or
     let (after, longest) =
         steps(points).enumerate().fold((0, 0.0), |most, step| if step.1 > most.1 { step } else { most });
     let step = (longest > long).then_some(LongStep { after, length: longest, usual });
-    let is_too_long = length > TOO_LONG * short
-        || (found.is_some() && longest > REGULAR * usual && length > LONGER_THAN_FOUND * short);
+    let is_too_long = length > MAX_LENGTH_RATIO * short
+        || (found.is_some()
+            && longest > MAX_REGULAR_RATIO * usual
+            && length > MAX_LENGTH_RATIO_FOUND * short);
     if !is_too_long {
         let step = step?;
         let piece = tree.pieces(long);

@@ -1,19 +1,19 @@
-//! The shortest tree of straight edges that hangs points together, and the short path that leads along it.
+//! The minimum spanning tree of points, and the short path along it.
 
 use glam::DVec3;
 
 use super::nearby::Nearby;
 
-/// Edges between points; where no point has more than two, the tree is the shortest path through all of them.
+/// If no point has more than two edges, the tree is the shortest path through all points.
 pub(super) struct ShortestTree {
-    /// Both points of each edge, and its length.
+    /// The points of each edge, and its length.
     pub edges: Vec<(usize, usize, f64)>,
     neighbours: Vec<Vec<(usize, f64)>>,
 }
 
 impl ShortestTree {
-    /// The tree of two or more points, by Borůvka: in each round every piece gets the shortest edge to another one.
-    pub fn new(points: &[DVec3], nearby: &Nearby) -> Self {
+    /// Borůvka's algorithm: each round connects every component by its shortest edge.
+    pub(super) fn new(points: &[DVec3], nearby: &Nearby) -> Self {
         let mut heads: Vec<usize> = (0..points.len()).collect();
         let mut edges = Vec::with_capacity(points.len().saturating_sub(1));
         while edges.len() + 1 < points.len() {
@@ -37,7 +37,7 @@ impl ShortestTree {
                     edges.push((a, b, length));
                 }
             }
-            // Places that are no numbers are at no distance from others.
+            // NaN points have no distance to others.
             if edges.len() == before {
                 break;
             }
@@ -50,13 +50,12 @@ impl ShortestTree {
         Self { edges, neighbours }
     }
 
-    /// Whether it is a path: then no path through the points is shorter.
-    pub fn is_path(&self) -> bool {
+    pub(super) fn is_path(&self) -> bool {
         self.neighbours.iter().all(|edges| edges.len() <= 2)
     }
 
-    /// The points in the order of a short path: from one end of the tree's longest way to the other, short branches first.
-    pub fn path(&self) -> Vec<usize> {
+    /// The points along a short path: the tree's longest path, with short branches visited first.
+    pub(super) fn path(&self) -> Vec<usize> {
         let start = self.farthest(self.farthest(0));
         let (order, before) = self.from(start);
         let mut reach = vec![0.0_f64; order.len()];
@@ -76,8 +75,8 @@ impl ShortestTree {
         path
     }
 
-    /// Which piece of the tree each point belongs to where its edges longer than `longest` are left out.
-    pub fn pieces(&self, longest: f64) -> Vec<usize> {
+    /// The component of each point without the edges longer than `longest`.
+    pub(super) fn pieces(&self, longest: f64) -> Vec<usize> {
         let mut heads: Vec<usize> = (0..self.neighbours.len()).collect();
         for (a, b, _) in self.edges.iter().filter(|(.., length)| *length <= longest) {
             let (first, second) = (head(&mut heads, *a), head(&mut heads, *b));
@@ -86,7 +85,6 @@ impl ShortestTree {
         (0..heads.len()).map(|n| head(&mut heads, n)).collect()
     }
 
-    /// The point that is farthest from another one along the tree.
     fn farthest(&self, start: usize) -> usize {
         let (order, before) = self.from(start);
         let mut along = vec![0.0_f64; order.len()];
@@ -98,7 +96,6 @@ impl ShortestTree {
         order.into_iter().fold(start, |far, n| if along[n] > along[far] { n } else { far })
     }
 
-    /// The points in an order in which each one but the first stands behind the one that it hangs on, and that one.
     fn from(&self, start: usize) -> (Vec<usize>, Vec<Option<usize>>) {
         let mut before = vec![None; self.neighbours.len()];
         let mut order = vec![start];

@@ -1,4 +1,4 @@
-//! Pairs of vessels that lie side by side in one lumen: two lines of one vessel.
+//! Finds pairs of vessels that run side by side in one lumen.
 
 use std::collections::BTreeMap;
 
@@ -8,30 +8,27 @@ use lumencut_core::math::arc_length::{arc_lengths, point_at};
 use super::DoubtedLine;
 use super::nearby::Nearby;
 
-/// Lines nearer to each other than this (mm) are of one vessel where no radius is known.
-const NEAR: f64 = 0.5;
-/// And where it is known, nearer than this part of the smaller radius.
-const NEAR_PART: f64 = 0.5;
-/// Lines are looked at in steps of this length (mm).
-const STEP: f64 = 1.0;
-/// Spots in a chord of a stretch.
-const CHORD: usize = 5;
-/// And at this many places at most, in all.
-const MOST_PLACES: f64 = 30_000.0;
-/// Of this many spots near a place the others are left out: no vessel is so wide, and each would be compared with all.
-const MOST_NEAR: usize = 200;
-/// A stretch side by side is at least so long (mm) …
-const SHORTEST: f64 = 10.0;
-/// … and this many radii, as lines that meet part slowly.
-const SHORTEST_RADII: f64 = 6.0;
+/// Lines nearer than this (mm) share a vessel if no radius is known …
+const NEAR_MM: f64 = 0.5;
+/// … and else if nearer than this fraction of the smaller radius.
+const NEAR_RADII: f64 = 0.5;
+/// Sampling step along lines (mm).
+const STEP_MM: f64 = 1.0;
+const CHORD_SAMPLES: usize = 5;
+const MAX_SAMPLES: f64 = 30_000.0;
+/// Upper bound of neighbours per sample: bounds the work; no vessel is that wide.
+const MAX_NEIGHBOURS: usize = 200;
+/// The shortest stretch side by side (mm) …
+const MIN_LENGTH_MM: f64 = 10.0;
+/// … also in radii, because joining lines separate slowly.
+const MIN_LENGTH_RADII: f64 = 6.0;
 
-/// A place on a vessel.
 struct Spot {
     vessel: usize,
     radius: Option<f64>,
 }
 
-/// Two vessels, the lower number first, and over how many mm they lie side by side.
+/// Pairs of vessels (the lower index first) and their length side by side (mm).
 pub(super) fn side_by_side(lines: &[DoubtedLine]) -> Vec<(usize, usize, f64)> {
     if lines.len() < 2 {
         return Vec::new();
@@ -48,13 +45,13 @@ pub(super) fn side_by_side(lines: &[DoubtedLine]) -> Vec<(usize, usize, f64)> {
                 others.entry(other.vessel).or_insert(smaller(spot.radius, other.radius).unwrap_or(0.0));
             }
             count += 1;
-            count < MOST_NEAR
+            count < MAX_NEIGHBOURS
         });
         for (other, radius) in others {
             runs.entry((spot.vessel, other)).or_default().add(n, radius);
         }
     }
-    // Each of both has stretches beside the other.
+    // Each vessel of a pair has its own stretches.
     let mut pairs: BTreeMap<(usize, usize), f64> = BTreeMap::new();
     for ((a, b), runs) in runs {
         if let Some(length) = runs.longest(&points) {
@@ -65,10 +62,9 @@ pub(super) fn side_by_side(lines: &[DoubtedLine]) -> Vec<(usize, usize, f64)> {
     pairs.into_iter().map(|((a, b), length)| (a, b, length)).collect()
 }
 
-/// Stretches of a vessel beside another one.
 #[derive(Default)]
 struct Runs {
-    /// The first and the last spot of each, and its largest radius.
+    /// First and last sample of each stretch, and its largest radius.
     found: Vec<(usize, usize, f64)>,
 }
 
@@ -80,25 +76,23 @@ impl Runs {
         }
     }
 
-    /// The length of the longest one that is long enough.
     fn longest(&self, points: &[DVec3]) -> Option<f64> {
         let lengths = self.found.iter().map(|(from, to, radius)| (length(&points[*from..=*to]), radius));
-        let long = lengths.filter(|(length, radius)| *length >= SHORTEST.max(SHORTEST_RADII * **radius));
+        let long =
+            lengths.filter(|(length, radius)| *length >= MIN_LENGTH_MM.max(MIN_LENGTH_RADII * **radius));
         long.map(|(length, _)| length).max_by(f64::total_cmp)
     }
 }
 
-/// The length of a stretch by chords, which noise does not lengthen.
 fn length(points: &[DVec3]) -> f64 {
-    let corners: Vec<DVec3> = points.iter().step_by(CHORD).chain(points.last()).copied().collect();
+    let corners: Vec<DVec3> = points.iter().step_by(CHORD_SAMPLES).chain(points.last()).copied().collect();
     corners.windows(2).map(|pair| pair[0].distance(pair[1])).sum()
 }
 
-/// Places along all vessels, and how far they are apart.
 fn spots(lines: &[DoubtedLine]) -> (Vec<DVec3>, Vec<Spot>, f64) {
     let along: Vec<Vec<f64>> = lines.iter().map(|line| arc_lengths(line.points)).collect();
     let length = |along: &Vec<f64>| along.last().copied().unwrap_or(0.0);
-    let step = STEP.max(along.iter().map(length).sum::<f64>() / MOST_PLACES);
+    let step = STEP_MM.max(along.iter().map(length).sum::<f64>() / MAX_SAMPLES);
     let (mut points, mut spots) = (Vec::new(), Vec::new());
     for (vessel, (line, along)) in lines.iter().zip(&along).enumerate() {
         if line.points.is_empty() {
@@ -115,9 +109,8 @@ fn spots(lines: &[DoubtedLine]) -> (Vec<DVec3>, Vec<Spot>, f64) {
     (points, spots, step)
 }
 
-/// How near lines of these radii lie in one lumen.
 fn near(one: Option<f64>, other: Option<f64>) -> f64 {
-    smaller(one, other).map_or(NEAR, |radius| NEAR.min(radius).max(NEAR_PART * radius))
+    smaller(one, other).map_or(NEAR_MM, |radius| NEAR_MM.min(radius).max(NEAR_RADII * radius))
 }
 
 fn smaller(one: Option<f64>, other: Option<f64>) -> Option<f64> {
@@ -127,7 +120,7 @@ fn smaller(one: Option<f64>, other: Option<f64>) -> Option<f64> {
     }
 }
 
-/// The distance of a place from the line through spot `m` and those before and behind it.
+/// The distance from a position to the polyline around sample `m`.
 fn distance_to_line(place: DVec3, points: &[DVec3], spots: &[Spot], m: usize) -> f64 {
     let is_same = |other: usize| spots.get(other).is_some_and(|spot| spot.vessel == spots[m].vessel);
     let ends = [m.checked_sub(1), Some(m + 1)].into_iter().flatten().filter(|other| is_same(*other));

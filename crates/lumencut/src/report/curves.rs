@@ -1,15 +1,14 @@
-//! The curves of a profile as paths of an SVG. Values that are not a number are not drawn.
+//! The curves of a profile as SVG paths; NaN is not drawn.
 
 use std::fmt::Write;
 
 use super::scale::Axis;
 
-/// Both axes of a plot.
 #[derive(Clone, Copy, Debug)]
-pub struct Axes {
+pub(super) struct Axes {
     /// Along the vessel (mm).
     pub x: Axis,
-    /// The diameter (mm).
+    /// Diameter (mm).
     pub y: Axis,
 }
 
@@ -19,8 +18,8 @@ impl Axes {
     }
 }
 
-/// A line through values, interrupted where there is none; a value between two without one is no line.
-pub fn line(axes: &Axes, at: &[f64], values: &[f64]) -> String {
+/// A polyline, interrupted at NaN; isolated values are not drawn.
+pub(super) fn line(axes: &Axes, at: &[f64], values: &[f64]) -> String {
     let mut path = String::new();
     for run in stretches(values).iter().filter(|run| run.len() > 1) {
         push(&mut path, run.clone().map(|n| axes.point(at[n], values[n])));
@@ -28,8 +27,7 @@ pub fn line(axes: &Axes, at: &[f64], values: &[f64]) -> String {
     path
 }
 
-/// The area between two lines, where both have values.
-pub fn band(axes: &Axes, at: &[f64], low: &[f64], high: &[f64]) -> String {
+pub(super) fn band(axes: &Axes, at: &[f64], low: &[f64], high: &[f64]) -> String {
     let both: Vec<f64> = low.iter().zip(high).map(|(low, high)| low + high).collect();
     let mut path = String::new();
     for run in stretches(&both).iter().filter(|run| run.len() > 1) {
@@ -40,18 +38,16 @@ pub fn band(axes: &Axes, at: &[f64], low: &[f64], high: &[f64]) -> String {
     path
 }
 
-/// The numbers of values that stand alone between two that are missing.
-pub fn lonely(values: &[f64]) -> Vec<usize> {
+pub(super) fn isolated(values: &[f64]) -> Vec<usize> {
     stretches(values).iter().filter(|run| run.len() == 1).map(|run| run.start).collect()
 }
 
-/// Stretches of values that are numbers.
 fn stretches(values: &[f64]) -> Vec<std::ops::Range<usize>> {
     runs(values.len(), |n| values[n].is_finite())
 }
 
-/// Stretches of numbers below `count` for which something holds.
-pub fn runs(count: usize, holds: impl Fn(usize) -> bool) -> Vec<std::ops::Range<usize>> {
+/// Runs of indices below `count` for which a condition holds.
+pub(super) fn runs(count: usize, holds: impl Fn(usize) -> bool) -> Vec<std::ops::Range<usize>> {
     let mut found: Vec<std::ops::Range<usize>> = Vec::new();
     for n in (0..count).filter(|n| holds(*n)) {
         match found.last_mut() {

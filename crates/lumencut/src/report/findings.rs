@@ -1,10 +1,10 @@
-//! What was found on a vessel, in sentences: never a percentage without its method, its references and mm.
+//! Findings on a vessel in sentences: a percentage always has its method, references and mm.
 
 use lumencut_vessels::measure::profile::Profile;
 use serde::Serialize;
 
 use super::markup::paragraph;
-use super::told::Stated;
+use super::method_text::Stated;
 use super::{Lengths, Shown, VesselPage};
 use crate::measure_words::{of_c_arm, of_doubts, of_flags, of_stenosis};
 use crate::not_measured::not_measured;
@@ -12,45 +12,40 @@ use crate::not_suggested::not_suggested;
 use crate::profile_marks::{Grade, Measured};
 use crate::text::fixed;
 
-/// What a sentence tells.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename = "SentenceKind"))]
 #[serde(rename_all = "snake_case")]
-pub enum Kind {
+pub(crate) enum Kind {
     /// The percentage of a stenosis, or why there is none.
     Finding,
-    /// What makes it doubtful.
     Doubt,
-    /// What is told beside it, such as its group or a length.
     Remark,
 }
 
-/// A sentence of what was found.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct Sentence {
-    /// What it tells.
+pub(crate) struct Sentence {
     pub kind: Kind,
-    /// Its words.
     pub words: String,
 }
 
-/// Stenosis with its doubts, or why it is not graded, and its group; then diameters that are noted, and stretches.
-pub fn sentences(stated: Stated, measured: &Measured, lengths: &Lengths) -> Vec<Sentence> {
-    let told = |kind, words: &str| Sentence { kind, words: stated.spoken(words) };
+/// Stenosis with doubts (or why it is not graded) and group; then noted diameters and stretches.
+pub(crate) fn sentences(stated: Stated, measured: &Measured, lengths: &Lengths) -> Vec<Sentence> {
+    let sentence = |kind, words: &str| Sentence { kind, words: stated.with_units(words) };
     let graded = match measured.grade {
-        Some(Grade::NotGraded(reason)) => vec![told(Kind::Finding, &format!("No percentage: {reason}"))],
+        Some(Grade::NotGraded(reason)) => vec![sentence(Kind::Finding, &format!("No percentage: {reason}"))],
         Some(Grade::Graded { stenosis, group }) => {
-            let doubts = of_doubts(&stenosis.doubts).into_iter().map(|words| told(Kind::Doubt, &words));
-            let group = group.iter().map(|group| told(Kind::Remark, &format!("Group of the field: {group}")));
-            [told(Kind::Finding, &of_stenosis(stenosis))].into_iter().chain(doubts).chain(group).collect()
+            let doubts = of_doubts(&stenosis.doubts).into_iter().map(|words| sentence(Kind::Doubt, &words));
+            let group = group.iter().map(|group| sentence(Kind::Remark, &format!("Severity group: {group}")));
+            [sentence(Kind::Finding, &of_stenosis(stenosis))].into_iter().chain(doubts).chain(group).collect()
         }
         None if !lengths.diameters.is_empty() => Vec::new(),
-        None => {
-            not_suggested(measured.profile, None, &[]).iter().map(|words| told(Kind::Remark, words)).collect()
-        }
+        None => not_suggested(measured.profile, None, &[])
+            .iter()
+            .map(|words| sentence(Kind::Remark, words))
+            .collect(),
     };
-    let parts = not_measured(measured.profile).into_iter().map(|part| told(Kind::Doubt, &part.words));
+    let parts = not_measured(measured.profile).into_iter().map(|part| sentence(Kind::Doubt, &part.words));
     let noted = lengths.diameters.iter().filter_map(|at| noted(stated, measured.profile, *at));
     let noted = noted.map(|words| Sentence { kind: Kind::Finding, words });
     let stretches = stretch_words(stated, measured.profile, &lengths.stretches).into_iter();
@@ -58,7 +53,7 @@ pub fn sentences(stated: Stated, measured: &Measured, lengths: &Lengths) -> Vec<
     graded.into_iter().chain(noted).chain(parts).chain(stretches).collect()
 }
 
-/// A diameter that a reader noted, with what its flags say of it; None where nothing was measured.
+/// A noted diameter with its flags; None without a measurement.
 fn noted(stated: Stated, profile: &Profile, at: f64) -> Option<String> {
     let (diameter, uncertainty) = profile.diameter_at(at).ok()?;
     let n = profile.nearest_section(at);
@@ -73,15 +68,14 @@ fn noted(stated: Stated, profile: &Profile, at: f64) -> Option<String> {
     ))
 }
 
-/// Straight distances (mm) that a reader measured anywhere in the scan, a sentence each.
-pub fn distances(stated: Stated, lengths: &[f64]) -> Vec<String> {
+/// Straight distances (mm), one sentence each.
+pub(crate) fn distances(stated: Stated, lengths: &[f64]) -> Vec<String> {
     let numbered = lengths.iter().enumerate();
     numbered
         .map(|(n, length)| format!("Straight distance {}: {}", n + 1, stated.length(*length, 1)))
         .collect()
 }
 
-/// What was found on a vessel, a paragraph each.
 pub(super) fn findings(shown: &Shown, vessel: &VesselPage) -> String {
     let of_vessel = sentences(shown.stated, &vessel.measured, &vessel.lengths);
     let paragraphs = of_vessel.iter().map(|Sentence { kind, words }| match kind {
@@ -93,7 +87,6 @@ pub(super) fn findings(shown: &Shown, vessel: &VesselPage) -> String {
     paragraphs.chain(beside.iter().map(|words| paragraph("", words))).collect()
 }
 
-/// Stretches with their C-arms, and the angle between them.
 fn stretch_words(stated: Stated, profile: &Profile, stretches: &[[f64; 2]]) -> Vec<String> {
     let mut words: Vec<String> =
         stretches.iter().filter_map(|ends| stretch(stated, profile, *ends)).collect();
@@ -105,7 +98,7 @@ fn stretch_words(stated: Stated, profile: &Profile, stretches: &[[f64; 2]]) -> V
     words
 }
 
-/// A stretch in a sentence; None where its ends are not on the vessel.
+/// A stretch in a sentence; None if its ends are not on the vessel.
 fn stretch(stated: Stated, profile: &Profile, ends: [f64; 2]) -> Option<String> {
     let found = profile.stretch(ends).ok()?;
     let arm = profile.c_arm(ends, None).ok().filter(|_| stated.has_orientation);

@@ -1,9 +1,8 @@
-//! Pieces of HTML: what a host or a file told is escaped, and pictures are part of the page.
+//! HTML fragments: texts are escaped, pictures embedded.
 
 use lumencut_core::error::{Error, ErrorKind, Result};
 
-/// A text that stands in HTML as it is.
-pub fn escaped(text: &str) -> String {
+pub(super) fn escaped(text: &str) -> String {
     let mut safe = String::with_capacity(text.len());
     for letter in text.chars() {
         match letter {
@@ -18,17 +17,13 @@ pub fn escaped(text: &str) -> String {
     safe
 }
 
-/// The paragraph of a text.
-pub fn paragraph(class: &str, text: &str) -> String {
+pub(super) fn paragraph(class: &str, text: &str) -> String {
     let class = if class.is_empty() { String::new() } else { format!(" class=\"{class}\"") };
     format!("<p{class}>{}</p>\n", escaped(text))
 }
 
-/// The address of a PNG that is given in base64: the picture itself.
-///
-/// # Errors
-/// [`ErrorKind::Settings`] for a text that is not base64.
-pub fn png_address(base64: &str) -> Result<String> {
+/// A data URL of a base64 PNG.
+pub(super) fn png_address(base64: &str) -> Result<String> {
     let is_known = |letter: u8| letter.is_ascii_alphanumeric() || b"+/=".contains(&letter);
     if base64.is_empty() || !base64.bytes().all(is_known) {
         let found = format!("{} letters that are not base64", base64.len());
@@ -37,11 +32,7 @@ pub fn png_address(base64: &str) -> Result<String> {
     Ok(format!("data:image/png;base64,{base64}"))
 }
 
-/// A picture with what it shows.
-///
-/// # Errors
-/// As [`png_address`].
-pub fn figure(base64: &str, words: &str) -> Result<String> {
+pub(super) fn figure(base64: &str, words: &str) -> Result<String> {
     let (address, words) = (png_address(base64)?, escaped(words));
     Ok(format!("<figure><img src=\"{address}\" alt=\"{words}\"><figcaption>{words}</figcaption></figure>\n"))
 }

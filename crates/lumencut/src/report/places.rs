@@ -1,4 +1,4 @@
-//! The places of a vessel that a report shows: what a reader marked, and apart from it what is only offered.
+//! The places that a report shows: marks, and suggestions separately.
 
 use lumencut_vessels::measure::profile::Profile;
 use serde::Serialize;
@@ -9,23 +9,21 @@ use crate::measure_words::{of_bounds, of_flags};
 use crate::profile_marks::{Mark, NOTED};
 use crate::text::fixed;
 
-/// What the places are called that a stenosis is compared with.
 const REFERENCE: &str = "reference";
 
-/// The colours of the place of a stenosis, of its references and of noted diameters, `#rrggbb`: those of the handles over pictures.
+/// Colours of the stenosis, its references and noted diameters, as the handles in pictures.
 const COLORS: [&str; 3] = ["#ff6b6b", "#7ee787", "#79c0ff"];
 
-/// What stands where there is no number.
-const NOTHING: &str = "–";
+const MISSING: &str = "–";
 
-/// A marked or suggested place, as [`crate::profile_marks::marks`] gives it.
+/// A place from [`crate::profile_marks::marks`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct ReportMark {
-    /// What it is: `marked place`, `narrowest place`, `reference` or `noted diameter`.
+    /// `marked place`, `narrowest place`, `reference` or `noted diameter`.
     pub name: String,
-    /// Its arc length (mm).
+    /// Arc length (mm).
     pub at: f64,
-    /// Whether it is offered; a reader marked it otherwise.
+    /// Suggested, not marked.
     pub is_suggestion: bool,
 }
 
@@ -38,36 +36,35 @@ impl From<&Mark> for ReportMark {
 /// A place with its name and colour.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename = "ReportPlace"))]
-pub struct Place {
+pub struct ReportPlace {
     /// Such as `marked place` or `reference before (suggestion)`.
     pub name: String,
-    /// Its arc length (mm).
+    /// Arc length (mm).
     pub at: f64,
-    /// Whether it is offered; a reader marked it otherwise.
+    /// Suggested, not marked.
     pub is_suggestion: bool,
-    /// Whether it is compared with the place of a stenosis.
-    pub is_reference: bool,
+    /// Whether it is a reference of the stenosis.
+    pub(crate) is_reference: bool,
 }
 
-impl Place {
-    /// Its colour, `#rrggbb`.
+impl ReportPlace {
+    /// `#rrggbb`.
     pub fn color(&self) -> &'static str {
         COLORS[self.rank()]
     }
 
-    /// 0 for the place of a stenosis, 1 for its references, 2 for noted diameters: in this order they are listed.
+    /// Sort key: 0 stenosis, 1 references, 2 noted diameters.
     fn rank(&self) -> usize {
         if self.is_reference { 1 } else { 2 * usize::from(self.name == NOTED) }
     }
 
-    /// Its name and where it is.
-    pub fn caption(&self, unit: &str) -> String {
+    pub(crate) fn caption(&self, unit: &str) -> String {
         format!("{} at {}{unit}", self.name, fixed(self.at, 1))
     }
 }
 
-/// The places of marks: references say on which side of the first place they lie.
-pub fn places(marks: &[ReportMark]) -> Vec<Place> {
+/// The places of marks; references are named by their side of the first place.
+pub(super) fn places(marks: &[ReportMark]) -> Vec<ReportPlace> {
     let is_main = |mark: &&ReportMark| mark.name != REFERENCE && mark.name != NOTED;
     let main = marks.iter().find(is_main).map(|mark| mark.at);
     let named = |mark: &ReportMark| {
@@ -78,32 +75,30 @@ pub fn places(marks: &[ReportMark]) -> Vec<Place> {
         };
         let offered = if mark.is_suggestion { " (suggestion)" } else { "" };
         let name = format!("{}{side}{offered}", mark.name);
-        Place { name, at: mark.at, is_suggestion: mark.is_suggestion, is_reference }
+        ReportPlace { name, at: mark.at, is_suggestion: mark.is_suggestion, is_reference }
     };
-    // The place of a stenosis first, then its references along the vessel: a few, for which a sort would be more code than they are worth.
-    let order = |place: &Place| (place.rank(), place.at);
-    let mut found: Vec<Place> = Vec::new();
+    // Insertion into a short list: less code than a sort.
+    let order = |place: &ReportPlace| (place.rank(), place.at);
+    let mut found: Vec<ReportPlace> = Vec::new();
     for place in marks.iter().map(named) {
         found.insert(found.partition_point(|other| order(other) <= order(&place)), place);
     }
     found
 }
 
-/// A line of the table: the numbers of the section that is nearest to a place.
-pub fn row(profile: &Profile, place: &Place, shown: &Shown) -> String {
+pub(super) fn row(profile: &Profile, place: &ReportPlace, shown: &Shown) -> String {
     let dot = format!("<span style=\"color: {}\">●</span> ", place.color());
     numbers(profile, &format!("{dot}{}", escaped(&place.name)), place.at, shown)
 }
 
-/// The line of the place of the longest diameter, which nobody marked.
-pub fn widest_row(profile: &Profile, at: f64, shown: &Shown) -> String {
+pub(super) fn widest_row(profile: &Profile, at: f64, shown: &Shown) -> String {
     numbers(profile, "longest diameter (suggestion)", at, shown)
 }
 
 fn numbers(profile: &Profile, name: &str, at: f64, shown: &Shown) -> String {
     let n = profile.nearest_section(at);
     let number = |value: f64, decimals| {
-        if value.is_finite() { fixed(value, decimals) } else { NOTHING.to_owned() }
+        if value.is_finite() { fixed(value, decimals) } else { MISSING.to_owned() }
     };
     let diameter = 2.0 * (profile.area[n] / std::f64::consts::PI).sqrt();
     let cells = [
@@ -114,14 +109,14 @@ fn numbers(profile: &Profile, name: &str, at: f64, shown: &Shown) -> String {
         number(profile.area[n], 1),
     ];
     let cells: String = cells.iter().map(|text| format!("<td>{text}</td>")).collect();
-    let bounds = of_bounds(profile.bounds[n]).map(|words| shown.stated.spoken(&words));
+    let bounds = of_bounds(profile.bounds[n]).map(|words| shown.stated.with_units(&words));
     let flags = of_flags(profile.flags[n]).into_iter().chain(bounds).collect::<Vec<_>>().join(", ");
     let flags = if flags.is_empty() { "none" } else { &flags };
     format!("<tr><td>{name}</td>{cells}<td class=\"words\">{flags}</td></tr>\n")
 }
 
-/// A table of lines; lengths have no unit where none is known.
-pub fn table(rows: &[String], has_units: bool) -> String {
+/// A table; lengths without unit if it is unknown.
+pub(super) fn table(rows: &[String], has_units: bool) -> String {
     let [mm, square] = if has_units { [" (mm)", " (mm²)"] } else { [""; 2] };
     let heads = ["arc length", "diameter ± 1 SD", "shortest", "longest"].map(|name| format!("{name}{mm}"));
     let heads: String =

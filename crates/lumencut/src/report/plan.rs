@@ -1,58 +1,58 @@
-//! The pictures of a vessel that a report asks its host for.
+//! The pictures that a report requests from its host.
 
 use lumencut_core::math::statistics::quantile;
 use lumencut_vessels::measure::profile::Profile;
 use serde::Serialize;
 
-use super::places::{Place, ReportMark, places};
+use super::places::{ReportMark, ReportPlace, places};
 use super::plot::{STRIP, axis_along};
 
-/// A picture of a section is this many times as wide as the lumen, and within these sides (mm); this wide where nothing is known.
-const ROOM: f64 = 2.5;
-const SIDES: [f64; 2] = [12.0, 120.0];
-const UNKNOWN: f64 = 30.0;
+/// The side of a section picture: this many lumen diameters, within these bounds (mm), or this default.
+const SECTION_DIAMETERS: f64 = 2.5;
+const SECTION_SIDES_MM: [f64; 2] = [12.0, 120.0];
+const DEFAULT_SIDE_MM: f64 = 30.0;
 
-/// This share of the sections that count has room in the pictures.
-const FITTING: f64 = 0.9;
+/// The quantile of sections that fit the pictures.
+const FITTING_QUANTILE: f64 = 0.9;
 
-/// Of a short vessel less of its surroundings is shown, so that it is not drawn flat, but at least this share of the side of
-/// the pictures of sections; and the narrowest and the widest strip (mm).
-const LEAST: f64 = 0.6;
-const WIDTHS: [f64; 2] = [12.0, 90.0];
+/// The strip of a short vessel is narrower, so that it is not flat, but at least this fraction of the section pictures; and its
+/// bounds (mm).
+const MIN_STRIP_RATIO: f64 = 0.6;
+const STRIP_WIDTHS_MM: [f64; 2] = [12.0, 90.0];
 
-/// Pixels of the straightened vessel in one of the plot, and the finest one (mm).
-const DENSITY: f64 = 1.6;
-const FINEST: f64 = 0.05;
+/// Pixels of the strip per plot pixel, and the finest pixel side (mm).
+const PIXELS_PER_PLOT_PIXEL: f64 = 1.6;
+const MIN_PIXEL_MM: f64 = 0.05;
 
 /// The pictures of a vessel.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename = "ReportPlan"))]
 pub struct Plan {
-    /// The width of the straightened vessel across it (mm); a host shows less where the volume has less.
+    /// The width of the straightened vessel (mm); a host shows less if the volume has less.
     pub width: f64,
-    /// The side of its pixels (mm).
+    /// Its pixel side (mm).
     pub spacing: f64,
-    /// The places whose sections are shown, in this order.
-    pub places: Vec<Place>,
-    /// The side of the pictures of sections (mm).
+    /// The places of the section pictures, in order.
+    pub places: Vec<ReportPlace>,
+    /// The side of the section pictures (mm).
     pub side: f64,
 }
 
-/// What a report of a vessel with these places shows.
+/// The pictures for a vessel with these marks.
 pub fn plan(profile: &Profile, marks: &[ReportMark]) -> Plan {
     let x = axis_along(profile.length());
     let pixel = profile.length() / (x.end - x.start);
     let side = fitting_side(profile);
-    let wished = (STRIP * pixel).min(side).max(LEAST * side);
+    let wished = (STRIP * pixel).min(side).max(MIN_STRIP_RATIO * side);
     Plan {
-        width: wished.clamp(WIDTHS[0], WIDTHS[1]),
-        spacing: (pixel / DENSITY).max(FINEST),
+        width: wished.clamp(STRIP_WIDTHS_MM[0], STRIP_WIDTHS_MM[1]),
+        spacing: (pixel / PIXELS_PER_PLOT_PIXEL).max(MIN_PIXEL_MM),
         places: places(marks),
         side,
     }
 }
 
-/// The side of pictures in which nearly all sections that count have room (mm).
+/// The side that fits nearly all counting sections (mm).
 fn fitting_side(profile: &Profile) -> f64 {
     let wide = |is_among: &dyn Fn(usize) -> bool| -> Vec<f64> {
         let among = (0..profile.len()).filter(|n| is_among(*n)).map(|n| profile.diameter_max[n]);
@@ -62,6 +62,6 @@ fn fitting_side(profile: &Profile) -> f64 {
     if diameters.is_empty() {
         diameters = wide(&|_| true);
     }
-    let fitting = quantile(&mut diameters, FITTING).map(|wide| (ROOM * wide).ceil());
-    fitting.map_or(UNKNOWN, |side| side.clamp(SIDES[0], SIDES[1]))
+    let fitting = quantile(&mut diameters, FITTING_QUANTILE).map(|wide| (SECTION_DIAMETERS * wide).ceil());
+    fitting.map_or(DEFAULT_SIDE_MM, |side| side.clamp(SECTION_SIDES_MM[0], SECTION_SIDES_MM[1]))
 }

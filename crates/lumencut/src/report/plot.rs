@@ -1,4 +1,4 @@
-//! The profile of a vessel as an SVG below the straightened vessel, which lies on the same axis.
+//! The profile of a vessel as SVG, below the straightened vessel on the same axis.
 
 use std::f64::consts::PI;
 use std::fmt::Write;
@@ -6,88 +6,76 @@ use std::fmt::Write;
 use lumencut_core::error::Result;
 use lumencut_vessels::measure::profile::Profile;
 
-use super::curves::{Axes, band, line, lonely, runs};
+use super::curves::{Axes, band, isolated, line, runs};
 use super::markup::png_address;
-use super::places::Place;
+use super::places::ReportPlace;
 use super::scale::Axis;
 use super::{Strip, flag_rows};
 use crate::flag_table::FlagLook;
 use crate::text::{fixed, rounded};
 
-/// The width of the plot and the heights of its parts (pixels of its own): the chart, and the straightened vessel at most.
+/// Plot width, and heights of the chart and (at most) of the straightened vessel (plot pixels).
 const WIDTH: f64 = 1000.0;
 const CHART: f64 = 270.0;
 pub(super) const STRIP: f64 = 150.0;
 
-/// Room for the numbers at the left, for words at the right, for the legend above and for the ticks below.
-const LEFT: f64 = 56.0;
-const RIGHT: f64 = 104.0;
-const ABOVE: f64 = 38.0;
-const BELOW: f64 = 34.0;
+/// Margins for axis numbers, words, legend and ticks.
+const LEFT_MARGIN: f64 = 56.0;
+const RIGHT_MARGIN: f64 = 104.0;
+const TOP_MARGIN: f64 = 38.0;
+const BOTTOM_MARGIN: f64 = 34.0;
 
-/// The height of a row of flags; all rows take no more than this share of the height.
-const ROW: f64 = 12.0;
-const MOST_ROWS: f64 = 0.45;
+/// Height of a flag row, and the largest share of all rows.
+const ROW_HEIGHT: f64 = 12.0;
+const MAX_ROWS_SHARE: f64 = 0.45;
 
-/// The number of standard deviations that the band reaches to both sides.
+/// Half width of the uncertainty band, in standard deviations.
 const DEVIATIONS: f64 = 2.0;
 
-/// The largest diameter takes this share more.
-const ROOM: f64 = 1.12;
+const HEADROOM: f64 = 1.12;
 
-/// A diameter below this multiple of the point spread's width is at the limit.
-const LIMIT: f64 = 1.5;
+/// Diameters below this many FWHM are near the resolution limit.
+const RESOLUTION_LIMIT_FWHM: f64 = 1.5;
 
 const CURVE: &str = "#1f4e9c";
 const LEFT_OUT: &str = "#808080";
 const QUIET: &str = "#444444";
 const OUTLINE: &str = "#222222";
 
-/// What is drawn.
-pub struct Plot<'a> {
-    /// The sections.
+pub(super) struct Plot<'a> {
     pub profile: &'a Profile,
-    /// Marked and suggested places.
-    pub places: &'a [Place],
-    /// The straightened vessel.
+    pub places: &'a [ReportPlace],
     pub strip: Option<&'a Strip>,
-    /// Whether lengths are known in mm.
+    /// Whether the unit of lengths is known.
     pub has_units: bool,
 }
 
-/// Where things lie.
 struct Layout {
     axes: Axes,
-    /// The flags that are set somewhere.
     flags: Vec<&'static FlagLook>,
-    /// The height of the row of a flag, the first of which begins where the diameter is 0.
+    /// Height of a flag row; the first begins at diameter 0.
     row: f64,
-    /// Where the chart ends below the rows.
     bottom: f64,
 }
 
 /// The axis along a vessel of this length (mm).
-pub fn axis_along(length: f64) -> Axis {
-    Axis { low: 0.0, high: length, start: LEFT, end: WIDTH - RIGHT }
+pub(super) fn axis_along(length: f64) -> Axis {
+    Axis { low: 0.0, high: length, start: LEFT_MARGIN, end: WIDTH - RIGHT_MARGIN }
 }
 
 impl Layout {
     fn of(profile: &Profile) -> Self {
         let flags = flag_rows(profile);
-        let bottom = CHART - BELOW;
-        let row = ROW.min(MOST_ROWS * (bottom - ABOVE) / flags.len().max(1) as f64);
+        let bottom = CHART - BOTTOM_MARGIN;
+        let row = ROW_HEIGHT.min(MAX_ROWS_SHARE * (bottom - TOP_MARGIN) / flags.len().max(1) as f64);
         let start = bottom - row * flags.len() as f64;
-        let y = Axis { low: 0.0, high: top(profile), start, end: ABOVE };
+        let y = Axis { low: 0.0, high: top(profile), start, end: TOP_MARGIN };
         Self { axes: Axes { x: axis_along(profile.length()), y }, flags, row, bottom }
     }
 }
 
 impl Plot<'_> {
-    /// The markup of the plot.
-    ///
-    /// # Errors
-    /// Where the picture of the vessel is not base64.
-    pub fn svg(&self) -> Result<String> {
+    pub(super) fn svg(&self) -> Result<String> {
         let layout = Layout::of(self.profile);
         let (strip, top) = self.strip_markup(&layout.axes.x)?;
         let mut svg = format!(
@@ -108,13 +96,12 @@ impl Plot<'_> {
         Ok(svg)
     }
 
-    /// The straightened vessel, and its height.
     fn strip_markup(&self, x: &Axis) -> Result<(String, f64)> {
         let Some(strip) = self.strip else { return Ok((String::new(), 0.0)) };
         let per_mm = (x.end - x.start) / (x.high - x.low);
         let [columns, rows] = strip.size.map(|count| count as f64 * strip.spacing * per_mm);
         let height = rows.min(STRIP);
-        // The middle of the first column is at the beginning of the vessel.
+        // The vessel begins in the middle of the first column.
         let left = x.start - strip.spacing * per_mm / 2.0;
         let address = png_address(&strip.picture)?;
         let mut markup = format!(
@@ -186,7 +173,7 @@ impl Plot<'_> {
         let width = counted(&all);
         let spread = |sign: f64| -> Vec<f64> {
             let away = |n: usize| width[n] + sign * DEVIATIONS * profile.uncertainty[n];
-            // What is not a number stays so.
+            // NaN stays NaN.
             (0..width.len()).map(away).map(|edge| if edge < 0.0 { 0.0 } else { edge }).collect()
         };
         let range = band(axes, at, &counted(&profile.diameter_min), &counted(&profile.diameter_max));
@@ -199,7 +186,7 @@ impl Plot<'_> {
                  <path class=\"width\" d=\"{curve}\" fill=\"none\" stroke=\"{CURVE}\" stroke-width=\"1.6\"/>\n"
             ),
         );
-        for n in lonely(&width) {
+        for n in isolated(&width) {
             push_dot(svg, [axes.x.pixel(at[n]), axes.y.pixel(width[n])], &format!("fill=\"{CURVE}\""));
         }
         let is_left_out = |n: &usize| !profile.counts(*n) && all[*n] <= axes.y.high;
@@ -210,9 +197,8 @@ impl Plot<'_> {
         self.push_limit(svg, axes);
     }
 
-    /// The line below which little is left of a diameter in the picture.
     fn push_limit(&self, svg: &mut String, axes: &Axes) {
-        let limit = LIMIT * self.profile.fwhm;
+        let limit = RESOLUTION_LIMIT_FWHM * self.profile.fwhm;
         if limit < axes.y.high {
             let (at, unit) = (axes.y.pixel(limit), if self.has_units { " mm" } else { "" });
             push(
@@ -220,7 +206,7 @@ impl Plot<'_> {
                 format_args!(
                     "<path class=\"limit\" d=\"M{} {at:.2}H{}\" stroke=\"{LEFT_OUT}\" \
                      stroke-dasharray=\"1.5 3\"/><text x=\"{}\" y=\"{:.2}\" text-anchor=\"end\" \
-                     fill=\"{QUIET}\">{LIMIT} × FWHM: {}{unit}</text>\n",
+                     fill=\"{QUIET}\">{RESOLUTION_LIMIT_FWHM} × FWHM: {}{unit}</text>\n",
                     axes.x.start,
                     axes.x.end,
                     axes.x.end - 4.0,
@@ -231,7 +217,6 @@ impl Plot<'_> {
         }
     }
 
-    /// A row for each flag that is set somewhere. Stretches begin half a step before their first section.
     fn push_flags(&self, svg: &mut String, layout: &Layout) {
         let (Axes { x, y }, row) = (layout.axes, layout.row);
         let (at, flags) = (&self.profile.arc_length, &self.profile.flags);
@@ -266,7 +251,7 @@ impl Plot<'_> {
         }
     }
 
-    fn push_place(&self, svg: &mut String, layout: &Layout, place: &Place, top: f64) {
+    fn push_place(&self, svg: &mut String, layout: &Layout, place: &ReportPlace, top: f64) {
         let Axes { x, y } = layout.axes;
         let area = self.profile.area[self.profile.nearest_section(place.at)];
         let diameter = if area.is_finite() { 2.0 * (area / PI).sqrt() } else { 0.0 };
@@ -284,8 +269,8 @@ impl Plot<'_> {
             format_args!(
                 "<g class=\"place\" stroke=\"{OUTLINE}\" fill=\"{fill}\"><path d=\"M{column:.2} 0V{top:.2}M{column:.2} {:.2}V{:.2}\" \
                  stroke=\"{color}\" stroke-width=\"1.4\"{dashes}/><path d=\"{symbol}\"/></g>\n",
-                // The words between the vessel and the chart stay free.
-                top + ABOVE,
+                // Keeps the words between vessel and chart clear.
+                top + TOP_MARGIN,
                 top + layout.bottom
             ),
         );
@@ -296,7 +281,7 @@ fn push_legend(svg: &mut String) {
     push(
         svg,
         format_args!(
-            "<g class=\"legend\" fill=\"{QUIET}\" transform=\"translate({LEFT} 12)\">\
+            "<g class=\"legend\" fill=\"{QUIET}\" transform=\"translate({LEFT_MARGIN} 12)\">\
              <path d=\"M0 -3H18\" stroke=\"{CURVE}\" stroke-width=\"1.6\"/>\
              <text x=\"23\">diameter of a circle of the same area</text>\
              <rect x=\"238\" y=\"-8\" width=\"18\" height=\"9\" fill=\"{CURVE}\" fill-opacity=\"0.4\"/>\
@@ -304,7 +289,7 @@ fn push_legend(svg: &mut String) {
              <rect x=\"404\" y=\"-8\" width=\"18\" height=\"9\" fill=\"{CURVE}\" fill-opacity=\"0.16\"/>\
              <text x=\"427\">shortest to longest</text>\
              <circle cx=\"549\" cy=\"-4\" r=\"2.5\" fill=\"none\" stroke=\"{LEFT_OUT}\"/>\
-             <text x=\"556\">left out: see the flags</text></g>\n"
+             <text x=\"556\">excluded: see the flags</text></g>\n"
         ),
     );
 }
@@ -318,7 +303,7 @@ fn push(svg: &mut String, markup: std::fmt::Arguments) {
     let _ = svg.write_fmt(markup);
 }
 
-/// The largest diameter (mm) that has room: that of the sections that count, or of all where none does.
+/// The top of the chart (mm): the largest diameter of counting sections, else of all.
 fn top(profile: &Profile) -> f64 {
     let widest = |is_among: &dyn Fn(usize) -> bool| {
         let among = (0..profile.len()).filter(|n| is_among(*n)).map(|n| profile.diameter_max[n]);
@@ -326,5 +311,5 @@ fn top(profile: &Profile) -> f64 {
     };
     let counted = widest(&|n| profile.counts(n));
     let most = if counted > 0.0 { counted } else { widest(&|_| true) };
-    if most > 0.0 { ROOM * most } else { 1.0 }
+    if most > 0.0 { HEADROOM * most } else { 1.0 }
 }

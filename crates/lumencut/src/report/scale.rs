@@ -1,32 +1,25 @@
-//! The way from lengths to pixels of a plot, and where an axis has its ticks.
+//! Maps lengths to plot pixels, and places the ticks of an axis.
 
-/// A straight axis: `low` lies at the pixel `start`, `high` at `end`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Axis {
-    /// The length at the beginning.
+pub(super) struct Axis {
     pub low: f64,
-    /// The length at the end.
     pub high: f64,
-    /// The pixel of the beginning.
     pub start: f64,
-    /// The pixel of the end.
     pub end: f64,
 }
 
 impl Axis {
-    /// The pixel of a length.
-    pub fn pixel(&self, value: f64) -> f64 {
+    pub(super) fn pixel(&self, value: f64) -> f64 {
         self.start + (value - self.low) / (self.high - self.low) * (self.end - self.start)
     }
 
-    /// The pixel of a length, no farther than both ends.
-    pub fn pixel_within(&self, value: f64) -> f64 {
+    /// The pixel of a length, clamped to the axis.
+    pub(super) fn pixel_within(&self, value: f64) -> f64 {
         self.pixel(value.clamp(self.low, self.high))
     }
 
-    /// Multiples of 1, 2 or 5 times a power of ten with at least this number of pixels between them; none on an axis without
-    /// length.
-    pub fn ticks(&self, pixels: f64) -> Vec<f64> {
+    /// Multiples of 1, 2 or 5 times a power of ten, at least `pixels` apart; none on an empty axis.
+    pub(super) fn ticks(&self, pixels: f64) -> Vec<f64> {
         let span = self.high - self.low;
         let most = (self.end - self.start).abs() / pixels;
         if !(span > 0.0 && most >= 1.0) {

@@ -1,9 +1,9 @@
-//! What a viewer shows after an edit, in one answer: the vessels, their lines, what is known of them, and what lies where it was made.
+//! The viewer's state after an edit, in one answer: vessels, lines, facts, and what lies at the edited place.
 
 use serde::Serialize;
 
 use crate::study::content::Report;
-use crate::study::document::{Document, DocumentVessel, Place};
+use crate::study::document::{Document, DocumentVessel, WorldPoint};
 use crate::study::edits::{Edit, EditMessage, Edited};
 use crate::study::failure::Result;
 use crate::study::line_facts::LineFacts;
@@ -13,48 +13,38 @@ use crate::study::picking::Pick;
 use crate::study::tracing::Watch;
 use crate::study::whole_vessel::WholeVessel;
 
-/// An edit that was made, and what is shown after it.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct AfterEdit {
-    /// What came of it.
-    pub edited: Edited,
-    /// What is open now: the vessels of the document that are not doubtful are shown, as `show` shows them.
-    pub report: Report,
-    /// The lines that came to the document.
+pub(crate) struct AfterEdit {
+    pub(crate) edited: Edited,
+    /// The state: shows the vessels of the document that are not doubtful.
+    pub(crate) report: Report,
+    /// Lines that are new in the document.
     pub lines: Vec<NumberedLine>,
-    /// What is known of the lines that are not doubtful, as `line_facts` tells it.
-    pub facts: Vec<LineFacts>,
-    /// What lies where the edit was made; none of an edit that has no place.
-    pub pick: Option<Pick>,
+    /// Facts about the lines that are not doubtful.
+    pub(crate) facts: Vec<LineFacts>,
+    /// What lies at the edited place, if the edit has one.
+    pub(crate) pick: Option<Pick>,
 }
 
-/// A line with its number.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct NumberedLine {
-    /// Its number.
+pub(crate) struct NumberedLine {
     pub line: usize,
-    /// Its content.
     pub content: LineContent,
 }
 
-/// What a first click of a vessel hit.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct FirstClick {
-    /// What lies there.
-    pub pick: Pick,
-    /// The whole vessel that it would add, as `whole_vessel` tells it.
+pub(crate) struct FirstClick {
+    pub(crate) pick: Pick,
+    /// The whole vessel that it would add.
     pub whole: Option<WholeVessel>,
 }
 
 impl Study {
-    /// Makes an edit and shows the document after it.
-    ///
-    /// # Errors
-    /// Those of [`Study::edit`] and [`Study::show`]; what was shown stays then.
-    pub fn edit_and_show(&mut self, message: &EditMessage, watch: Watch) -> Result<AfterEdit> {
+    /// Makes an edit and shows the document after it; an error leaves the view unchanged.
+    pub(crate) fn edit_and_show(&mut self, message: &EditMessage, watch: Watch) -> Result<AfterEdit> {
         let edited = self.edit(message, watch)?;
         let listed = listed(&edited.document);
         self.show(&listed)?;
@@ -68,17 +58,13 @@ impl Study {
         Ok(AfterEdit { report: self.report()?, lines, facts, pick, edited })
     }
 
-    /// What a first click hit, and the whole vessel that it would add beside the vessels of a list.
-    ///
-    /// # Errors
-    /// Those of [`Study::check_click`] and [`Study::whole_vessel`].
-    pub fn first_click(&self, click: Place, vessels: &[DocumentVessel]) -> Result<FirstClick> {
+    pub(crate) fn first_click(&self, click: WorldPoint, vessels: &[DocumentVessel]) -> Result<FirstClick> {
         self.check_click(click)?;
         Ok(FirstClick { pick: self.at(click), whole: self.whole_vessel(click, vessels)? })
     }
 }
 
-/// The vessels of a document as they are shown: without those that are doubtful.
+/// The vessels to show: those that are not doubtful.
 fn listed(document: &Document) -> Vec<ListedLine> {
     let of = |vessel: &DocumentVessel| ListedLine {
         line: vessel.line,
@@ -88,8 +74,8 @@ fn listed(document: &Document) -> Vec<ListedLine> {
     document.vessels.iter().filter(|vessel| vessel.is_sure()).map(of).collect()
 }
 
-/// Where an edit is made: the click that it sets or moves, its seed or its stopper.
-fn place(edit: &Edit) -> Option<Place> {
+/// The place of an edit: its click, seed or stopper.
+fn place(edit: &Edit) -> Option<WorldPoint> {
     match edit {
         Edit::BeginVessel { clicks } => clicks.last().copied(),
         Edit::AddClick { point: place, .. }

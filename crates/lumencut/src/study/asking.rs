@@ -1,5 +1,5 @@
-//! How a viewer asks the study: every question has a name, a message and an answer, all three in one table
-//! ([`crate::study::questions`]), of which the types of the page are written.
+//! The interface of a viewer to the study: named questions with message and answer, in one table ([`crate::study::questions`])
+//! that also generates the page's types.
 
 use serde::{Deserialize, Serialize};
 
@@ -8,56 +8,52 @@ use crate::study::open_study::Picture;
 use crate::study::reformed::ReformedPicture;
 use crate::study::tracing::Watch;
 
-/// When a question is answered, where a viewer has one thread for its study.
+/// When a viewer with one thread answers a question.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Turn {
-    /// The user waits for it: the view under way gives way.
+    /// At once: interrupts the view in progress.
     First,
-    /// As [`Turn::First`], and it takes a while: a cancellation stops it, also before it begins, and these words say what is done.
+    /// As [`Turn::First`] for long work: it can be cancelled, even before it starts. The words name the work.
     Long(&'static str),
-    /// After the view under way.
+    /// After the view in progress.
     Later,
-    /// At once, beside whatever is under way: it asks nothing of the study.
+    /// Immediately, without the study.
     AtOnce,
 }
 
-/// What comes with a message.
+/// The input of a question.
 #[derive(Clone, Copy)]
 pub struct Asking<'a> {
     /// The message as JSON.
     pub message: &'a str,
-    /// The bytes of a file; empty for questions that take none.
+    /// The bytes of a file, or empty.
     pub bytes: &'a [u8],
-    /// Whether to stop, and how far the work is.
+    /// Stop and progress.
     pub watch: Watch<'a>,
     /// A clock (ms).
     pub clock: &'a (dyn Fn() -> f64 + Sync),
 }
 
-/// An answer.
+/// The answer to a question.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Answer {
     /// As JSON.
     pub json: String,
-    /// Bytes beside the JSON, as those of a picture: the field `bytes` of the answer.
+    /// Binary content, such as a picture: the answer's field `bytes`.
     pub bytes: Option<Vec<u8>>,
 }
 
-/// The bytes of a file that is written.
+/// The bytes of a written file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub struct WrittenFile {
-    /// All of them.
+    /// The content.
     #[cfg_attr(test, ts(type = "Bytes"))]
     pub bytes: Vec<u8>,
 }
 
-/// What can be an answer.
+/// A type that can be sent as an answer.
 pub(crate) trait Answering {
-    /// As it is sent.
-    ///
-    /// # Errors
-    /// `settings` for what JSON cannot hold.
     fn sent(self) -> Result<Answer>;
 }
 
@@ -77,8 +73,8 @@ impl Answering for Picture {
 impl Answering for ReformedPicture {
     fn sent(self) -> Result<Answer> {
         let Self { size, bytes, words, pixel_spacing, marks } = self;
-        let told = serde_json::json!({ "size": size, "words": words, "pixel_spacing": pixel_spacing, "marks": marks });
-        Ok(Answer { json: as_json(&told)?, bytes: Some(bytes) })
+        let content = serde_json::json!({ "size": size, "words": words, "pixel_spacing": pixel_spacing, "marks": marks });
+        Ok(Answer { json: as_json(&content)?, bytes: Some(bytes) })
     }
 }
 
@@ -92,18 +88,13 @@ fn as_json(value: &impl Serialize) -> Result<String> {
     serde_json::to_string(value).map_err(|error| Failure::of_message("answer", &error, "JSON"))
 }
 
-/// The message of a question.
-///
-/// # Errors
-/// `settings` for a text that is not its message.
 pub(crate) fn read<'a, T: Deserialize<'a>>(question: &str, text: &'a str) -> Result<T> {
     let subject = format!("message of the question {question}");
     serde_json::from_str(text).map_err(|error| Failure::of_message(&subject, &error, "JSON of its type"))
 }
 
-/// Declares the table of questions, a row for each: what it answers, when, its name, its message (`(name: Type)` for all of it, or
-/// `{ name: Type, … }` for its fields), the type of the answer, and how it is answered. A row sees the study and the asking by the
-/// names at the head of the table; `?` ends it with an error. Rows under `at_once` see neither.
+/// Declares the table of questions. Each row has doc, turn, name, message (`(name: Type)` or `{ name: Type, … }`), answer type
+/// and body. Bodies see the study and the asking under the names given first, and may use `?`; rows under `at_once` see neither.
 macro_rules! questions {
     (
         |$study:ident, $asking:ident|
@@ -114,10 +105,10 @@ macro_rules! questions {
         $( questions!(@row_at_once $now $now_message $now_answer = $now_body); )+
 
         impl Study {
-            /// Answers the question of a name; its message is [`Asking::message`].
+            /// Answers the question `name`.
             ///
             /// # Errors
-            /// Those of the question, `settings` for another name or message.
+            /// Those of the question; `settings` for an unknown name or invalid message.
             pub fn ask(&mut self, name: &str, asking: &Asking) -> Result<Answer> {
                 match name {
                     $( stringify!($name) => $name::answer(self, read(name, asking.message)?, asking), )+
@@ -126,10 +117,10 @@ macro_rules! questions {
             }
         }
 
-        /// Answers a question that asks nothing of a study.
+        /// Answers a question that does not need a study.
         ///
         /// # Errors
-        /// Those of the question, `settings` for another name or message.
+        /// Those of the question; `settings` for an unknown name or invalid message.
         pub fn ask_at_once(name: &str, message: &str) -> Result<Answer> {
             match name {
                 $( stringify!($now) => $now::answer(read(name, message)?), )+
@@ -137,11 +128,11 @@ macro_rules! questions {
             }
         }
 
-        /// When each question is answered.
+        /// The turn of each question.
         pub const TURNS: &[(&str, Turn)] =
             &[$((stringify!($name), $turn),)+ $((stringify!($now), Turn::AtOnce),)+];
 
-        /// Tells every row to what writes the types of the page.
+        /// Passes every row to the generator of the page's types.
         #[cfg(test)]
         pub(crate) fn declare(types: &mut crate::study::tests::typescript::Types) {
             $( types.question::<$name::Message, $answer>(stringify!($name), &[$($about),+], $turn); )+
@@ -166,7 +157,7 @@ macro_rules! questions {
     };
     (@row $study:ident $asking:ident $name:ident $message:tt $answer:ty = $body:expr) => {
         mod $name {
-            #[allow(clippy::allow_attributes, unused_imports, reason = "what one row names another one may not")]
+            #[allow(clippy::allow_attributes, unused_imports, reason = "rows use different imports")]
             use super::*;
 
             questions!(@message $message);

@@ -1,4 +1,4 @@
-//! The brightest place on the ray of a pixel: what a click into a projection means.
+//! The brightest voxel on the ray of a pixel: the target of a click into a projection.
 
 use crate::positions::{pixel_from_world, world_from_pixel};
 use crate::windows;
@@ -13,17 +13,17 @@ use crate::study::open_study::Study;
 use crate::study::picking::Pick;
 use crate::study::view::View;
 
-/// How far apart the places are that are looked at, in the smallest side of a voxel.
-const STEP: f64 = 0.5;
+/// Sampling step in units of the smallest voxel side.
+const STEP_VOXELS: f64 = 0.5;
 
-/// The nearest and the farthest depth (mm) of a ray that nothing limits.
+/// Depths (mm) of an unlimited ray.
 const ALL_DEPTHS: [f64; 2] = [f64::MIN, f64::MAX];
 
-/// The brightest place of a volume on the ray of the pixel (column, row) of a view, the nearest one of several, between two
-/// depths (mm, positive away from the viewer).
+/// The brightest place on the ray of a pixel (column, row), the nearest of several, between two depths (mm, positive away from
+/// the viewer).
 ///
 /// # Errors
-/// [`ErrorKind::Tracing`] for a ray beside the volume, or one that has no voxel between the depths.
+/// [`ErrorKind::Tracing`] if the ray misses the volume or has no voxel between the depths.
 pub fn brightest_on_ray(
     volume: &Volume,
     camera: &Camera,
@@ -33,7 +33,7 @@ pub fn brightest_on_ray(
     let from = world_from_pixel(camera, pixel, 0.0);
     let [near, far] = chord(volume, from, camera.direction());
     let (near, far) = (near.max(within[0]), far.min(within[1]));
-    let step = STEP * volume.smallest_side();
+    let step = STEP_VOXELS * volume.smallest_side();
     let count = if near <= far { ((far - near) / step) as usize + 1 } else { 0 };
     let place = |n: usize| from + camera.direction() * (near + n as f64 * step);
     let places: Vec<DVec3> = (0..count).map(place).collect();
@@ -46,26 +46,19 @@ pub fn brightest_on_ray(
     }
     best.map(|(place, _)| place).ok_or_else(|| {
         let found = "a ray that meets no voxel";
-        let error = Error::new(ErrorKind::Tracing, "place in the projection", found, "one over the scan");
+        let error = Error::new(ErrorKind::Tracing, "place in the projection", found, "a place over the scan");
         error.mend("click where the scan is shown")
     })
 }
 
 impl Study {
-    /// The brightest place on the ray of the pixel (column, row) of a view, as [`brightest_on_ray`] finds it. A slab around the
-    /// cut surface limits the ray to itself where the pixel shows it.
-    ///
-    /// # Errors
-    /// Those of [`brightest_on_ray`], `volume` where none is open, and those of the view.
-    pub fn brightest(&mut self, view: &View, pixel: [f64; 2]) -> Result<Pick> {
+    /// The brightest place on the ray of a pixel (column, row); limited to a slab around the cut surface if the pixel shows it.
+    pub(crate) fn brightest(&mut self, view: &View, pixel: [f64; 2]) -> Result<Pick> {
         let within = self.depths_of_slab(view, pixel)?;
         self.brightest_within(view, pixel, within)
     }
 
-    /// The same on all of the ray, whatever the view shows.
-    ///
-    /// # Errors
-    /// Those of [`brightest_on_ray`], `volume` where none is open.
+    /// As [`Study::brightest`], on the whole ray.
     pub(super) fn brightest_on_whole_ray(&self, view: &View, pixel: [f64; 2]) -> Result<Pick> {
         self.brightest_within(view, pixel, ALL_DEPTHS)
     }
@@ -76,8 +69,7 @@ impl Study {
         Ok(self.at(place.to_array()))
     }
 
-    /// The depths (mm) of the near and the far side of the slab of a pixel. All there are without a slab, and where a focus shows
-    /// what lies around the vessels instead of the cut surface.
+    /// Near and far depth (mm) of a pixel's slab; unlimited without a slab, or if a focus shows the surroundings.
     fn depths_of_slab(&mut self, view: &View, pixel: [f64; 2]) -> Result<[f64; 2]> {
         let Some(slab) = view.settings.slab.filter(|_| self.content.tree().is_some()) else {
             return Ok(ALL_DEPTHS);
@@ -91,8 +83,7 @@ impl Study {
     }
 }
 
-/// From where to where (mm along the ray) a ray runs between the outermost voxels; the first is beyond the second where it
-/// does not.
+/// The range (mm) of a ray between the outermost voxels; reversed if it misses them.
 fn chord(volume: &Volume, from: DVec3, along: DVec3) -> [f64; 2] {
     let to_index = volume.index_from_world();
     let (start, step) = (to_index.transform_point3(from), to_index.transform_vector3(along));

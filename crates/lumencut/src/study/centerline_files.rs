@@ -1,11 +1,11 @@
-//! A file of centerlines becomes vessels in world space.
+//! Reads a centerline file into vessels in world space.
 
 use crate::extent::Extent;
 use crate::line_doubts::{DoubtedLine, LineDoubt, beside_doubts_of, order_doubts_of};
 use crate::lumen_points::{Lines, lumen_count};
 use crate::misplaced::{better_place, fits_nowhere};
 use crate::placement::{Judge, Known, Origin, Placement, placement};
-use crate::places::{Place, Statement};
+use crate::places::{CoordinateSystem, Statement};
 use crate::reordering::{in_order, parted_doubt};
 use glam::DVec3;
 use lumencut_core::vessel_tree::{Vessel, VesselTree};
@@ -15,29 +15,24 @@ use serde::{Deserialize, Serialize};
 
 use crate::study::failure::Result;
 
-/// In which space and unit centerlines are to be read, by names; what is left out is not asked for.
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(default)]
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename = "CenterlineWish"))]
-pub struct AskedMessage {
+pub(crate) struct AskedMessage {
     /// `lps` or `ras`.
     #[cfg_attr(test, ts(optional))]
-    pub coordinates: Option<String>,
+    pub(crate) coordinates: Option<String>,
     /// `um`, `mm`, `cm`, `dm` or `m`.
     #[cfg_attr(test, ts(optional))]
     pub unit: Option<String>,
-    /// Whether the points of each line are put into their order.
     #[cfg_attr(test, ts(optional))]
-    pub reorder: Option<bool>,
+    pub(crate) reorder: Option<bool>,
 }
 
-/// How centerlines are to be read.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Asked {
-    /// Their space and unit.
+pub(crate) struct Asked {
     pub place: Statement,
-    /// Whether the points of each line are put into their order.
-    pub reorder: bool,
+    pub(crate) reorder: bool,
 }
 
 impl From<Statement> for Asked {
@@ -53,55 +48,45 @@ impl From<AskedMessage> for Asked {
 }
 
 impl AskedMessage {
-    /// What it asks for; other names ask for nothing.
-    pub fn statement(self) -> Statement {
+    /// The request; unknown names count as none.
+    pub(crate) fn statement(self) -> Statement {
         let space = |space: &Space| Some(space.name()) == self.coordinates.as_deref();
         let unit = |unit: &Unit| Some(unit.name()) == self.unit.as_deref();
         Statement { space: Space::ALL.into_iter().find(space), unit: Unit::ALL.into_iter().find(unit) }
     }
 }
 
-/// Vessels, their names, and what was odd about their file.
 #[derive(Clone, Debug)]
-pub struct PlacedVessels {
-    /// The vessels in world space.
+pub(crate) struct PlacedVessels {
     pub tree: VesselTree,
-    /// The name of each vessel; empty where the file has none.
+    /// One per vessel; may be empty.
     pub names: Vec<String>,
-    /// One sentence each.
-    pub notes: Vec<String>,
-    /// Whether points are in another order, and may be put in order.
-    pub can_reorder: bool,
-    /// What speaks against the space or unit in which they were read.
-    pub doubt: Option<PlaceDoubt>,
+    pub(crate) notes: Vec<String>,
+    /// Whether points seem to be in the wrong order and can be sorted.
+    pub(crate) can_reorder: bool,
+    /// Evidence against the space or unit used.
+    pub(crate) doubt: Option<PlaceDoubt>,
 }
 
-/// What speaks against the space or unit of centerlines, and how else they can be read.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct PlaceDoubt {
-    /// What was found, in words.
+pub(crate) struct PlaceDoubt {
+    /// The finding, in words.
     pub found: String,
-    /// The places that fit instead, such as `lps in cm`; none where no other fits.
-    pub readings: Vec<String>,
+    /// Alternatives such as `lps in cm`; may be empty.
+    pub(crate) readings: Vec<String>,
 }
 
-/// What is told of centerlines that were opened.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct OpenedLines {
-    /// What was odd about their file, one sentence each.
-    pub notes: Vec<String>,
-    /// What speaks against the space or unit in which they were read.
-    pub doubt: Option<PlaceDoubt>,
+pub(crate) struct OpenedLines {
+    pub(crate) notes: Vec<String>,
+    /// Evidence against the space or unit used.
+    pub(crate) doubt: Option<PlaceDoubt>,
 }
 
-/// The vessels of the file `name` in world space, read in the space and unit that are asked for; what neither the file nor the
-/// caller states of them the volume decides.
-///
-/// # Errors
-/// `format` for a file that is damaged or holds no centerlines, and where nothing tells where they lie.
-pub fn read_centerlines(
+/// Reads the vessels of the file `name` as requested; the volume decides what neither caller nor file states.
+pub(crate) fn read_centerlines(
     bytes: &[u8],
     name: &str,
     asked: Asked,
@@ -146,7 +131,6 @@ pub fn read_centerlines(
     Ok(PlacedVessels { tree, names, notes, doubt, can_reorder })
 }
 
-/// What is doubtful about vessels of a file.
 fn doubts_of(vessels: &[Vessel], names: &[String]) -> Vec<LineDoubt> {
     let pairs = vessels.iter().zip(names);
     let looked_at: Vec<DoubtedLine> =
@@ -156,10 +140,11 @@ fn doubts_of(vessels: &[Vessel], names: &[String]) -> Vec<LineDoubt> {
     doubts
 }
 
-/// What speaks against the unit, or which other ones fit the volume too.
+/// Evidence against the unit, or other units that fit.
 fn doubt_of_unit(found: &Placement) -> Option<PlaceDoubt> {
-    let of =
-        |units: &[Unit]| units.iter().map(|unit| Place { unit: *unit, ..found.place }.to_string()).collect();
+    let of = |units: &[Unit]| {
+        units.iter().map(|unit| CoordinateSystem { unit: *unit, ..found.place }.to_string()).collect()
+    };
     if let Some(doubt) = &found.doubt {
         return Some(PlaceDoubt { found: doubt.found.clone(), readings: of(&doubt.units) });
     }
@@ -167,7 +152,7 @@ fn doubt_of_unit(found: &Placement) -> Option<PlaceDoubt> {
     (!found.also.is_empty()).then(|| PlaceDoubt { found: found.decision.clone(), readings: also })
 }
 
-/// What is to be said of vessels beside a volume: that they miss it, or where nothing is told yet, that another place fits.
+/// A doubt if vessels miss the volume or, without an earlier doubt, fit better elsewhere.
 fn doubt_beside(tree: &VesselTree, volume: &Volume, read: &Placement) -> Option<PlaceDoubt> {
     let points: Vec<DVec3> = tree.vessels().iter().flat_map(|vessel| vessel.points()).copied().collect();
     let radius =
@@ -182,10 +167,10 @@ fn doubt_beside(tree: &VesselTree, volume: &Volume, read: &Placement) -> Option<
     }
     let is_told = read.is_unusual || read.space_from == Origin::Asked;
     let better = better_place(&points, &judge).filter(|_| !is_told)?;
-    // The place that fits is that of lines that were read as LPS: those that were read as RAS fit the other way round.
+    // `better` assumes points read as LPS; for points read as RAS it is the opposite.
     let space = if better.meant.space == read.place.space { Space::Lps } else { Space::Ras };
     let is_in_mm = read.place.unit == Unit::Millimetre;
-    let meant = Place { space, ..better.meant };
+    let meant = CoordinateSystem { space, ..better.meant };
     Some(PlaceDoubt {
         found: better.found,
         readings: is_in_mm.then(|| meant.to_string()).into_iter().collect(),

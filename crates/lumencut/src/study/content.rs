@@ -1,4 +1,4 @@
-//! The one study that is open: a volume, a tree, or both.
+//! The content of the open study: a volume, a tree, or both.
 
 use std::collections::BTreeMap;
 use std::sync::{Arc, OnceLock};
@@ -18,143 +18,117 @@ use crate::study::held_volume::HeldVolume;
 use crate::value_unit::ValueUnit;
 use crate::windows;
 
-/// A tree with the names and the lines of its vessels.
 #[derive(Debug)]
-pub struct NamedTree {
-    /// The tree.
-    pub leveled: Arc<LeveledTree>,
-    /// One name for each vessel; empty where it has none.
+pub(crate) struct NamedTree {
+    pub(crate) leveled: Arc<LeveledTree>,
+    /// One per vessel; may be empty.
     pub names: Vec<String>,
-    /// The number of the line of each vessel.
+    /// The line number of each vessel.
     pub lines: Vec<usize>,
-    /// Those of the tree and, in their places between them, those that are hidden; none where nothing is hidden.
+    /// All vessels including hidden ones in list order; None if none is hidden.
     with_hidden: Option<Listed>,
 }
 
-/// Vessels that are measured among each other, with the numbers of their lines.
 #[derive(Debug)]
-pub struct Listed {
-    /// One number for each vessel.
+pub(crate) struct Listed {
     pub lines: Vec<usize>,
-    /// In the order of the list.
     pub vessels: Vec<Vessel>,
 }
 
 impl NamedTree {
-    /// A tree of which nothing is known yet.
-    pub fn new(tree: VesselTree, names: Vec<String>, lines: Vec<usize>) -> Self {
+    /// A tree without hidden vessels.
+    pub(crate) fn new(tree: VesselTree, names: Vec<String>, lines: Vec<usize>) -> Self {
         Self { leveled: Arc::new(LeveledTree::new(tree)), names, lines, with_hidden: None }
     }
 
-    /// The same tree, whose vessels are measured among all of a list.
-    pub fn among(self, listed: Listed) -> Self {
+    pub(crate) fn among(self, listed: Listed) -> Self {
         Self { with_hidden: Some(listed), ..self }
     }
 
-    /// The vessels that tell each other's point spread and branches, and the numbers of their lines: also those that are hidden.
-    pub fn measured_among(&self) -> (&[usize], &[Vessel]) {
+    /// The vessels, hidden ones included, that determine point spread and branches, with their line numbers.
+    pub(crate) fn measured_among(&self) -> (&[usize], &[Vessel]) {
         let shown = (&self.lines[..], self.leveled.tree().vessels());
         self.with_hidden.as_ref().map_or(shown, |all| (&all.lines, &all.vessels))
     }
 }
 
-/// What is open.
+/// The open volume and tree.
 #[derive(Debug, Default)]
 pub struct Content {
-    /// The volume.
     pub held: Option<HeldVolume>,
-    /// The tree.
-    pub named: Option<NamedTree>,
-    /// Whether the points of centerlines that were opened may be put in order.
-    pub can_reorder: bool,
-    /// The windows of what was opened, once they were asked for.
+    pub(crate) named: Option<NamedTree>,
+    pub(crate) can_reorder: bool,
     windows: OnceLock<Option<Windows>>,
 }
 
-/// Level and width of a window, as the page has them.
 type LevelWidth = [f64; 2];
 
-/// What is open.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct Report {
-    /// The volume; none where vessels alone are open.
+pub(crate) struct Report {
+    /// None if only vessels are open.
     pub volume: Option<VolumeReport>,
-    /// The vessels that are shown; none where the volume alone is open.
+    /// The shown vessels; None if only the volume is open.
     pub vessels: Option<Vec<VesselReport>>,
-    /// The windows that the data suggest; none without a volume.
-    pub windows: Option<Windows>,
-    /// Whether points of the centerlines that were read last are in another order, and may be put in order; left out where not.
+    /// Suggested windows; none without a volume.
+    pub(crate) windows: Option<Windows>,
+    /// Whether the last opened centerlines seem unsorted and can be sorted; omitted if not.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     #[cfg_attr(test, ts(optional, as = "Option<bool>"))]
-    pub can_reorder: bool,
+    pub(crate) can_reorder: bool,
 }
 
-/// The volume that is open.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct VolumeReport {
-    /// The number of voxels along (i, j, k).
+pub(crate) struct VolumeReport {
+    /// Voxels along (i, j, k).
     pub size: [usize; 3],
     /// World position of a continuous index, row by row.
     #[cfg_attr(test, ts(type = "Array<Array<number>>"))]
     pub world_from_index: [[f64; 4]; 4],
-    /// The corners of its outermost voxels.
     #[cfg_attr(test, ts(type = "Array<Vector>"))]
-    pub corners: [[f64; 3]; 8],
-    /// The smallest side of a voxel (mm).
-    pub smallest_side: f64,
+    pub(crate) corners: [[f64; 3]; 8],
+    /// Smallest voxel side (mm).
+    pub(crate) smallest_side: f64,
     /// How the scan was made, in words.
     pub scan: String,
-    /// What speaks against its lengths; none where nothing does.
-    pub doubt: Option<String>,
+    pub(crate) doubt: Option<String>,
 }
 
-/// A vessel that is shown.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct VesselReport {
-    /// The number of its line.
+pub(crate) struct VesselReport {
+    /// Its line number.
     pub line: usize,
-    /// Its name; empty where it has none.
+    /// Its name; may be empty.
     pub name: String,
-    /// mm
     pub length: f64,
-    /// Whether its radius is known.
-    pub has_radius: bool,
+    pub(crate) has_radius: bool,
 }
 
-/// The windows of what is open.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct Windows {
-    /// That of cut surface and flat views.
+pub(crate) struct Windows {
     main: LevelWidth,
-    /// Those of the contexts, by their names.
     #[cfg_attr(test, ts(type = "Readonly<Record<string, Pair>>"))]
     contexts: BTreeMap<&'static str, LevelWidth>,
-    /// Those that have a name, in the order to show them.
     presets: Vec<NamedWindow>,
-    /// Whether the values are Hounsfield units by what they are: the windows for CT hold for them.
+    /// Whether the values appear to be Hounsfield units, so that CT windows apply.
     is_hounsfield: bool,
-    /// Whether the window for stents shows something: in Hounsfield units, and where values are as bright as metal.
+    /// Whether the stent window is useful: Hounsfield units, with values as bright as metal.
     may_hold_stents: bool,
 }
 
-/// A window that has a name, with its numbers for what is open.
 #[derive(Clone, Copy, Debug, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 struct NamedWindow {
-    /// The name of the preset.
     name: &'static str,
-    /// What menus call it.
     words: &'static str,
-    /// Level and width.
     window: LevelWidth,
 }
 
 impl Content {
-    /// What the renderers show.
+    /// The scene for renderers.
     ///
     /// # Errors
     /// `volume` for an invalid grid.
@@ -163,22 +137,18 @@ impl Content {
         Ok(Scene { volume, tree: self.tree().cloned() })
     }
 
-    /// The tree, where one is open.
+    /// The tree, if any.
     pub fn tree(&self) -> Option<&Arc<LeveledTree>> {
         self.named.as_ref().map(|named| &named.leveled)
     }
 
-    /// How the scan was made; nothing is stated where none is open.
+    /// How the scan was made.
     pub fn scan(&self) -> &ScanDetails {
         static NONE: ScanDetails = ScanDetails::NOTHING;
         self.held.as_ref().map_or(&NONE, |held| &held.scan)
     }
 
-    /// Takes the windows from the data anew where the lumen of the vessels that are shown now is white in the main one.
-    ///
-    /// # Errors
-    /// `volume` for an invalid grid.
-    pub fn hold_lumen(&mut self) -> Result<()> {
+    pub(crate) fn hold_lumen(&mut self) -> Result<()> {
         let (Some(Some(windows)), Some(held), Some(tree)) = (self.windows.get(), &self.held, self.tree())
         else {
             return Ok(());
@@ -190,16 +160,12 @@ impl Content {
         Ok(())
     }
 
-    /// Takes the windows from the data anew when they are asked for.
-    pub fn forget_windows(&mut self) {
+    pub(crate) fn forget_windows(&mut self) {
         self.windows = OnceLock::new();
     }
 
-    /// The windows that the data suggest, as they were when they were first asked for; none without a volume.
-    ///
-    /// # Errors
-    /// `volume` for values beyond all windows.
-    pub fn windows(&self) -> Result<Option<Windows>> {
+    /// The suggested windows, computed on first use; None without a volume.
+    pub(crate) fn windows(&self) -> Result<Option<Windows>> {
         if let Some(known) = self.windows.get() {
             return Ok(known.clone());
         }
@@ -211,7 +177,7 @@ impl Content {
         let Some(held) = &self.held else { return Ok(None) };
         let (volume, tree) = (&held.volume()?, self.tree().map(|tree| tree.tree()));
         let pair = |window: Window| [window.level, window.width];
-        // Each is found once, whoever takes it.
+        // Each is computed once.
         let found = DataWindow::NAMES
             .iter()
             .map(|(name, kind)| Ok((*name, pair(kind.find(volume, tree)?))))
@@ -242,8 +208,8 @@ impl Content {
         }))
     }
 
-    /// What a view of all of it must show: the corners of the volume, or the points of the tree.
-    pub fn outline(&self) -> Result<Vec<DVec3>> {
+    /// What a full view must contain: the volume's corners, or the tree's points.
+    pub(crate) fn outline(&self) -> Result<Vec<DVec3>> {
         let points = |named: &NamedTree| {
             named.leveled.tree().vessels().iter().flat_map(|vessel| vessel.points()).copied().collect()
         };
@@ -254,11 +220,7 @@ impl Content {
         }
     }
 
-    /// What the page must know of it: the volume's size, grid and windows, and the vessels with names and lengths.
-    ///
-    /// # Errors
-    /// As [`Content::windows`].
-    pub fn report(&self) -> Result<Report> {
+    pub(crate) fn report(&self) -> Result<Report> {
         let volume = self.held.as_ref().map(VolumeReport::of).transpose()?;
         let vessels = self.named.as_ref().map(VesselReport::of_all);
         Ok(Report { volume, vessels, windows: self.windows()?, can_reorder: self.can_reorder })

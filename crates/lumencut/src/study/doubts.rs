@@ -1,20 +1,17 @@
-//! What makes a vessel that was found doubtful, in a sentence and in a word or two, for lists and counts.
+//! The reasons why a found vessel is doubtful: a phrase, and a short form for lists.
 
 use lumencut_vessels::trace::find::track::TrackDoubt;
 use serde::Serialize;
 
-/// A reason for doubt.
 #[derive(Clone, Copy, Debug, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct DoubtRow {
-    /// What a vessel of a document and a session file say, as a part of a sentence.
+pub(crate) struct DoubtRow {
+    /// The phrase in documents and session files.
     pub words: &'static str,
-    /// The same in a word or two.
-    pub short: &'static str,
+    pub(crate) short: &'static str,
 }
 
-/// All reasons.
-pub fn doubt_rows() -> Vec<DoubtRow> {
+pub(crate) fn doubt_rows() -> Vec<DoubtRow> {
     TrackDoubt::ALL.iter().map(|doubt| DoubtRow { words: doubt.words(), short: doubt.short() }).collect()
 }
 

@@ -1,41 +1,33 @@
-//! A document while an edit changes it: which vessels come to it, which lose their marks, and which of its clicks are new.
+//! A document during an edit: added vessels, lost marks and new clicks.
 
-use crate::study::document::{Document, DocumentVessel, Place};
+use crate::study::document::{Document, DocumentVessel, WorldPoint};
 use crate::study::edits::Edit;
 use crate::study::failure::Failure;
 use crate::study::names::{fresh_name, part_name};
 use crate::study::tracing::StopperMessage;
 
-/// The radius of a stopper (mm), as in Python.
-const STOPPER_RADIUS: f64 = 3.0;
+/// Radius of a stopper (mm), as in Python.
+const STOPPER_RADIUS_MM: f64 = 3.0;
 
-/// The least number of clicks of a vessel.
-const FEWEST: usize = 2;
+const MIN_CLICKS: usize = 2;
 
-/// A document that is being edited.
 #[derive(Clone, Debug, Default)]
-pub struct Draft {
-    /// As it is by now.
-    pub document: Document,
-    /// The largest id that was ever given in the study.
-    pub last_id: u32,
-    /// The vessels that came to it.
-    pub added: Vec<u32>,
-    /// The vessels whose marks are lost.
-    pub without_marks: Vec<u32>,
-    /// The clicks that the edit sets: a vessel, and the number of the click.
+pub(crate) struct Draft {
+    pub(crate) document: Document,
+    pub(crate) last_id: u32,
+    pub(crate) added: Vec<u32>,
+    pub(crate) without_marks: Vec<u32>,
+    /// Clicks set by the edit: vessel id and click index.
     new_clicks: Vec<(u32, usize)>,
 }
 
 impl Draft {
-    /// A document before an edit.
-    pub fn of(document: Document, last_id: u32) -> Self {
+    pub(crate) fn of(document: Document, last_id: u32) -> Self {
         let last_id = document.vessels.iter().map(|vessel| vessel.id).fold(last_id, u32::max);
         Self { document, last_id, ..Self::default() }
     }
 
-    /// Adds a vessel at the end, in the next colour.
-    pub fn add(&mut self, line: usize, name: String) -> &mut DocumentVessel {
+    pub(crate) fn add(&mut self, line: usize, name: String) -> &mut DocumentVessel {
         self.last_id += 1;
         self.added.push(self.last_id);
         let color = self.document.next_color().to_owned();
@@ -45,20 +37,19 @@ impl Draft {
         &mut vessels[last]
     }
 
-    /// Adds a vessel that has a name of its own, or none: then it gets one of its kind, such as `Mask 2`.
-    pub fn add_named(&mut self, line: usize, name: &str, kind: &str) -> &mut DocumentVessel {
+    /// Adds a vessel; without a name it gets one of its kind, such as `Mask 2`.
+    pub(crate) fn add_named(&mut self, line: usize, name: &str, kind: &str) -> &mut DocumentVessel {
         let name = if name.is_empty() { fresh_name(&self.document.names(), kind) } else { name.to_owned() };
         self.add(line, name)
     }
 
-    /// Removes vessels with what was marked on them.
-    pub fn remove(&mut self, ids: &[u32]) {
+    pub(crate) fn remove(&mut self, ids: &[u32]) {
         self.without_marks.extend(ids.iter().filter(|id| self.document.position(**id).is_some()));
         self.document.vessels.retain(|vessel| !ids.contains(&vessel.id));
     }
 
-    /// Gives a vessel another line, which is not that between its clicks; places that were marked on it lie elsewhere.
-    pub fn replace(&mut self, id: u32, line: usize) {
+    /// Gives a vessel another line that is not traced between clicks, so its marks are lost.
+    pub(crate) fn replace(&mut self, id: u32, line: usize) {
         if let Some(vessel) = self.vessel(id) {
             vessel.line = line;
             vessel.clicks = None;
@@ -66,8 +57,7 @@ impl Draft {
         }
     }
 
-    /// Puts both parts of a vessel in its place.
-    pub fn part(&mut self, id: u32, [first, second]: [usize; 2]) {
+    pub(crate) fn part(&mut self, id: u32, [first, second]: [usize; 2]) {
         let Some((place, whole)) = self.document.position(id).zip(self.document.vessel(id)) else { return };
         let name = part_name(&self.document.names(), &whole.called());
         self.replace(id, first);
@@ -75,54 +65,49 @@ impl Draft {
         self.document.vessels[place + 1..].rotate_right(1);
     }
 
-    /// Accepts branches that are doubtful.
-    pub fn accept(&mut self, ids: &[u32]) {
+    pub(crate) fn accept(&mut self, ids: &[u32]) {
         for vessel in self.document.vessels.iter_mut().filter(|vessel| ids.contains(&vessel.id)) {
             vessel.doubt = None;
         }
     }
 
-    /// Removes those vessels that are doubtful.
-    pub fn leave_out(&mut self, ids: &[u32]) {
+    pub(crate) fn leave_out(&mut self, ids: &[u32]) {
         let is_doubtful = |id: &&u32| self.document.vessel(**id).is_some_and(|vessel| vessel.doubt.is_some());
         let doubtful: Vec<u32> = ids.iter().filter(is_doubtful).copied().collect();
         self.remove(&doubtful);
     }
 
-    /// Begins a vessel between clicks; its line follows once it is traced.
-    pub fn begin(&mut self, clicks: &[Place]) {
+    /// Begins a vessel between clicks; its line follows once traced.
+    pub(crate) fn begin(&mut self, clicks: &[WorldPoint]) {
         let id = self.add_named(0, "", "Vessel").id;
         self.give_clicks(id, clicks.to_vec());
     }
 
-    /// Gives a vessel clicks, all of which are new.
-    pub fn give_clicks(&mut self, id: u32, clicks: Vec<Place>) {
+    pub(crate) fn give_clicks(&mut self, id: u32, clicks: Vec<WorldPoint>) {
         self.new_clicks = (0..clicks.len()).map(|number| (id, number)).collect();
         if let Some(vessel) = self.vessel(id) {
             vessel.clicks = Some(clicks);
         }
     }
 
-    /// Adds a click at the end of a vessel, or before another click.
-    pub fn insert_click(&mut self, id: u32, before: Option<usize>, point: Place) {
+    pub(crate) fn insert_click(&mut self, id: u32, before: Option<usize>, point: WorldPoint) {
         let Some(clicks) = self.clicks(id) else { return };
         let number = before.map_or(clicks.len(), |before| before.min(clicks.len()));
         clicks.insert(number, point);
         self.new_clicks.push((id, number));
     }
 
-    /// Moves a click of a vessel.
-    pub fn move_click(&mut self, id: u32, number: usize, point: Place) {
+    pub(crate) fn move_click(&mut self, id: u32, number: usize, point: WorldPoint) {
         if let Some(click) = self.clicks(id).and_then(|clicks| clicks.get_mut(number)) {
             *click = point;
             self.new_clicks.push((id, number));
         }
     }
 
-    /// Removes a click of a vessel, or all of the vessel; says whether a line is to be traced for it.
-    pub fn remove_click(&mut self, id: u32, number: usize) -> bool {
+    /// Removes a click, or the whole vessel; returns whether a line must be traced.
+    pub(crate) fn remove_click(&mut self, id: u32, number: usize) -> bool {
         let Some(clicks) = self.clicks(id).filter(|clicks| number < clicks.len()) else { return false };
-        let is_kept = clicks.len() > FEWEST;
+        let is_kept = clicks.len() > MIN_CLICKS;
         if is_kept {
             clicks.remove(number);
         } else {
@@ -131,12 +116,12 @@ impl Draft {
         is_kept
     }
 
-    /// Changes stoppers; says nothing of one that does not exist.
-    pub fn change_stoppers(&mut self, edit: &Edit) {
+    /// Applies a stopper edit; ignores unknown stoppers.
+    pub(crate) fn change_stoppers(&mut self, edit: &Edit) {
         let stoppers = &mut self.document.stoppers;
         match edit {
             Edit::AddStopper { center } => {
-                stoppers.push(StopperMessage { center: *center, radius: STOPPER_RADIUS });
+                stoppers.push(StopperMessage { center: *center, radius: STOPPER_RADIUS_MM });
             }
             Edit::MoveStopper { number, center } => {
                 if let Some(stopper) = stoppers.get_mut(*number) {
@@ -150,13 +135,11 @@ impl Draft {
         }
     }
 
-    /// The vessels that were clicked, in their order.
-    pub fn clicked(&self) -> impl Iterator<Item = (&DocumentVessel, &Vec<Place>)> {
+    pub(crate) fn clicked(&self) -> impl Iterator<Item = (&DocumentVessel, &Vec<WorldPoint>)> {
         self.document.vessels.iter().filter_map(|vessel| Some((vessel, vessel.clicks.as_ref()?)))
     }
 
-    /// Why the vessels that were clicked cannot be traced, in their names: tracing counts vessels and points.
-    pub fn in_names(&self, mut failure: Failure) -> Failure {
+    pub(crate) fn in_names(&self, mut failure: Failure) -> Failure {
         let Some(about) = &failure.more.about else { return failure };
         let vessel = about.vessel.and_then(|number| self.clicked().nth(number));
         failure.subject = match (vessel, about.point) {
@@ -164,7 +147,7 @@ impl Draft {
             (Some((vessel, _)), Some(number)) if !self.new_clicks.contains(&(vessel.id, number)) => {
                 format!("point {} of {}", number + 1, vessel.called())
             }
-            // Hosts mark a new point by its place.
+            // Hosts show a new point at its place.
             _ => "this point".to_owned(),
         };
         failure
@@ -174,7 +157,7 @@ impl Draft {
         self.document.vessels.iter_mut().find(|vessel| vessel.id == id)
     }
 
-    fn clicks(&mut self, id: u32) -> Option<&mut Vec<Place>> {
+    fn clicks(&mut self, id: u32) -> Option<&mut Vec<WorldPoint>> {
         self.vessel(id)?.clicks.as_mut()
     }
 }

@@ -1,19 +1,19 @@
-//! Edits of vessels: which of them are traced again, and beside which.
+//! Executes edits of vessels, and retraces the affected ones.
 
 use glam::DVec3;
 
-use crate::study::document::{Document, DocumentVessel, Place};
+use crate::study::document::{Document, DocumentVessel, WorldPoint};
 use crate::study::draft::Draft;
 use crate::study::edits::{Edit, EditMessage, Edited};
 use crate::study::failure::Result;
 use crate::study::open_study::Study;
 use crate::study::points_along::{click_after, nearest_point, points_along};
-use crate::study::telling::DoubtfulPlace;
+use crate::study::trace_report::DoubtfulPlace;
 use crate::study::tracing::{TraceRequest, Watch};
 
 impl Study {
-    /// The document that the study begins with: the vessels that were opened, counted from 1.
-    pub fn begin_document(&mut self) -> Document {
+    /// The initial document: the opened vessels, with ids from 1.
+    pub(crate) fn begin_document(&mut self) -> Document {
         let mut draft = Draft::default();
         if let Some(named) = &self.content.named {
             for (line, name) in named.lines.iter().zip(&named.names) {
@@ -24,13 +24,9 @@ impl Study {
         draft.document
     }
 
-    /// The document after an edit. After one of clicks, stoppers or bridges all vessels that were clicked are traced again, beside
-    /// the others that are not doubtful.
-    ///
-    /// # Errors
-    /// Those of tracing, with the names of the vessels, of cutting and joining, of seeds and masks; `interrupted`. Where
-    /// the error is mended by `bridge`, the same edit with [`EditMessage::bridging`] may succeed.
-    pub fn edit(&mut self, message: &EditMessage, watch: Watch) -> Result<Edited> {
+    /// The document after an edit. Clicks, stoppers and bridges retrace all clicked vessels, next to the others that are not
+    /// doubtful.
+    pub(crate) fn edit(&mut self, message: &EditMessage, watch: Watch) -> Result<Edited> {
         let mut draft = Draft::of(message.document.clone(), self.last_id);
         let mut notes = Vec::new();
         let is_traced = match &message.edit {
@@ -39,7 +35,7 @@ impl Study {
                 self.add_whole_vessel(&mut draft, &mut notes, (*click, watch)).map(|()| false)
             }
             Edit::FindVessels { doubtful } => {
-                self.add_found(&mut draft, *doubtful, watch).map(|told| notes = told).map(|()| false)
+                self.add_found(&mut draft, *doubtful, watch).map(|found| notes = found).map(|()| false)
             }
             Edit::AddMask => self.add_mask(&mut draft, &mut notes, watch).map(|()| false),
             Edit::Cut { id, at } => self.cut_vessel(&mut draft, *id, *at).map(|()| false),
@@ -55,14 +51,13 @@ impl Study {
         }
         self.last_id = draft.last_id;
         let Draft { document, added, without_marks, .. } = draft;
-        let mut told = self.told_of(&document, message.edit.traces(&added))?;
+        let mut told = self.trace_report(&document, message.edit.traces(&added))?;
         if let Some(told) = &mut told {
             told.doubts.extend(notes.iter().map(|note| DoubtfulPlace { words: note.clone(), at: None }));
         }
         Ok(Edited { document, words: message.words(), added, without_marks, notes, told })
     }
 
-    /// Traces all vessels that were clicked.
     fn trace_clicked(&mut self, draft: &mut Draft, watch: Watch) -> Result<()> {
         let Document { vessels, stoppers, bridge } = &draft.document;
         let request = TraceRequest {
@@ -82,8 +77,8 @@ impl Study {
         Ok(())
     }
 
-    fn add_branches(&mut self, draft: &mut Draft, seed: Place, watch: Watch) -> Result<()> {
-        // A place in bone or fat is refused at once: the search would look through all of the scan before it says so.
+    fn add_branches(&mut self, draft: &mut Draft, seed: WorldPoint, watch: Watch) -> Result<()> {
+        // Reject a seed in bone or fat at once, instead of after a search of the whole scan.
         self.check_click(seed)?;
         for branch in self.trace_from(seed, watch)? {
             draft.add_named(branch.line, "", "Branch").doubt = branch.doubt.map(str::to_owned);
@@ -91,7 +86,7 @@ impl Study {
         Ok(())
     }
 
-    /// Adds all vessels of the scan; gives what is to be told of it.
+    /// Adds all vessels of the scan; returns notes.
     fn add_found(&mut self, draft: &mut Draft, doubtful: bool, watch: Watch) -> Result<Vec<String>> {
         let (found, notes) = self.find_vessels(doubtful, watch)?;
         for vessel in found {
@@ -127,7 +122,7 @@ impl Study {
         Ok(())
     }
 
-    fn add_click_on_line(&mut self, draft: &mut Draft, id: u32, point: Place) -> Result<()> {
+    fn add_click_on_line(&mut self, draft: &mut Draft, id: u32, point: WorldPoint) -> Result<()> {
         let Some(vessel) = draft.document.vessel(id).filter(|vessel| vessel.is_sure()) else {
             return Ok(());
         };
@@ -144,12 +139,11 @@ impl Study {
     }
 }
 
-/// Whether a vessel is met by those that are traced between clicks.
 fn is_beside(vessel: &DocumentVessel) -> bool {
     vessel.clicks.is_none() && vessel.is_sure()
 }
 
-/// Makes an edit that needs nothing but the document; says whether the vessels that were clicked are traced again.
+/// Applies an edit of the document alone; returns whether clicked vessels must be retraced.
 fn changed(draft: &mut Draft, edit: &Edit) -> bool {
     match edit {
         Edit::BeginVessel { clicks } => draft.begin(clicks),

@@ -1,134 +1,98 @@
-//! The edits of vessels that a viewer offers, and what comes of them.
+//! The edits of vessels that a viewer offers, and their results.
 //!
-//! Name, colour and whether a vessel is hidden are no edits here: a host sets these fields itself and at once, since nothing
-//! follows from them. Undo is the host's too: it keeps the documents before each step beside what else it undoes, such as marks and
-//! rulers, which must not wait for a vessel that is being traced.
+//! Name, colour and visibility are not edits: a host sets these fields at once because nothing follows from them. Undo is the
+//! host's too: it keeps the documents before each step together with marks and rulers, which must not wait for tracing.
 
 use serde::{Deserialize, Serialize};
 
-use crate::study::document::{Document, Place};
+use crate::study::document::{Document, WorldPoint};
 use crate::study::lines::NamedLine;
-use crate::study::telling::Told;
+use crate::study::trace_report::Told;
 
-/// An edit of vessels. Clicks and stoppers are numbered from 0, arc lengths are in mm.
+/// An edit of vessels. Clicks and stoppers are numbered from 0; arc lengths in mm.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub enum Edit {
-    /// A vessel between two clicks or more.
+pub(crate) enum Edit {
     BeginVessel {
-        /// In order along it.
-        clicks: Vec<Place>,
+        clicks: Vec<WorldPoint>,
     },
-    /// A click at the end of a vessel.
     AddClick {
-        /// The vessel.
         id: u32,
-        /// Where it is.
-        point: Place,
+        point: WorldPoint,
     },
-    /// A click between others, where a vessel was taken hold of. One that was not clicked gets clicks along its line, so that it can
-    /// be edited and still runs where it ran.
+    /// A click between others, where a vessel was dragged. A vessel without clicks first gets clicks along its line, so that it
+    /// keeps its course.
     AddClickOnLine {
-        /// The vessel.
         id: u32,
-        /// A point of its line.
-        point: Place,
+        point: WorldPoint,
     },
-    /// A click elsewhere.
     MoveClick {
-        /// The vessel.
         id: u32,
-        /// Which of its clicks.
         number: usize,
-        /// Where it is now.
-        point: Place,
+        point: WorldPoint,
     },
-    /// A vessel without one of its clicks; one that would have only one left goes with it.
+    /// Removes a click; a vessel left with one click is removed.
     RemoveClick {
-        /// The vessel.
         id: u32,
-        /// Which of its clicks.
         number: usize,
     },
-    /// One more ball that no vessel may pass.
     AddStopper {
-        /// Its center.
-        center: Place,
+        center: WorldPoint,
     },
-    /// A stopper elsewhere.
     MoveStopper {
-        /// Which of them.
         number: usize,
-        /// Its center now.
-        center: Place,
+        center: WorldPoint,
     },
-    /// A stopper less.
     RemoveStopper {
-        /// Which of them.
         number: usize,
     },
-    /// Whether vessels go on where no lumen is seen.
+    /// Whether tracing bridges stretches without visible lumen.
     SetBridge {
-        /// Whether they do from now on.
         bridge: bool,
     },
-    /// A vessel in two parts; the second one gets a name and a colour of its own.
+    /// Cuts a vessel in two; the second part gets its own name and colour.
     Cut {
-        /// The vessel.
         id: u32,
-        /// The arc length of the cut.
         at: f64,
     },
-    /// A second vessel joined to a first one, which keeps its name and colour.
+    /// Joins a second vessel to the first, which keeps name and colour.
     Join {
-        /// The first vessel.
         id: u32,
-        /// The second one.
         other: u32,
     },
-    /// Vessels less.
     Remove {
-        /// Which of them.
         ids: Vec<u32>,
     },
-    /// All branches that a seed reaches; doubtful ones wait until they are accepted.
+    /// All branches connected to a seed; doubtful ones wait for acceptance.
     AddBranches {
-        /// A place in a vessel.
-        seed: Place,
+        seed: WorldPoint,
     },
-    /// The whole vessel that a click lies in, from the nearest vessel that there is already to its end.
+    /// The whole vessel at a click, from the nearest existing vessel to its end.
     AddWholeVessel {
-        /// A place in the vessel.
-        click: Place,
+        click: WorldPoint,
     },
-    /// All vessels of the scan; doubtful ones wait until they are accepted.
+    /// All vessels of the scan; doubtful ones wait for acceptance.
     FindVessels {
-        /// Whether doubtful ones are wanted also where none is sure; else that is refused.
+        /// Whether to return doubtful vessels if none is confident; otherwise that is an error.
         doubtful: bool,
     },
-    /// Doubtful branches are vessels as others from now on.
     Accept {
-        /// Which of them.
         ids: Vec<u32>,
     },
-    /// Doubtful branches less.
     LeaveOut {
-        /// Which of them.
         ids: Vec<u32>,
     },
-    /// The vessels of the mask that was read.
     AddMask,
-    /// The vessels of lines that are held, as from files.
+    /// The vessels of existing lines, such as those of files.
     AddLines {
-        /// In their order.
         lines: Vec<NamedLine>,
     },
 }
 
 impl Edit {
-    /// Whether it is of clicks, stoppers or bridges, after which vessels between clicks run elsewhere.
-    pub fn is_of_clicks(&self) -> bool {
+    /// Whether it changes clicks, stoppers or bridges, so that clicked vessels are retraced.
+    pub(crate) fn is_of_clicks(&self) -> bool {
         matches!(
             self,
             Self::BeginVessel { .. }
@@ -143,8 +107,8 @@ impl Edit {
         )
     }
 
-    /// The vessel that it traces, where it is a single one; `added` are those that came of it.
-    pub fn traces(&self, added: &[u32]) -> Option<u32> {
+    /// The single vessel that it traces, if any; `added` are the new ids.
+    pub(crate) fn traces(&self, added: &[u32]) -> Option<u32> {
         match self {
             Self::BeginVessel { .. } | Self::AddWholeVessel { .. } => added.first().copied(),
             Self::AddClick { id, .. }
@@ -155,8 +119,7 @@ impl Edit {
         }
     }
 
-    /// What it does, as the name of a step that can be undone.
-    pub fn words(&self) -> &'static str {
+    pub(crate) fn words(&self) -> &'static str {
         let count = |ids: &[u32], one, several| if ids.len() == 1 { one } else { several };
         match self {
             Self::BeginVessel { .. } => "begin a vessel",
@@ -182,40 +145,32 @@ impl Edit {
     }
 }
 
-/// What a host asks for: an edit of a document.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename = "EditRequest"))]
-pub struct EditMessage {
-    /// The document as it is.
-    pub document: Document,
-    /// What is done to it.
-    pub edit: Edit,
-    /// Whether gaps are bridged from now on, as part of the same step: what mends an edit that was refused by `bridge`.
-    pub bridging: bool,
+pub(crate) struct EditMessage {
+    pub(crate) document: Document,
+    pub(crate) edit: Edit,
+    /// Whether to bridge gaps from now on, in the same step: the mend of an edit rejected with `bridge`.
+    pub(crate) bridging: bool,
 }
 
 impl EditMessage {
-    /// The name of the step that can be undone.
-    pub fn words(&self) -> String {
+    pub(crate) fn words(&self) -> String {
         let bridging = if self.bridging { " and bridge gaps" } else { "" };
         format!("{}{bridging}", self.edit.words())
     }
 }
 
-/// What came of an edit.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct Edited {
-    /// The document after it; the same one where there was nothing to do.
-    pub document: Document,
-    /// The name of the step that can be undone.
+pub(crate) struct Edited {
+    /// The document after it; unchanged if there was nothing to do.
+    pub(crate) document: Document,
+    /// The name of the undo step.
     pub words: String,
-    /// The vessels that came to it, by their ids.
-    pub added: Vec<u32>,
-    /// The vessels whose marks are lost, by their ids: they are gone, or their places lie elsewhere.
-    pub without_marks: Vec<u32>,
-    /// What was odd, one sentence each.
-    pub notes: Vec<String>,
-    /// What is told of the vessel that was traced; none after an edit that traces no single one.
+    pub(crate) added: Vec<u32>,
+    pub(crate) without_marks: Vec<u32>,
+    pub(crate) notes: Vec<String>,
+    /// The report on the traced vessel, if it is a single one.
     pub told: Option<Told>,
 }

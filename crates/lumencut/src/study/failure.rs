@@ -1,4 +1,4 @@
-//! Errors as the page gets them: the same texts as everywhere, the kind, and what mends them.
+//! Errors as the page gets them: the usual texts, the kind, and the mends.
 
 use lumencut_core::error::{Clicked, Error, ErrorKind};
 use lumencut_io as centerlines;
@@ -17,32 +17,29 @@ pub struct Failure {
     pub found: String,
     /// What was expected instead.
     pub expected: String,
-    /// Advice in words; empty where there is none beside `mends`.
+    /// Advice in words; may be empty.
     pub mend: String,
-    /// What else is known of it.
+    /// Further details.
     #[serde(flatten)]
     pub more: Box<More>,
 }
 
-/// What only some errors tell.
+/// Details of some errors.
 #[derive(Debug, Default, Serialize)]
 pub struct More {
-    /// What mends it beside the advice.
-    pub mends: Vec<Mend>,
-    /// Which of the clicked points it is about.
+    pub(crate) mends: Vec<Mend>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub about: Option<About>,
-    /// Where it shows in the volume.
+    pub(crate) about: Option<About>,
     #[serde(flatten)]
-    pub seen: Option<Seen>,
+    pub(crate) seen: Option<Seen>,
 }
 
-/// Points of a request to trace, counted from 0.
+/// Points of a tracing request, counted from 0.
 #[derive(Debug, PartialEq, Eq, Serialize)]
-pub struct About {
-    /// The vessel; none for a point of no vessel yet.
+pub(crate) struct About {
+    /// The vessel; none if the point belongs to no vessel yet.
     pub vessel: Option<usize>,
-    /// The point along it; none where all of them are meant.
+    /// The point; none for all points.
     pub point: Option<usize>,
 }
 
@@ -56,20 +53,19 @@ impl From<Clicked> for About {
     }
 }
 
-/// Where an error shows in the volume.
 #[derive(Debug, Serialize)]
-pub struct Seen {
+pub(crate) struct Seen {
     /// The place (mm, LPS).
     pub place: [f64; 3],
-    /// The value of the volume there; `null` outside of it.
+    /// The value there; `null` outside the volume.
     pub value: f64,
 }
 
-/// What the functions of this crate give.
+/// The result of the study's functions.
 pub type Result<T> = std::result::Result<T, Failure>;
 
 impl Failure {
-    /// A message of the page that is not what it should be: a mistake of the page, never of its user.
+    /// For an invalid message of the page: a bug of the page, never of its user.
     pub fn of_message(subject: &str, found: &impl ToString, expected: &str) -> Self {
         Error::new(ErrorKind::Settings, subject, found.to_string(), expected).into()
     }

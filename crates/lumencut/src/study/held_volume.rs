@@ -1,4 +1,4 @@
-//! The volume that a viewer holds: its header comes first, and its voxels follow as bytes.
+//! A volume held for a viewer: first its header, then its voxels as bytes.
 
 use std::collections::BTreeMap;
 
@@ -11,39 +11,28 @@ use crate::scan_details::ScanDetails;
 use crate::study::failure::{Failure, Result};
 use crate::study::voxels::Stored;
 
-/// What comes before the voxels of a volume.
 #[derive(Clone, Debug, Deserialize)]
-pub struct VolumeHeader {
-    /// The number of voxels along (i, j, k); i is stored fastest.
+pub(crate) struct VolumeHeader {
+    /// Voxels along (i, j, k); i varies fastest.
     pub size: [usize; 3],
-    /// The type of the voxels as NumPy calls it.
-    pub dtype: String,
+    pub(crate) dtype: String,
     /// World position (LPS, mm) of a continuous index, row by row.
     pub world_from_index: [[f64; 4]; 4],
-    /// How its scan was made.
     #[serde(default)]
     pub scan: ScanDetails,
-    /// The names of its labels, where it is a mask whose file has them.
+    /// Label names of a mask, if its file has them.
     #[serde(default)]
-    pub label_names: BTreeMap<i64, String>,
+    pub(crate) label_names: BTreeMap<i64, String>,
 }
 
 impl VolumeHeader {
-    /// The header of a text of JSON.
-    ///
-    /// # Errors
-    /// `settings` for an invalid text.
-    pub fn read(text: &str) -> Result<Self> {
+    pub(crate) fn read(text: &str) -> Result<Self> {
         let expected = "size, dtype and world_from_index as JSON";
         serde_json::from_str(text)
             .map_err(|error| Failure::of_message("header of the volume", &error, expected))
     }
 
-    /// The volume of this header, its voxels all 0.
-    ///
-    /// # Errors
-    /// `volume` for more voxels than there is memory for, and for an invalid grid.
-    pub fn held(&self) -> Result<HeldVolume> {
+    pub(crate) fn held(&self) -> Result<HeldVolume> {
         let count = self.size.iter().map(|side| *side as f64).product();
         let stored = Stored::zeros(&self.dtype, count)?;
         let (size, world_from_index) = (self.size, self.affine());
@@ -53,7 +42,6 @@ impl VolumeHeader {
         Ok(held)
     }
 
-    /// The grid's place.
     fn affine(&self) -> DAffine3 {
         DAffine3::from_mat4(
             DMat4::from_cols_array_2d(&self.world_from_index.map(|row| DVec4::from(row).to_array()))
@@ -62,29 +50,29 @@ impl VolumeHeader {
     }
 }
 
-/// A volume that is open.
+/// The open volume.
 #[derive(Debug)]
 pub struct HeldVolume {
     /// Its voxels, i fastest.
     pub stored: Stored,
-    /// The number of voxels along (i, j, k).
+    /// Voxels along (i, j, k).
     pub size: [usize; 3],
     /// World position of a continuous index.
     pub world_from_index: DAffine3,
-    /// Stands for the voxels.
+    /// Identifies the voxels in caches.
     pub key: VolumeKey,
     /// How the scan was made.
     pub scan: ScanDetails,
 }
 
 impl HeldVolume {
-    /// The bytes of its voxels from `offset` on, `count` of them, to be written.
+    /// `count` writable bytes of its voxels from `offset` on.
     ///
     /// # Errors
-    /// `volume` where it ends before, and where there is none.
+    /// `volume` beyond its end or without a volume.
     pub fn bytes(held: Option<&mut Self>, offset: usize, count: usize) -> Result<&mut [u8]> {
         let bytes = held.map_or(&mut [][..], |held| held.stored.bytes_mut());
-        let expected = format!("no more than the {} that the header tells of", bytes.len());
+        let expected = format!("at most the {} that the header states", bytes.len());
         let end = offset.saturating_add(count);
         bytes.get_mut(offset..end).ok_or_else(|| Failure {
             kind: "volume",
@@ -101,25 +89,18 @@ impl HeldVolume {
         Ok(Volume::new(self.stored.voxels(), self.size, [1, ni, ni * nj], self.world_from_index)?)
     }
 
-    /// The same for renderers.
-    ///
-    /// # Errors
-    /// As [`HeldVolume::volume`].
+    /// As [`HeldVolume::volume`], for renderers.
     pub fn shared(&self) -> Result<SharedVolume<'_>> {
         Ok(SharedVolume::new(self.volume()?, self.key.clone()))
     }
 }
 
-/// A mask that is read to be traced.
 #[derive(Debug)]
-pub struct HeldMask {
-    /// Its voxels and its grid.
+pub(crate) struct HeldMask {
     pub held: HeldVolume,
-    /// The names of its labels, where its file has them.
-    pub label_names: BTreeMap<i64, String>,
+    pub(crate) label_names: BTreeMap<i64, String>,
 }
 
-/// The error for a question that only a volume answers.
-pub fn no_volume() -> Failure {
-    Failure { kind: "volume", ..Failure::of_message("volume", &"none", "one that is open") }
+pub(crate) fn no_volume() -> Failure {
+    Failure { kind: "volume", ..Failure::of_message("volume", &"none", "an open volume") }
 }

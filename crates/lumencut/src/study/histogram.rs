@@ -1,28 +1,24 @@
-//! How the values of a volume are distributed, for the strip beside the window.
+//! The histogram of a volume's values, for the window control.
 
 use lumencut_core::volume::{Real, Voxel};
 use serde::Serialize;
 
-/// The most voxels that are looked at.
-const MOST: usize = 500_000;
+const MAX_VOXELS: usize = 500_000;
 
-/// How many voxels are in each of equally wide ranges of values.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct Histogram {
-    /// The smallest value.
-    pub low: f32,
-    /// The largest value.
-    pub high: f32,
-    /// The number of voxels of each range, the lowest first; the largest value counts to the last.
+pub(crate) struct Histogram {
+    pub(crate) low: f32,
+    pub(crate) high: f32,
+    /// Counts from the lowest range; the largest value counts in the last.
     pub counts: Vec<u32>,
 }
 
 impl Histogram {
-    /// That of the voxels, of which only a part is looked at where they are many; NaN does not count.
-    pub fn of<T: Voxel>(voxels: &[T], bins: usize) -> Self {
+    /// Samples large volumes; ignores NaN.
+    pub(crate) fn of<T: Voxel>(voxels: &[T], bins: usize) -> Self {
         let values = || {
-            let looked_at = voxels.iter().step_by(voxels.len().div_ceil(MOST).max(1));
+            let looked_at = voxels.iter().step_by(voxels.len().div_ceil(MAX_VOXELS).max(1));
             looked_at.map(|voxel| voxel.real().to_f32()).filter(|value| value.is_finite())
         };
         let low = values().fold(f32::MAX, f32::min);
@@ -31,7 +27,7 @@ impl Histogram {
         let last = counts.len() - 1;
         let per_value = counts.len() as f32 / (high - low).max(f32::MIN_POSITIVE);
         for value in values() {
-            // From 0 on: it is not below the smallest value.
+            // Not below 0: `low` is the smallest value.
             counts[(((value - low) * per_value) as usize).min(last)] += 1;
         }
         Self { low, high, counts }

@@ -1,4 +1,4 @@
-//! What stands around a picture of the page: the letters at its edges and its scale bar.
+//! The labels around a picture: edge letters and scale bar.
 
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
@@ -6,28 +6,21 @@ use serde::{Deserialize, Serialize};
 use crate::letters::EdgeLetters;
 use crate::scale_bar::ScaleBar;
 
-/// How a picture lies: unit vectors to the right and downwards (LPS), its width in pixels and their side (mm).
+/// The position of a picture: unit vectors right and down (LPS), width in pixels, pixel side (mm).
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct LaidPicture {
-    /// To the right.
+pub(crate) struct LaidPicture {
     right: [f64; 3],
-    /// Downwards.
     down: [f64; 3],
-    /// Pixels.
     width: f64,
-    /// The side of a pixel (mm).
     pixel_spacing: f64,
 }
 
-/// What stands around a picture.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct PictureLabels {
-    /// The letters at its edges.
-    pub letters: EdgeLetters,
-    /// The scale bar; none where the picture has no width.
-    pub bar: Option<ScaleBar>,
+pub(crate) struct PictureLabels {
+    pub(crate) letters: EdgeLetters,
+    pub(crate) bar: Option<ScaleBar>,
 }
 
 impl From<LaidPicture> for PictureLabels {

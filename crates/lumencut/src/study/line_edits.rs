@@ -1,4 +1,4 @@
-//! Cutting a line in two, and joining two to one.
+//! Cuts a line in two, and joins two lines.
 
 use glam::DVec3;
 use lumencut_core::error::Result;
@@ -8,21 +8,18 @@ use lumencut_vessels::trace::lumen::refine::STEP;
 
 use crate::study::lines::{Line, wrong};
 
-/// Ends no farther apart than this meet, and are one point (mm): what files lose by rounding, and far less than any lumen.
-pub const MEETING: f64 = 0.1;
+/// Ends within this distance (mm) are one point: above the rounding of files, far below any lumen.
+pub(crate) const MEETING: f64 = 0.1;
 
-/// How far apart the ends of lines may be that are joined: this distance (mm), or this number of radii of the wider one. It is
-/// as far as tracing passes over without being asked for a bridge.
-const FARTHEST: f64 = 5.0;
-const FARTHEST_RADII: f64 = 2.0;
+/// Ends to join may be this far apart (mm), or this many radii of the wider one: as far as tracing goes without a bridge.
+const MAX_JOIN_MM: f64 = 5.0;
+const MAX_JOIN_RADII: f64 = 2.0;
 
-/// The largest distance of points between joined ends (mm).
+/// Largest point distance in a gap between joined ends (mm).
 const GAP_STEP: f64 = STEP;
 
-/// All that is known of one point.
 #[derive(Clone, Copy)]
 pub(super) struct Knot {
-    /// Where it is (mm, LPS).
     pub point: DVec3,
     radius: f64,
     confidence: f64,
@@ -41,10 +38,10 @@ impl Knot {
     }
 }
 
-/// The two parts of a line that is cut at an arc length (mm): both have the point there.
+/// The two parts of a line cut at an arc length (mm); both contain the cut point.
 ///
 /// # Errors
-/// `vessel tree` for a place that is not between the ends.
+/// `vessel tree` for a place not between the ends.
 pub fn cut(line: &Line, at: f64) -> Result<[Line; 2]> {
     let lengths = arc_lengths(&line.points);
     let whole = lengths[lengths.len() - 1];
@@ -64,11 +61,11 @@ pub fn cut(line: &Line, at: f64) -> Result<[Line; 2]> {
     Ok(parts.map(|part| with_knots(&part, line)))
 }
 
-/// One line of two, joined at the ends that are nearest to each other; it runs as the first one does. Where these are apart it
-/// goes straight on, and the points between them count as bridged.
+/// Two lines joined at their nearest ends, in the direction of the first. A gap is closed by a straight stretch marked as
+/// bridged.
 ///
 /// # Errors
-/// `vessel tree` for ends that are far apart.
+/// `vessel tree` for ends too far apart.
 pub fn join(first: &Line, second: &Line) -> Result<Line> {
     let (mut one, mut other) = (knots(first), knots(second));
     let end = |knots: &[Knot], is_last: bool| knots[if is_last { knots.len() - 1 } else { 0 }];
@@ -77,14 +74,14 @@ pub fn join(first: &Line, second: &Line) -> Result<Line> {
     let nearest = pairs.into_iter().min_by(|a, b| apart(*a).total_cmp(&apart(*b))).unwrap_or_default();
     let distance = apart(nearest);
     let radius = end(&one, nearest[0]).radius.max(end(&other, nearest[1]).radius);
-    let farthest = FARTHEST.max(FARTHEST_RADII * radius);
+    let farthest = MAX_JOIN_MM.max(MAX_JOIN_RADII * radius);
     if distance > farthest {
         let found = format!("ends that are {distance:.1} mm apart");
         let expected = format!("ends that are at most {farthest:.1} mm apart");
         let error = wrong("join", found, &expected);
         return Err(error.mend("trace the stretch between them first, and join it to both"));
     }
-    // At its end the first one goes on with the other; at its start the other one comes before it.
+    // At the first line's end the other follows; at its start the other precedes.
     let [is_at_end, other_is_at_end] = nearest;
     if is_at_end == other_is_at_end {
         other.reverse();
@@ -106,7 +103,7 @@ pub fn join(first: &Line, second: &Line) -> Result<Line> {
     Ok(with_knots(&joined, &has))
 }
 
-/// Points that other ones follow: a point that both share is taken once, from the former; a gap gets points.
+/// Concatenates points: a shared point is kept once, from the first; a gap gets new points.
 pub(super) fn followed(mut one: Vec<Knot>, other: &[Knot]) -> Vec<Knot> {
     let end = one[one.len() - 1];
     let is_shared = end.point.distance(other[0].point) <= MEETING;
@@ -117,7 +114,6 @@ pub(super) fn followed(mut one: Vec<Knot>, other: &[Knot]) -> Vec<Knot> {
     one
 }
 
-/// The points between two ends, nothing of which was seen.
 fn gap(from: Knot, to: Knot) -> Vec<Knot> {
     let parts = (from.point.distance(to.point) / GAP_STEP).ceil() as usize;
     let unseen =
@@ -125,7 +121,7 @@ fn gap(from: Knot, to: Knot) -> Vec<Knot> {
     (1..parts).map(unseen).collect()
 }
 
-/// The points of a line. One that was not traced is as sure as its author.
+/// The points of a line; full confidence if it was not traced.
 pub(super) fn knots(line: &Line) -> Vec<Knot> {
     let knot = |(n, point): (usize, &DVec3)| Knot {
         point: *point,
@@ -136,7 +132,7 @@ pub(super) fn knots(line: &Line) -> Vec<Knot> {
     line.points.iter().enumerate().map(knot).collect()
 }
 
-/// The line of some points, of which as much is known as of `like`.
+/// A line of these points, with the optional data that `like` has.
 pub(super) fn with_knots(knots: &[Knot], like: &Line) -> Line {
     Line {
         points: knots.iter().map(|knot| knot.point).collect(),

@@ -1,4 +1,4 @@
-//! Several lines that meet as one.
+//! Joins several connected lines into one path.
 
 use lumencut_core::error::{Error, ErrorKind, Result};
 
@@ -6,20 +6,18 @@ use crate::study::line_edits::{Knot, MEETING, followed, knots, with_knots};
 use crate::study::lines::Line;
 use crate::text::rounded;
 
-/// Where two lines come nearest to each other: the numbers of the points on the first and on the second one, of which at least one is
-/// an end, and how far apart they are (mm).
+/// The closest approach of two lines: a point index on each, at least one an end, and the distance (mm).
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Meeting {
     on: [usize; 2],
     apart: f64,
 }
 
-/// Several lines that meet as one, in their order: each begins where the one before ends, whatever its own direction. A line that meets
-/// another one at a point between its ends is followed to that point or from it: the first line from its start, the last one to its
-/// start. The path knows what all lines know; `words` is what an error calls each of them.
+/// A path through lines in order, whatever their directions. A line met between its ends is followed from or to that point. The
+/// first line starts at its start; the last ends at its start if entered in between. `words` name the lines in errors.
 ///
 /// # Errors
-/// `vessel tree` for neighbours that are farther apart than [`MEETING`].
+/// `vessel tree` for neighbours farther apart than [`MEETING`].
 pub fn path(lines: &[Line], words: &[String]) -> Result<Line> {
     let all: Vec<Vec<Knot>> = lines.iter().map(knots).collect();
     let mut joined: Vec<Knot> = Vec::new();
@@ -51,11 +49,11 @@ pub fn path(lines: &[Line], words: &[String]) -> Result<Line> {
     Ok(with_knots(&joined, &like))
 }
 
-/// Where a line that was entered at a point, if at any, is left for another one: by ends of both, by an end of the other one, or by
-/// its own end at a point of the other one; the first of these that is near enough, else the nearest of all.
+/// Where a line entered at `entry` (if any) is left for another: end to end, the other's end, or its own end at a point of the
+/// other. The first that is near enough, else the nearest.
 fn meeting(line: &[Knot], other: &[Knot], entry: Option<usize>) -> Meeting {
     let last = line.len() - 1;
-    // From an end a line runs to its other end.
+    // A line entered at an end runs to its other end.
     let ends = match entry {
         Some(0) => vec![last],
         Some(entry) if entry == last => vec![0],
@@ -75,7 +73,7 @@ fn meeting(line: &[Knot], other: &[Knot], entry: Option<usize>) -> Meeting {
         .unwrap_or_else(|| ways.into_iter().fold(ways[0], nearest))
 }
 
-/// Where some points of two lines come nearest to each other; of equal distances the first one.
+/// The closest of the given points; the first of ties.
 fn nearest(line: &[Knot], other: &[Knot], points: &[usize], other_points: &[usize]) -> Meeting {
     let pairs = points.iter().flat_map(|a| other_points.iter().map(|b| [*a, *b]));
     let meetings = pairs.map(|[a, b]| Meeting { on: [a, b], apart: line[a].point.distance(other[b].point) });
@@ -83,7 +81,6 @@ fn nearest(line: &[Knot], other: &[Knot], points: &[usize], other_points: &[usiz
     meetings.fold(none, |best, one| if one.apart < best.apart { one } else { best })
 }
 
-/// The points of a line from one to another, in this order.
 fn stretch(line: &[Knot], from: usize, to: usize) -> Vec<Knot> {
     let mut knots = line[from.min(to)..=from.max(to)].to_vec();
     if to < from {
@@ -94,8 +91,6 @@ fn stretch(line: &[Knot], from: usize, to: usize) -> Vec<Knot> {
 
 fn gap([one, other]: [&String; 2], apart: f64) -> Error {
     let found = format!("a gap of {} mm between {one} and {other}", rounded(apart, 4));
-    let expected = format!(
-        "vessels in their order along the path, of which an end of one is at most {MEETING} mm from the other"
-    );
+    let expected = format!("vessels in order along the path, each at most {MEETING} mm from the next");
     Error::new(ErrorKind::VesselTree, "path through the tree", found, expected)
 }

@@ -1,5 +1,4 @@
-//! The lines that the page works with, by number. A line never changes: every edit makes another one, so that undo shows the
-//! former.
+//! The page's lines by number. A line is immutable: every edit makes a new one, for undo.
 
 use std::sync::Arc;
 
@@ -13,67 +12,62 @@ use serde::{Deserialize, Serialize};
 
 use crate::study::failure::Result;
 
-/// A line, and what is known at each of its points.
+/// A line with the data of its points.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Line {
     /// At least two points (mm, LPS).
     pub points: Vec<DVec3>,
-    /// The radius at each point (mm), no number where it is not known; none where it is known nowhere.
+    /// The radius at each point (mm), NaN if unknown; None if unknown everywhere.
     pub radius: Option<Vec<f64>>,
-    /// How sure each point is, 0 to 1, where the line was traced.
+    /// The confidence of each point (0 to 1) of a traced line.
     pub confidence: Option<Vec<f64>>,
-    /// Which points lie on a stretch without lumen that was bridged, where that is known.
+    /// Whether each point lies on a bridged stretch without lumen, if known.
     pub bridged: Option<Vec<bool>>,
 }
 
-/// A line as the page has it; `null` stands for a radius that is not known.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct LineContent {
-    /// At least two.
+pub(crate) struct LineContent {
+    /// At least two points (mm, LPS).
     points: Vec<[f64; 3]>,
-    /// mm; null where it is not known, of all points or of one
+    /// mm; null if unknown, for all points or for one
     radius: Option<Vec<Option<f64>>>,
-    /// How sure each point is, from 0 to 1, where the line was traced.
+    /// The confidence of each point (0 to 1) of a traced line.
     confidence: Option<Vec<f64>>,
-    /// Which points lie on a stretch without lumen that was bridged, where that is known.
+    /// Whether each point lies on a bridged stretch without lumen, if known.
     bridged: Option<Vec<bool>>,
 }
 
-/// A line with the name under which it is shown and saved.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct NamedLine {
+pub(crate) struct NamedLine {
     /// Its number.
     pub line: usize,
-    /// Its name; empty where it has none.
+    /// Its name; may be empty.
     pub name: String,
 }
 
-/// A line as a viewer lists it. One that is hidden is not drawn; it is measured among all the same, so that hiding a vessel changes
-/// no number.
+/// A line in a viewer's list. A hidden line is not drawn but still measured among all, so that hiding changes no number.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct ListedLine {
+pub(crate) struct ListedLine {
     /// Its number.
     pub line: usize,
-    /// Its name; empty where it has none.
+    /// Its name; may be empty.
     pub name: String,
-    /// Whether it is hidden.
-    pub hidden: bool,
+    pub(crate) hidden: bool,
 }
 
 impl Line {
-    /// The vessel of the core: radii that are not known are 0 beside others that are.
+    /// The core's vessel: unknown radii are 0 among known ones.
     ///
     /// # Errors
-    /// `vessel tree` for points or radii that are none.
+    /// `vessel tree` for invalid points or radii.
     pub fn vessel(&self) -> Result<Vessel> {
         Ok(Vessel::new(self.points.clone(), self.known_radius())?)
     }
 
-    /// The line as a file holds it.
-    pub fn in_file(&self, name: &str) -> centerlines::Line {
+    pub(crate) fn in_file(&self, name: &str) -> centerlines::Line {
         centerlines::Line {
             points: self.points.clone(),
             radius: self.known_radius(),
@@ -83,20 +77,19 @@ impl Line {
         }
     }
 
-    /// The line as tracing meets it; of no width where its radius is not known.
-    pub fn met(&self) -> Centerline {
+    /// The line as an obstacle for tracing; zero width if its radius is unknown.
+    pub(crate) fn met(&self) -> Centerline {
         let radius = self.known_radius().unwrap_or_else(|| vec![0.0; self.points.len()]);
         Centerline { points: self.points.clone(), radius, confidence: Vec::new() }
     }
 
-    /// The radius at each point (mm), 0 where it is not known beside others; none where it is known nowhere.
+    /// The radius at each point (mm), 0 if unknown; None if unknown everywhere.
     pub fn known_radius(&self) -> Option<Vec<f64>> {
         let radius = self.radius.as_ref().filter(|radius| radius.iter().any(|r| !r.is_nan()))?;
         Some(radius.iter().map(|r| if r.is_nan() { 0.0 } else { *r }).collect())
     }
 
-    /// As the page has it.
-    pub fn content(&self) -> LineContent {
+    pub(crate) fn content(&self) -> LineContent {
         let known = |radius: &f64| (!radius.is_nan()).then_some(*radius);
         LineContent {
             points: self.points.iter().map(|point| point.to_array()).collect(),
@@ -106,10 +99,6 @@ impl Line {
         }
     }
 
-    /// Checks that it is a line.
-    ///
-    /// # Errors
-    /// `vessel tree` for too few points, numbers that are none, and not one of them for each point.
     fn check(&self) -> Result<()> {
         self.vessel()?;
         let count = self.points.len();
@@ -160,44 +149,34 @@ impl From<&Vessel> for Line {
     }
 }
 
-/// What is wrong with a line.
-pub fn wrong(what: &str, found: String, expected: &str) -> Error {
+pub(crate) fn wrong(what: &str, found: String, expected: &str) -> Error {
     Error::new(ErrorKind::VesselTree, format!("{what} of the line"), found, expected)
 }
 
-/// All lines of the study that is open.
 #[derive(Debug, Default)]
-pub struct Lines {
-    /// How many there were in earlier studies: no number stands for two lines.
+pub(crate) struct Lines {
+    /// Number of lines in earlier studies: numbers are never reused.
     before: usize,
     held: Vec<Arc<Line>>,
 }
 
 impl Lines {
-    /// Takes over a line; gives its number.
-    ///
-    /// # Errors
-    /// `vessel tree` for what is no line.
-    pub fn add(&mut self, line: Line) -> Result<usize> {
+    /// Adds a line; returns its number.
+    pub(crate) fn add(&mut self, line: Line) -> Result<usize> {
         line.check()?;
         self.held.push(Arc::new(line));
         Ok(self.before + self.held.len() - 1)
     }
 
-    /// The line of a number.
-    ///
-    /// # Errors
-    /// `vessel tree` for a number that stands for none.
-    pub fn get(&self, number: usize) -> Result<Arc<Line>> {
+    pub(crate) fn get(&self, number: usize) -> Result<Arc<Line>> {
         let line = number.checked_sub(self.before).and_then(|place| self.held.get(place));
         line.cloned().ok_or_else(|| {
-            let error = wrong("number", number.to_string(), "the number of a line of the scan that is open");
+            let error = wrong("number", number.to_string(), "the number of a line of the open scan");
             error.mend("open the scan again").into()
         })
     }
 
-    /// Forgets all of them.
-    pub fn clear(&mut self) {
+    pub(crate) fn clear(&mut self) {
         self.before += self.held.len();
         self.held.clear();
     }

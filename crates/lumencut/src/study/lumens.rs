@@ -1,49 +1,42 @@
-//! The lumens that a pointer means: the one at a place, or those along the ray of a pixel, with the section across each.
+//! The lumens under a pointer, each with the section across it.
 
 use glam::DVec3;
 use lumencut_vessels::trace::lumen::on_ray::lumens_on_ray;
 use lumencut_vessels::trace::lumen::seen::{SeenLumen, lumen_at};
 use serde::{Deserialize, Serialize};
 
-use crate::study::document::Place;
+use crate::study::document::WorldPoint;
 use crate::study::failure::Result;
 use crate::study::held_volume::no_volume;
 use crate::study::open_study::Study;
 
-/// Where a pointer is: a place, or the ray through it.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename = "PointedAt"))]
-pub struct PointedMessage {
+pub(crate) struct PointedMessage {
     /// The place (LPS, mm).
-    pub point: Place,
-    /// The direction of the ray, away from the viewer (a unit vector); none where the place itself is meant.
-    pub along: Option<Place>,
+    pub point: WorldPoint,
+    /// Unit vector of the ray, away from the viewer; none for the place itself.
+    pub along: Option<WorldPoint>,
 }
 
-/// A lumen that is pointed at.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct PointedLumen {
-    /// The place in it that is pointed at: on a ray the one that is nearest to its middle.
-    pub point: Place,
-    /// Its middle.
-    pub center: Place,
+pub(crate) struct PointedLumen {
+    /// The pointed place in it; on a ray, the one nearest its centre.
+    pub point: WorldPoint,
+    /// Its centre.
+    pub center: WorldPoint,
     /// Its diameter (mm).
     pub diameter: f64,
-    /// The median of the values in its middle.
+    /// The median value at its centre.
     pub value: f64,
-    /// The section across it, to the right.
-    pub right: Place,
-    /// The section across it, downwards.
-    pub down: Place,
+    /// The section's right.
+    pub right: WorldPoint,
+    pub(crate) down: WorldPoint,
 }
 
 impl Study {
-    /// The lumens that are pointed at: along a ray all of them, the nearest first, else the one that the place lies in.
-    ///
-    /// # Errors
-    /// `volume` where none is open.
-    pub fn lumens(&self, pointed: &PointedMessage) -> Result<Vec<PointedLumen>> {
+    pub(crate) fn lumens(&self, pointed: &PointedMessage) -> Result<Vec<PointedLumen>> {
         let volume = self.content.held.as_ref().ok_or_else(no_volume)?.volume()?;
         let point = DVec3::from_array(pointed.point);
         let seen: Vec<(SeenLumen, DVec3)> = match pointed.along.map(DVec3::from_array) {
@@ -53,12 +46,12 @@ impl Study {
             }
             None => lumen_at(&volume, point).map(|one| (one, point)).into_iter().collect(),
         };
-        Ok(seen.into_iter().map(|(one, place)| told(&one, place)).collect())
+        Ok(seen.into_iter().map(|(one, place)| with_section(&one, place)).collect())
     }
 }
 
-/// A lumen as it is shown: the front of the patient, or else the head, is up in the section across it.
-fn told(seen: &SeenLumen, place: DVec3) -> PointedLumen {
+/// A lumen with its section: anterior, else the head, is up.
+fn with_section(seen: &SeenLumen, place: DVec3) -> PointedLumen {
     let upright = |to: DVec3| (-to).reject_from_normalized(seen.along);
     let (front, head) = (upright(DVec3::NEG_Y), upright(DVec3::Z));
     let down = if front.length() > 0.3 { front } else { head }.normalize();

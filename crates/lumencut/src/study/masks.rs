@@ -1,4 +1,4 @@
-//! The lines of a mask of vessels that comes beside the volume: its voxels are held as long as it is traced.
+//! Traces the lines of a vessel mask; its voxels are held only during tracing.
 
 use std::collections::HashSet;
 
@@ -23,23 +23,21 @@ use crate::study::open_study::Study;
 use crate::study::tracing::Watch;
 use crate::study::voxels::Stored;
 
-/// A volume with more values is a scan and no mask.
+/// A volume with more values is a scan, not a mask.
 const MOST_LABELS: usize = 1000;
 
-/// The lines of a mask, and what was odd about it.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct MaskLines {
-    /// The lines, each with the name of its label; empty where the mask has one alone.
+    /// The lines, named by label; unnamed if the mask has one label.
     pub lines: Vec<NamedLine>,
-    /// One sentence each.
-    pub notes: Vec<String>,
+    pub(crate) notes: Vec<String>,
 }
 
 impl Study {
     /// Makes room for a mask; its voxels follow as bytes.
     ///
     /// # Errors
-    /// `volume` where no scan is open that it could belong to, where there is no memory for it, and for an invalid grid.
+    /// `volume` without a scan, without memory, or for an invalid grid.
     pub fn begin_mask(&mut self, header: &str) -> Result<()> {
         self.mask = None;
         self.content.held.as_ref().ok_or_else(no_volume)?;
@@ -48,33 +46,29 @@ impl Study {
         Ok(())
     }
 
-    /// The bytes of the voxels of the mask from `offset` on, `count` of them, to be written.
+    /// `count` writable bytes of the mask's voxels from `offset` on.
     ///
     /// # Errors
-    /// `volume` where the mask ends before.
+    /// `volume` beyond its end.
     pub fn mask_bytes(&mut self, offset: usize, count: usize) -> Result<&mut [u8]> {
         HeldVolume::bytes(self.mask.as_mut().map(|mask| &mut mask.held), offset, count)
     }
 
-    /// Forgets the mask; its memory is free again.
+    /// Frees the mask.
     pub fn end_mask(&mut self) {
         self.mask = None;
     }
 
-    /// The lines of the mask, refined by the values of the volume. The mask is forgotten, whatever comes of it.
-    ///
-    /// # Errors
-    /// `volume` for an invalid mask, or one that lies elsewhere than the volume, `interrupted`.
     pub(crate) fn trace_mask(&mut self, watch: Watch) -> Result<MaskLines> {
         let HeldMask { held, label_names } = self.mask.take().ok_or_else(no_mask)?;
         let scan = self.content.held.as_ref().ok_or_else(no_volume)?;
         let volume = scan.volume()?;
         let place = place_of(&Grid::from(&held.volume()?), &Grid::from(&volume))?;
-        let mut told: Vec<String> = place.iter().map(|_| placed_note(held.size, scan.size)).collect();
+        let mut all_notes: Vec<String> = place.iter().map(|_| placed_note(held.size, scan.size)).collect();
         let mask = place.map_or(Ok(None), |place| placed(&held, &place, scan).map(Some))?.unwrap_or(held);
         check_labels(&mask.stored)?;
         let traced = traced(&mask.volume()?, &volume, watch)?;
-        told.extend(notes(&traced, &mask.volume()?, true));
+        all_notes.extend(notes(&traced, &mask.volume()?, true));
         drop(mask);
         let several = traced.vessels.iter().any(|vessel| vessel.label != traced.vessels[0].label);
         let added = traced.vessels.into_iter().map(|vessel| {
@@ -82,11 +76,11 @@ impl Study {
             let name = label_names.get(&vessel.label).cloned().unwrap_or_else(numbered);
             Ok(NamedLine { line: self.lines.add(line_of(vessel))?, name })
         });
-        Ok(MaskLines { lines: added.collect::<Result<_>>()?, notes: told })
+        Ok(MaskLines { lines: added.collect::<Result<_>>()?, notes: all_notes })
     }
 }
 
-/// A mask on the grid of its volume, 0 beside its own voxels.
+/// The mask on the volume's grid, 0 elsewhere.
 fn placed(mask: &HeldVolume, place: &MaskPlace, volume: &HeldVolume) -> Result<HeldVolume> {
     let [ni, nj, nk] = volume.size;
     let strides = [1, ni, ni * nj];
@@ -133,7 +127,6 @@ fn line_of(vessel: MaskVessel) -> Line {
     Line { bridged, ..Line::from(Centerline { points, radius, confidence }) }
 }
 
-/// Refuses a mask with as many values as a scan has.
 fn check_labels(stored: &Stored) -> Result<()> {
     let is_scan = match stored {
         Stored::U8(_) => return Ok(()),
@@ -143,13 +136,13 @@ fn check_labels(stored: &Stored) -> Result<()> {
     };
     if is_scan {
         let expected = format!("a mask with at most {MOST_LABELS} labels");
-        let error = Error::new(ErrorKind::Volume, "mask", "more different values, as a scan has", expected);
+        let error = Error::new(ErrorKind::Volume, "mask", "more distinct values, as in a scan", expected);
         return Err(error.mend("open the segmentation of the vessels, or open the file as a scan").into());
     }
     Ok(())
 }
 
-/// Whether there are more different values than labels may be; most are as the one before.
+/// Whether there are too many distinct values; exploits runs of equal ones.
 fn has_many(values: impl Iterator<Item = u32>) -> bool {
     let mut different = HashSet::new();
     let mut last = None;
@@ -166,5 +159,5 @@ fn has_many(values: impl Iterator<Item = u32>) -> bool {
 }
 
 fn no_mask() -> Failure {
-    Failure { kind: "volume", ..Failure::of_message("mask", &"none", "one that was read") }
+    Failure { kind: "volume", ..Failure::of_message("mask", &"none", "a mask that was read") }
 }

@@ -1,4 +1,4 @@
-//! What was measured, as the page and its worker tell it each other: the page's types are made of these.
+//! Measurements as page and worker exchange them; the page's types are generated from these.
 
 use crate::flag_table::{FLAGS, FlagLook};
 use crate::measure_words::{of_bounds, of_c_arm, of_doubts, of_flags, of_source, of_stenosis, of_wall};
@@ -19,10 +19,10 @@ use crate::study::failure::Result;
 
 type Vector = [f64; 3];
 
-/// A place on a vessel and the diameter there (mm).
+/// A place on a vessel and its diameter (mm).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename = "Spot"))]
-pub struct SpotMessage {
+pub(crate) struct SpotMessage {
     /// mm along the vessel
     at: f64,
     /// mm
@@ -35,19 +35,18 @@ impl From<Spot> for SpotMessage {
     }
 }
 
-/// The lumen of a vessel by its arc length. What was not measured is NaN, null in JSON.
+/// The lumen of a vessel by arc length; NaN (null in JSON) if not measured.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename = "Profile"))]
-pub struct ProfileMessage {
-    /// mm
+pub(crate) struct ProfileMessage {
     arc_length: Vec<f64>,
     /// Of a circle of the same area (mm).
     #[cfg_attr(test, ts(type = "Array<number | null>"))]
     diameter: Vec<f64>,
-    /// The shortest one (mm).
+    /// mm
     #[cfg_attr(test, ts(type = "Array<number | null>"))]
     diameter_min: Vec<f64>,
-    /// The longest one (mm).
+    /// mm
     #[cfg_attr(test, ts(type = "Array<number | null>"))]
     diameter_max: Vec<f64>,
     /// mm²
@@ -56,29 +55,26 @@ pub struct ProfileMessage {
     /// The standard deviation of `diameter` (mm).
     #[cfg_attr(test, ts(type = "Array<number | null>"))]
     uncertainty: Vec<f64>,
-    /// Whether a section counts for what is narrowest, widest or suggested.
+    /// Whether a section counts for the narrowest, widest and suggested places.
     counts: Vec<bool>,
     /// Words such as `calcium`, `no clear wall`.
     flags: Vec<Vec<String>>,
-    /// What calcium or metal beside the lumen leaves open, in words.
+    /// The two bounds of a diameter next to calcium or metal, in words.
     bounds: Vec<Option<String>>,
-    /// Every flag that there is, in the order of plots and tables.
+    /// All flags, in the order of plots and tables.
     flag_table: &'static [FlagLook],
-    /// The middle of each section.
     center: Vec<Vector>,
-    /// Full width at half maximum of the point spread (mm).
+    /// FWHM of the point spread (mm).
     fwhm: f64,
-    /// How it was found: `given`, `estimated on …`, `assumed: …`.
+    /// Its source: `given`, `estimated on …`, `assumed: …`.
     fwhm_source: String,
-    /// The level that walls were expected to have, or why they were not told apart.
+    /// The expected wall level, or why walls were not separated.
     wall_source: String,
-    /// A suggestion, not a finding.
     narrowest: Option<SpotMessage>,
-    /// The longest diameter; none also where an odd outline or a branch may be what makes it so.
+    /// The largest diameter; none if an odd outline or a branch may cause it.
     widest: Option<SpotMessage>,
-    /// Why no narrowest place, or no reference of it, is suggested: a sentence each.
+    /// Why no narrowest place or reference is suggested, one sentence each.
     not_suggested: Vec<String>,
-    /// The stretches that were not measured.
     not_measured: Vec<NotMeasured>,
 }
 
@@ -107,50 +103,39 @@ impl From<&Profile> for ProfileMessage {
     }
 }
 
-/// What a reader marked on one vessel (arc lengths, mm).
+/// A reader's marks on one vessel (arc lengths, mm).
 #[derive(Clone, Debug, Deserialize)]
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename = "Marks"))]
-pub struct MarksMessage {
-    /// The place of a stenosis.
+pub(crate) struct MarksMessage {
     at: Option<f64>,
-    /// One or two places to compare it with.
     references: Vec<f64>,
-    /// How it is graded.
     #[cfg_attr(test, ts(type = "StenosisMethod"))]
     method: String,
     /// The assumed original diameter (mm), for ECST.
     original: Option<f64>,
-    /// The diameter of a vessel like the normal one (mm).
+    /// The diameter of a comparable normal vessel (mm).
     comparison: Option<f64>,
-    /// The territory whose groups are told.
     #[cfg_attr(test, ts(type = "Territory | null"))]
     group: Option<String>,
-    /// The ends of a stretch: its length, its C-arm.
+    /// The ends of a stretch, for length and C-arm.
     stretch: Option<[f64; 2]>,
-    /// The ends of another stretch: the angle between both.
+    /// The ends of a second stretch, for the angle between both.
     #[serde(rename = "secondStretch")]
     second_stretch: Option<[f64; 2]>,
-    /// Places whose diameters are noted.
     #[serde(default)]
     diameters: Vec<f64>,
 }
 
 impl MarksMessage {
-    /// The stretches that were marked (mm).
-    pub fn stretches(&self) -> Vec<[f64; 2]> {
+    pub(crate) fn stretches(&self) -> Vec<[f64; 2]> {
         self.stretch.into_iter().chain(self.second_stretch).collect()
     }
 
-    /// The places whose diameters are noted (mm).
-    pub fn diameters(&self) -> &[f64] {
+    pub(crate) fn diameters(&self) -> &[f64] {
         &self.diameters
     }
 
-    /// What was marked.
-    ///
-    /// # Errors
-    /// `settings` for another method or territory.
-    pub fn marked(&self) -> Result<Marked> {
+    pub(crate) fn marked(&self) -> Result<Marked> {
         let method = Method::named("method of the stenosis", &self.method)?;
         let territory = self.group.as_ref().map(|name| Territory::named("vessel of the group", name));
         let compared = Compared {
@@ -162,8 +147,8 @@ impl MarksMessage {
         Ok(Marked { at: self.at, method, compared, group: territory.transpose()?, diameters })
     }
 
-    /// The same as what the command line is asked for; without a graded stenosis its place alone.
-    pub fn asked(&self, is_graded: bool) -> Asked {
+    /// The request as on the command line; only the place if no stenosis is graded.
+    pub(crate) fn asked(&self, is_graded: bool) -> Asked {
         let only = Asked { at_mm: self.at, ..Asked::default() };
         if !is_graded {
             return only;
@@ -179,13 +164,10 @@ impl MarksMessage {
     }
 }
 
-/// What is told of a place that was marked; nothing where none is.
 #[derive(Clone, Debug, Default, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename = "Grade"))]
-pub struct GradeMessage {
-    /// The stenosis that was marked.
+pub(crate) struct GradeMessage {
     stenosis: Option<StenosisMessage>,
-    /// What is still missing, or what is wrong with a place.
     not_graded: Option<String>,
 }
 
@@ -196,7 +178,6 @@ impl From<Option<Grade>> for GradeMessage {
     }
 }
 
-/// A stenosis that is graded.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename = "Stenosis"))]
 struct StenosisMessage {
@@ -207,23 +188,20 @@ struct StenosisMessage {
     percent_uncertainty: f64,
     /// Its place (mm).
     at: f64,
-    /// mm
     diameter: f64,
     /// The standard deviation of `diameter` (mm).
     #[cfg_attr(test, ts(type = "number | null"))]
     uncertainty: f64,
-    /// What it is compared with, in the unit of the method.
+    /// The reference value, in the method's unit.
     reference: f64,
-    /// The places that it is compared with.
     references: Vec<SpotMessage>,
-    /// How it is graded.
     #[cfg_attr(test, ts(type = "StenosisMethod"))]
     method: &'static str,
-    /// The percentage in one line. Python's `str(stenosis)` has it with its doubts.
+    /// The percentage in one line; Python's `str(stenosis)` adds the doubts.
     words: String,
-    /// What makes the percentage doubtful, a sentence each.
+    /// Doubts about the percentage, one sentence each.
     doubts: Vec<String>,
-    /// The group of the field with its source, where a territory was named.
+    /// The severity group with its source, if a territory was named.
     group: Option<String>,
 }
 
@@ -247,34 +225,26 @@ impl StenosisMessage {
     }
 }
 
-/// Places that are compared before anything is graded, such as those that are offered (arc lengths, mm).
+/// Places to compare before grading, such as offered references (arc lengths, mm).
 #[derive(Clone, Debug, Deserialize)]
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename = "Compared"))]
-pub struct ComparedMessage {
-    /// The narrow place.
+pub(crate) struct ComparedMessage {
     at: f64,
-    /// The places that it is compared with.
     references: Vec<f64>,
-    /// How it would be graded.
     #[cfg_attr(test, ts(type = "StenosisMethod"))]
     method: String,
 }
 
 impl ComparedMessage {
-    /// What would make a percentage from these places doubtful, a sentence each.
-    ///
-    /// # Errors
-    /// `settings` for another method.
-    pub fn doubts(&self, profile: &Profile) -> Result<Vec<String>> {
+    pub(super) fn doubts(&self, profile: &Profile) -> Result<Vec<String>> {
         let method = Method::named("method of the stenosis", &self.method)?;
         Ok(of_doubts(&profile.doubts(self.at, method, &self.references)))
     }
 }
 
-/// The diameter at a place and its standard deviation (mm).
 #[derive(Clone, Copy, Debug, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename = "Diameter"))]
-pub struct DiameterMessage {
+pub(crate) struct DiameterMessage {
     /// Of a circle of the same area (mm).
     pub diameter: f64,
     /// Its standard deviation (mm).
@@ -288,23 +258,20 @@ impl From<(f64, f64)> for DiameterMessage {
     }
 }
 
-/// A section: its number, its wall, and the ends of its shortest and longest diameter (mm, LPS).
+/// A section: its number, wall, and the ends of its shortest and longest diameters (mm, LPS).
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename = "MeasuredSection"))]
-pub struct SectionMessage {
-    /// Its number in the profile.
+pub(crate) struct SectionMessage {
     number: usize,
-    /// The points of the wall; empty where none was found.
+    /// The contour of the wall; empty if none was found.
     contour: Vec<Vector>,
-    /// The ends of the shortest diameter.
     shortest: Option<[Vector; 2]>,
-    /// The ends of the longest diameter.
     longest: Option<[Vector; 2]>,
 }
 
 impl SectionMessage {
-    /// The section of a profile that is nearest to an arc length (mm).
-    pub fn nearest(profile: &Profile, at: f64) -> Self {
+    /// The section nearest to an arc length (mm).
+    pub(super) fn nearest(profile: &Profile, at: f64) -> Self {
         let number = profile.nearest_section(at);
         let middle = profile.center[number];
         let ends =
@@ -314,45 +281,36 @@ impl SectionMessage {
     }
 }
 
-/// From where a stretch is seen.
 #[derive(Clone, Copy, Debug, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename = "Look"))]
-pub struct LookMessage {
-    /// From the viewer into the scene.
+pub(crate) struct LookMessage {
     direction: Vector,
-    /// Upwards.
     up: Vector,
 }
 
-/// A marked stretch of a vessel.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename = "Stretch"))]
-pub struct StretchMessage {
+pub(crate) struct StretchMessage {
     /// Along the vessel (mm).
     length: f64,
     /// From end to end (mm).
     straight: f64,
-    /// `length` in straight distances; null where it ends where it begins.
+    /// `length` / `straight`; null for a closed stretch.
     #[cfg_attr(test, ts(type = "number | null"))]
     tortuosity: f64,
-    /// Unit vector along it.
     direction: Vector,
-    /// How a C-arm is turned to the left that shows it in its whole length (radians).
+    /// LAO angle of a C-arm that shows it unforeshortened (radians).
     lao: f64,
-    /// How it is turned to the head (radians).
+    /// Cranial angle of that C-arm (radians).
     cranial: f64,
-    /// The same as it stands on a C-arm: `RAO 20° CRAN 5°`.
+    /// The angles as displayed on a C-arm: `RAO 20° CRAN 5°`.
     c_arm: String,
-    /// The view from the detector of that C-arm.
     view: LookMessage,
 }
 
 impl StretchMessage {
-    /// The stretch between two arc lengths (mm), and the C-arm that is turned least to see it in its whole length.
-    ///
-    /// # Errors
-    /// `measuring` for places beyond the vessel, or one place twice.
-    pub fn between(profile: &Profile, ends: [f64; 2]) -> Result<Self> {
+    /// The stretch between two arc lengths (mm), and the least-angled C-arm that shows it unforeshortened.
+    pub(super) fn between(profile: &Profile, ends: [f64; 2]) -> Result<Self> {
         let stretch = profile.stretch(ends)?;
         let arm = profile.c_arm(ends, None)?;
         let view = LookMessage {
@@ -372,18 +330,14 @@ impl StretchMessage {
     }
 }
 
-/// A vessel for tables.
 #[derive(Clone, Debug, Deserialize)]
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename = "MeasuredVessel"))]
-pub struct VesselMessage {
-    /// Its id.
-    pub id: String,
-    /// Its name, empty where it has none.
+pub(crate) struct VesselMessage {
+    pub(crate) id: String,
+    /// Its name; may be empty.
     pub name: String,
-    /// Its line.
     pub line: usize,
-    /// What was marked on it.
-    pub marks: MarksMessage,
+    pub(crate) marks: MarksMessage,
 }
 
 fn arrays(points: &[DVec3]) -> Vec<Vector> {

@@ -1,4 +1,4 @@
-//! Measuring the lines that are shown, as `lumencut.measure(volume, vessel, 0.5, fwhm, tree=tree)` of Python does.
+//! Measures the shown lines, as Python's `lumencut.measure(volume, vessel, 0.5, fwhm, tree=tree)`.
 
 use crate::profile_marks::{Grade, Measured};
 use crate::profile_record::{Asked, vessels_json};
@@ -10,43 +10,32 @@ use lumencut_vessels::measure::profile::Profile;
 use crate::study::failure::Result;
 use crate::study::measure_messages::VesselMessage;
 use crate::study::open_study::Study;
-use crate::study::profiles::{Asking, Profiles};
+use crate::study::profiles::{ProfileParameters, Profiles};
 
-/// A vessel that is measured: the number of its profile, and what is told of the place that is marked on it.
 pub(super) struct GradedVessel {
     number: usize,
     grade: Option<Grade>,
 }
 
 impl Study {
-    /// The profile of a line that is shown, under a point spread of this width (mm), or under the one that the tree tells.
-    ///
-    /// # Errors
-    /// `vessel tree` for a line that is not shown, `volume` where none is open, and those of measuring.
+    /// The profile of a shown line for a point-spread width (mm), or for the tree's own.
     pub fn profile(&mut self, line: usize, fwhm: Option<f64>, stop: Stop) -> Result<&Profile> {
-        let found = self.profiles.of(&self.content, line, &Asking { fwhm, stop })?;
+        let found = self.profiles.of(&self.content, line, &ProfileParameters { fwhm, stop })?;
         self.profiles.ask_with(line, fwhm);
         Ok(self.profiles.kept(found))
     }
 
-    /// The profile of a line that is shown, as it was asked for last.
-    ///
-    /// # Errors
-    /// As [`Study::profile`].
+    /// The profile of a shown line with the last requested width.
     pub fn measured(&mut self, line: usize, stop: Stop) -> Result<&Profile> {
         self.profile(line, self.profiles.width(line), stop)
     }
 
-    /// Forgets what was measured.
-    pub fn forget_profiles(&mut self) {
+    pub(crate) fn forget_profiles(&mut self) {
         self.profiles = Profiles::default();
     }
 
-    /// Sections of vessels as `lumencut measure -o x.csv` writes them; with what is assumed of lengths, where it is.
-    ///
-    /// # Errors
-    /// As [`Study::profile`]; `settings` for marks with another method or territory.
-    pub fn profiles_csv(
+    /// The CSV of `lumencut measure -o x.csv`; states assumed lengths.
+    pub(crate) fn profiles_csv(
         &mut self,
         vessels: &[VesselMessage],
         is_millimetre_assumed: bool,
@@ -56,12 +45,8 @@ impl Study {
         Ok(vessels_csv(&self.rows(vessels, &graded, is_millimetre_assumed)))
     }
 
-    /// Vessels as `lumencut measure -o x.json` writes them. What was marked stands among the settings where it is one vessel, as
-    /// there; each vessel has its stenosis, or why it has none.
-    ///
-    /// # Errors
-    /// As [`Study::profiles_csv`].
-    pub fn profiles_json(
+    /// The JSON of `lumencut measure -o x.json`. For a single vessel its marks are part of the settings, as there.
+    pub(crate) fn profiles_json(
         &mut self,
         vessels: &[VesselMessage],
         is_millimetre_assumed: bool,
@@ -72,7 +57,7 @@ impl Study {
         Ok(vessels_json(&asked, &self.rows(vessels, &graded, is_millimetre_assumed)))
     }
 
-    /// What was asked for: what was marked among it where it is one vessel.
+    /// The request; includes the marks if it is one vessel.
     pub(super) fn asked(&self, vessels: &[VesselMessage], graded: &[GradedVessel]) -> Asked {
         let asked = match (vessels, graded) {
             ([one], [graded]) => one.marks.asked(graded.grade.as_ref().and_then(Grade::stenosis).is_some()),
@@ -81,7 +66,6 @@ impl Study {
         Asked { step_mm: STEP, fwhm_mm: self.common_width(vessels), ..asked }
     }
 
-    /// Each vessel measured, and what is told of the place that is marked on it.
     pub(super) fn graded(&mut self, vessels: &[VesselMessage], stop: Stop) -> Result<Vec<GradedVessel>> {
         let numbers = self.all_of(vessels, stop)?;
         let graded = |(vessel, number): (&VesselMessage, usize)| {
@@ -111,12 +95,11 @@ impl Study {
     fn all_of(&mut self, vessels: &[VesselMessage], stop: Stop) -> Result<Vec<usize>> {
         let (profiles, content) = (&mut self.profiles, &self.content);
         let of = |one: &VesselMessage| {
-            profiles.of(content, one.line, &Asking { fwhm: profiles.width(one.line), stop })
+            profiles.of(content, one.line, &ProfileParameters { fwhm: profiles.width(one.line), stop })
         };
         vessels.iter().map(of).collect()
     }
 
-    /// The width that was given for all of these vessels, where it is one.
     fn common_width(&self, vessels: &[VesselMessage]) -> Option<f64> {
         let first = self.profiles.width(vessels.first()?.line)?;
         vessels.iter().all(|one| self.profiles.width(one.line) == Some(first)).then_some(first)

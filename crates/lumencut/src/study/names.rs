@@ -1,7 +1,7 @@
 //! Names of vessels that an edit adds.
 
-/// A name that no vessel has: the kind and the first free number, such as `Branch 3`.
-pub fn fresh_name(taken: &[String], kind: &str) -> String {
+/// An unused name: the kind and the first free number, such as `Branch 3`.
+pub(crate) fn fresh_name(taken: &[String], kind: &str) -> String {
     let mut name = String::new();
     for number in 1..=taken.len() + 1 {
         name = format!("{kind} {number}");
@@ -12,7 +12,7 @@ pub fn fresh_name(taken: &[String], kind: &str) -> String {
     name
 }
 
-/// The name of the second part of a vessel that is cut; the first part keeps the name of the whole.
+/// The name of the second part of a cut vessel; the first part keeps the name.
 pub fn part_name(taken: &[String], whole: &str) -> String {
     fresh_name(taken, &format!("{whole} part"))
 }

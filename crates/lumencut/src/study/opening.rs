@@ -1,4 +1,4 @@
-//! What is opened and closed: volumes and centerlines.
+//! Opens and closes volumes and centerlines.
 
 use lumencut_core::vessel_tree::VesselTree;
 
@@ -8,10 +8,10 @@ use crate::study::held_volume::{HeldVolume, VolumeHeader};
 use crate::study::open_study::Study;
 
 impl Study {
-    /// Makes room for a volume and puts it in the place of all that is open; its voxels follow as bytes.
+    /// Makes room for a volume in place of the current study; its voxels follow as bytes.
     ///
     /// # Errors
-    /// `settings` for an invalid header, `volume` for more voxels than there is memory for and for an invalid grid.
+    /// `settings` for an invalid header; `volume` without memory or for an invalid grid.
     pub fn begin_volume(&mut self, header: &str) -> Result<()> {
         let header = VolumeHeader::read(header)?;
         self.close();
@@ -19,15 +19,15 @@ impl Study {
         Ok(())
     }
 
-    /// The bytes of the voxels from `offset` on, `count` of them, to be written.
+    /// `count` writable bytes of voxels from `offset` on.
     ///
     /// # Errors
-    /// `volume` where the volume ends before.
+    /// `volume` beyond its end.
     pub fn voxel_bytes(&mut self, offset: usize, count: usize) -> Result<&mut [u8]> {
         HeldVolume::bytes(self.content.held.as_mut(), offset, count)
     }
 
-    /// What is known of the voxels no longer counts: some of them are others now.
+    /// Invalidates caches after voxels changed.
     pub fn voxels_changed(&mut self) {
         self.tracer = Default::default();
         self.trees = None;
@@ -38,7 +38,7 @@ impl Study {
         }
     }
 
-    /// Opens a volume and its vessels, with a name for each, in the place of all that is open.
+    /// Opens a volume with named vessels in place of the current study.
     ///
     /// # Errors
     /// `vessel tree` for an invalid tree.
@@ -48,12 +48,8 @@ impl Study {
         self.show_tree(tree, names)
     }
 
-    /// Opens centerlines beside the volume, in the place of those before, in the space and unit that are asked for; tells what was
-    /// odd about them.
-    ///
-    /// # Errors
-    /// `format` for a file that is damaged or holds none; the tree before stays then.
-    pub fn open_centerlines(
+    /// Opens centerlines in place of the current ones; returns notes. After an error the current tree stays.
+    pub(crate) fn open_centerlines(
         &mut self,
         bytes: &[u8],
         name: &str,
@@ -67,7 +63,7 @@ impl Study {
         Ok(OpenedLines { notes: read.notes, doubt: read.doubt })
     }
 
-    /// Closes what is open; its memory is free again.
+    /// Closes the study and frees its memory.
     pub fn close(&mut self) {
         let mut lines = std::mem::take(&mut self.lines);
         lines.clear();

@@ -1,13 +1,12 @@
-//! The colours of vessels: those of Okabe and Ito that stand out on a dark picture come first. None is yellow, orange or red, which warn.
+//! Vessel colours: those of Okabe and Ito, brightest on dark first. None is yellow, orange or red, which are warnings.
 
-/// The colours that vessels get, in this order. Hosts name them in their own words.
-pub const PALETTE: [&str; 12] = [
+/// Colours in order of use; hosts name them.
+pub(crate) const PALETTE: [&str; 12] = [
     "#56b4e9", "#cc79a7", "#00b98a", "#b18cff", "#8fdc6a", "#ffa6dc", "#3f6fe0", "#8ff0e8", "#c44df0",
     "#2f8f9f", "#9aa8b6", "#ffffff",
 ];
 
-/// The colour of the palette that the fewest vessels have, the first of several such.
-pub fn next_color(taken: &[&str]) -> &'static str {
+pub(crate) fn next_color(taken: &[&str]) -> &'static str {
     let count = |color: &&str| taken.iter().filter(|taken| *taken == color).count();
     PALETTE.into_iter().min_by_key(count).unwrap_or(PALETTE[0])
 }
@@ -41,7 +40,7 @@ mod tests {
     fn no_color_is_one_that_warns_and_all_are_told_apart() {
         for (n, color) in PALETTE.iter().enumerate() {
             let [red, green, blue] = rgb(color);
-            // Yellow, orange and red have little blue beside much red.
+            // Yellow, orange and red have little blue relative to red.
             assert!(blue > 0.6 * red, "{color}");
             for other in &PALETTE[..n] {
                 let apart: f64 =

@@ -1,7 +1,7 @@
-//! What a pixel of a view shows, and what lies at a world point.
+//! Picking: what a pixel shows, and what lies at a world point.
 
+use crate::clicked_vessel::{is_clicked, nearest_arc_length};
 use crate::cut_at::{CutAt, cut_at};
-use crate::meant_vessel::{is_meant, nearest_arc_length};
 use crate::windows;
 use glam::DVec3;
 use serde::Serialize;
@@ -10,65 +10,55 @@ use crate::study::failure::Result;
 use crate::study::open_study::Study;
 use crate::study::view::View;
 
-/// What a pixel shows.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct Pick {
+pub(crate) struct Pick {
     /// The world point.
     pub point: [f64; 3],
-    /// The volume there; none outside.
+    /// The volume's value; none outside.
     pub value: Option<f32>,
-    /// The vessel in or beside whose lumen it is; none in the tissue between vessels.
+    /// The vessel in or next to whose lumen it lies; none in tissue.
     pub vessel: Option<usize>,
-    /// The place on the vessel that is nearest (mm).
+    /// The nearest arc length on the vessel (mm).
     pub arc_length: Option<f64>,
 }
 
 impl Study {
-    /// What the pixel (column, row) of a view shows: the cut surface, or the brightest place on its ray where a focus shows what lies
-    /// around the vessels instead.
-    ///
-    /// # Errors
-    /// Those of the view, and `volume` where nothing is open.
-    pub fn pick(&mut self, view: &View, pixel: [f64; 2]) -> Result<Pick> {
+    /// What a pixel (column, row) shows: the cut surface, or the brightest place on the ray if a focus shows the surroundings.
+    pub(crate) fn pick(&mut self, view: &View, pixel: [f64; 2]) -> Result<Pick> {
         let cut = self.cut_in(view, pixel)?;
         if !cut.is_shown {
-            // Beside the scan there is no brightest place, and no vessel.
+            // Outside the scan there is no brightest place, and no vessel.
             let brightest = self.brightest_on_whole_ray(view, pixel);
-            return Ok(brightest.unwrap_or_else(|_| self.told(cut.point, None)));
+            return Ok(brightest.unwrap_or_else(|_| self.pick_at(cut.point, None)));
         }
         let spacing = view.camera.pixel_spacing();
-        let is_meant =
-            |vessel: &usize| self.vessel(*vessel).is_ok_and(|vessel| is_meant(vessel, cut.point, spacing));
-        Ok(self.told(cut.point, cut.vessel.filter(is_meant)))
+        let is_clicked =
+            |vessel: &usize| self.vessel(*vessel).is_ok_and(|vessel| is_clicked(vessel, cut.point, spacing));
+        Ok(self.pick_at(cut.point, cut.vessel.filter(is_clicked)))
     }
 
-    /// The cut surface in a pixel (column, row) of a view.
-    ///
-    /// # Errors
-    /// Those of the view, and `volume` where nothing is open.
+    /// The cut surface at a pixel (column, row).
     pub(super) fn cut_in(&mut self, view: &View, pixel: [f64; 2]) -> Result<CutAt> {
         let scene = self.content.scene()?;
         Ok(cut_at((&mut self.cpu, view.method), &scene, (&view.camera, &view.settings), pixel)?)
     }
 
-    /// What lies at a world point; the vessel where one is given.
-    pub(super) fn told(&self, point: DVec3, vessel: Option<usize>) -> Pick {
+    pub(super) fn pick_at(&self, point: DVec3, vessel: Option<usize>) -> Pick {
         let arc_length = vessel
             .and_then(|vessel| self.vessel(vessel).ok())
             .map(|vessel| nearest_arc_length(vessel, point));
         Pick { point: point.to_array(), value: self.value(point), vessel, arc_length }
     }
 
-    /// What lies at a world point, and the vessel in whose lumen it is.
-    pub fn at(&self, point: [f64; 3]) -> Pick {
+    pub(crate) fn at(&self, point: [f64; 3]) -> Pick {
         let point = DVec3::from_array(point);
         let vessels = self.content.tree().map_or(&[][..], |tree| tree.tree().vessels());
         let inside = vessels.iter().position(|vessel| {
             let near = vessel.points().iter().zip(0..);
             near.into_iter().any(|(p, i): (&DVec3, usize)| p.distance(point) <= vessel.radius_or_zero(i))
         });
-        self.told(point, inside)
+        self.pick_at(point, inside)
     }
 
     fn value(&self, point: DVec3) -> Option<f32> {

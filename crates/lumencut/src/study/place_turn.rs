@@ -1,4 +1,4 @@
-//! Views of one vessel of the study: from where most of it is seen, and a turn about a place on it.
+//! Views of one vessel: the clearest view, and a turn about a place.
 
 use lumencut_core::error::{Error, ErrorKind};
 use lumencut_core::stop::Stop;
@@ -12,35 +12,33 @@ use crate::study::view::CameraMessage;
 use crate::vessel_views::{Lumen, about_lumen, known_radius_at, refocused};
 use crate::views::{Axis, rotated};
 
-/// The degrees after which the same places are cut again, from behind.
+/// Degrees after which the cut repeats, seen from behind.
 const HALF_TURN: u32 = 180;
 
 /// A turn about a place on a vessel, which runs upwards through the middle of the picture.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct PlaceTurn {
-    /// The first view: of all views about the place the one that is nearest to that from the front.
+pub(crate) struct PlaceTurn {
+    /// The first view: the one nearest to anterior.
     pub camera: CameraMessage,
-    /// The diameter (mm) that is cut after each whole degree of the turn, from 0 to 179; from there on they repeat. None where a
-    /// view has no two walls.
-    pub diameters: Vec<Option<f64>>,
+    /// The cut diameter (mm) after each degree from 0 to 179, then repeating. None without two walls.
+    pub(crate) diameters: Vec<Option<f64>>,
 }
 
 impl Study {
-    /// The view from which most of a line is seen, whether it is shown or doubtful, turned least from a camera.
-    ///
-    /// # Errors
-    /// `camera` for one that defines no view, `vessel tree` for a line that there is not or that has no length.
-    pub fn best_view(&self, camera: &CameraMessage, line: usize) -> Result<CameraMessage> {
+    /// The view that shows most of a line, shown or doubtful, with the least turn from a camera.
+    pub(crate) fn best_view(&self, camera: &CameraMessage, line: usize) -> Result<CameraMessage> {
         Ok((&refocused(&camera.camera()?, &self.lines.get(line)?.vessel()?)?).into())
     }
 
-    /// A turn about a place `at` mm along a vessel, in pictures of a size.
-    ///
-    /// # Errors
-    /// `vessel tree` for a vessel that there is not, `camera` for a place that is not on it, `volume` where none is open, and
-    /// `measuring` where the radius of the vessel is neither known nor measured there.
-    pub fn turn_about(&mut self, vessel: usize, at: f64, size: [usize; 2], stop: Stop) -> Result<PlaceTurn> {
+    /// A turn about the place `at` mm along a vessel.
+    pub(crate) fn turn_about(
+        &mut self,
+        vessel: usize,
+        at: f64,
+        size: [usize; 2],
+        stop: Stop,
+    ) -> Result<PlaceTurn> {
         let radius = self.lumen_radius(vessel, at, stop)?;
         let first = about_lumen(self.vessel(vessel)?, Lumen { at, radius }, size)?;
         let volume = self.content.held.as_ref().ok_or_else(no_volume)?.volume()?;
@@ -51,8 +49,7 @@ impl Study {
         Ok(PlaceTurn { camera: (&first).into(), diameters: (0..HALF_TURN).map(cut).collect::<Result<_>>()? })
     }
 
-    /// The radius of a vessel at a place (mm): that of the nearest section, once it is measured; else its own, and where it has
-    /// none, it is measured.
+    /// The radius at a place (mm): of the nearest section once measured, else the vessel's own, else measured now.
     fn lumen_radius(&mut self, number: usize, at: f64, stop: Stop) -> Result<f64> {
         let own = known_radius_at(self.vessel(number)?, at);
         let lines = self.content.named.as_ref().map_or(&[][..], |named| &named.lines);

@@ -1,4 +1,4 @@
-//! Flat pictures: slices of the patient, and sections across a vessel.
+//! Flat pictures: patient slices and sections across a vessel.
 
 use glam::{DVec3, Vec3};
 use lumencut_core::geometry::{Curved, Geometry};
@@ -6,29 +6,21 @@ use serde::{Deserialize, Serialize};
 
 use crate::study::failure::Result;
 
-/// A flat picture as the page asks for it: the world point in its middle, unit vectors to the right and downwards (LPS), its
-/// size in pixels and their side (mm).
+/// A flat picture: centre in the world, unit vectors right and down (LPS), size in pixels, pixel side (mm).
 #[derive(Clone, Copy, Debug, Deserialize, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct Plane {
-    /// The world point in the middle.
+pub(crate) struct Plane {
     pub center: [f64; 3],
-    /// To the right.
     pub right: [f64; 3],
-    /// Downwards.
-    pub down: [f64; 3],
+    pub(crate) down: [f64; 3],
     /// Columns and rows.
     pub size: [usize; 2],
-    /// The side of a pixel (mm).
+    /// Pixel side (mm).
     pub pixel_spacing: f64,
 }
 
 impl Plane {
-    /// Where its pixels look.
-    ///
-    /// # Errors
-    /// `camera` for a picture without pixels.
-    pub fn geometry(&self) -> Result<Geometry> {
+    pub(crate) fn geometry(&self) -> Result<Geometry> {
         let [center, right, down] = [self.center, self.right, self.down].map(DVec3::from_array);
         let [width, height] = self.size;
         let away = |count: usize, n: usize| (n as f64 - (count as f64 - 1.0) / 2.0) * self.pixel_spacing;

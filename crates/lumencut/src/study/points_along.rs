@@ -1,37 +1,36 @@
-//! Clicks on a line: between which ones a point of it lies, and those that a line takes which was not clicked.
+//! Finds clicks for a point on a line: its neighbours, or new ones for a line without clicks.
 
 use std::collections::BTreeSet;
 
 use glam::DVec3;
 use lumencut_core::math::arc_length::arc_lengths;
 
-/// Points of a line that nobody clicked are at this distance (mm).
-const APART: f64 = 20.0;
-/// No point is set nearer than this to one of its ends and to where it was taken hold of (mm).
-const NEAREST: f64 = 5.0;
+/// Spacing of generated clicks (mm).
+const CLICK_SPACING_MM: f64 = 20.0;
+/// Generated clicks keep this distance from the ends and from the dragged point (mm).
+const MIN_DISTANCE_MM: f64 = 5.0;
 
-/// The number of the point that is nearest to a place.
-pub fn nearest_point(points: &[DVec3], place: DVec3) -> usize {
+pub(super) fn nearest_point(points: &[DVec3], place: DVec3) -> usize {
     let apart = |n: &usize| points[*n].distance(place);
     (0..points.len()).min_by(|a, b| apart(a).total_cmp(&apart(b))).unwrap_or(0)
 }
 
-/// Before which of the clicks of a line a point of it lies; never before the first and never after the last.
-pub fn click_after(clicks: &[DVec3], points: &[DVec3], number: usize) -> usize {
+/// The click before which a line point lies; never before the first or after the last.
+pub(super) fn click_after(clicks: &[DVec3], points: &[DVec3], number: usize) -> usize {
     let last = clicks.len().saturating_sub(1);
     let after = clicks.iter().position(|click| nearest_point(points, *click) > number);
     after.map_or(last, |after| after.max(1))
 }
 
-/// Both ends of a line, the point of a number, and points between them at distances that are alike, by their numbers.
-pub fn points_along(points: &[DVec3], number: usize) -> BTreeSet<usize> {
+/// Point indices of generated clicks: both ends, the given point, and evenly spaced ones between.
+pub(super) fn points_along(points: &[DVec3], number: usize) -> BTreeSet<usize> {
     let lengths = arc_lengths(points);
     let last = points.len() - 1;
     let total = lengths[last];
     let fixed = [0, number, last];
-    let pieces = (total / APART).round().max(1.0) as usize;
+    let pieces = (total / CLICK_SPACING_MM).round().max(1.0) as usize;
     let between = (1..pieces).map(|piece| piece as f64 * total / pieces as f64);
-    let far = between.filter(|place| fixed.iter().all(|n| (lengths[*n] - place).abs() > NEAREST));
+    let far = between.filter(|place| fixed.iter().all(|n| (lengths[*n] - place).abs() > MIN_DISTANCE_MM));
     let chosen = far.map(|place| lengths.partition_point(|length| *length < place));
     fixed.into_iter().chain(chosen).collect()
 }
@@ -49,7 +48,7 @@ mod tests {
     fn a_line_has_points_at_its_ends_where_it_is_held_and_between() {
         let cases: [(usize, usize, &[usize]); 5] = [
             (60, 30, &[0, 20, 30, 40, 60]),
-            // None is near the point that was asked for.
+            // None is near the requested point.
             (60, 22, &[0, 22, 40, 60]),
             // An end is no further point.
             (60, 60, &[0, 20, 40, 60]),

@@ -1,4 +1,4 @@
-//! Reformations of the study other than the straightened CPR, as the page asks for them, and how each is laid out in a pane.
+//! Reformations other than the straightened CPR, as the page requests them, and their layout in a pane.
 
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -25,19 +25,16 @@ use crate::spiral_lengths::{Room, spiral_pitch, spiral_reach};
 use crate::study::failure::{Failure, Result};
 use crate::uncurling::fitted_uncurling;
 
-/// The smallest side of a pixel that a pane is filled with (mm).
-const FINEST: f64 = 0.05;
+/// The smallest pixel side used to fill a pane (mm).
+const MIN_PIXEL_MM: f64 = 0.05;
 
-/// From where to where beyond the wall a map looks (mm).
-pub const BAND: [f64; 2] = [-1.0, 3.0];
+/// The range beyond the wall that a map samples (mm).
+pub(crate) const BAND: [f64; 2] = [-1.0, 3.0];
 
-/// From where a view is taken that a reformation begins with.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct Side {
-    /// From the viewer into the scene.
+pub(crate) struct Side {
     direction: [f64; 3],
-    /// Upwards.
     up: [f64; 3],
 }
 
@@ -48,57 +45,43 @@ impl Side {
     }
 }
 
-/// What a lumen map shows.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
 #[serde(rename_all = "lowercase")]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub enum MapOf {
-    /// The brightest that lies at the wall.
+pub(crate) enum MapOf {
     Wall,
-    /// How far the wall is from the middle.
     Radius,
-    /// How thick calcium or metal lies at the wall.
+    /// The thickness of calcium or metal at the wall.
     Thickness,
 }
 
-/// A reformation as the page asks for it.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq)]
 #[serde(tag = "kind", rename_all = "lowercase")]
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename = "Reformation"))]
-pub enum ReformationMessage {
-    /// All vessels that are shown, none before another.
+pub(crate) enum ReformationMessage {
     Untangled {
-        /// From where they are seen.
         side: Side,
     },
-    /// One vessel, straightened by degrees.
     Uncurl {
-        /// Its number.
         vessel: usize,
-        /// From where it is seen.
         side: Side,
-        /// From 0, as it is seen, to 1, straightened.
+        /// From 0 (as seen) to 1 (straight).
         amount: f64,
     },
-    /// One vessel, its sections wound up.
+    /// One vessel, its sections unrolled along a spiral.
     Spiral {
-        /// Its number.
         vessel: usize,
-        /// The angle by which sections are turned (radians).
+        /// The rotation of sections (radians).
         angle: f64,
     },
-    /// The wall of one vessel, unrolled.
     Map {
-        /// Its number.
         vessel: usize,
-        /// What of the wall.
         of: MapOf,
     },
 }
 
 impl ReformationMessage {
-    /// The vessel that it is about; none where it is about all.
-    pub fn vessel(&self) -> Option<usize> {
+    pub(crate) fn vessel(&self) -> Option<usize> {
         match self {
             Self::Untangled { .. } => None,
             Self::Uncurl { vessel, .. } | Self::Spiral { vessel, .. } | Self::Map { vessel, .. } => {
@@ -108,21 +91,16 @@ impl ReformationMessage {
     }
 }
 
-/// A reformation that is laid out in a pane.
-pub enum Laid {
-    /// All vessels.
+pub(crate) enum Laid {
     Untangled(Untangled),
-    /// A vessel, and how far it is straightened.
     Uncurl(Uncurl, f64),
-    /// A vessel wound up.
     Spiral(Spiral),
-    /// A wall, and the level from which on something in it is calcium or metal.
+    /// A wall, and the least level of calcium or metal in it.
     Map(LumenMap, Option<f64>),
 }
 
 impl Laid {
-    /// Where its pixels look.
-    pub fn layout(&self) -> &dyn Layout {
+    pub(crate) fn layout(&self) -> &dyn Layout {
         match self {
             Self::Untangled(layout) => layout,
             Self::Uncurl(layout, _) => layout,
@@ -131,8 +109,7 @@ impl Laid {
         }
     }
 
-    /// What its rows and columns are.
-    pub fn axes(&self) -> Axes {
+    pub(super) fn axes(&self) -> Axes {
         match self {
             Self::Untangled(_) => Axes::Untangled,
             Self::Uncurl(_, amount) => Axes::Uncurled(*amount),
@@ -141,8 +118,8 @@ impl Laid {
         }
     }
 
-    /// How far along its vessel a place in the picture is (mm), where rows run along one.
-    pub fn arc_length(&self, [_, row]: [f64; 2]) -> Option<f64> {
+    /// The arc length of a position (mm), if rows run along a vessel.
+    pub(super) fn arc_length(&self, [_, row]: [f64; 2]) -> Option<f64> {
         match self {
             Self::Untangled(_) | Self::Uncurl(..) => None,
             Self::Spiral(_) | Self::Map(..) => Some(row * self.layout().pixel_spacing()),
@@ -150,11 +127,8 @@ impl Laid {
     }
 }
 
-/// All vessels in a pane, untangled; `before` in other pixels, where it is the same.
-///
-/// # Errors
-/// Those of [`Untangled::new`].
-pub fn untangled(
+/// All vessels untangled in a pane; reuses `before` if only pixels differ.
+pub(crate) fn untangled(
     tree: &VesselTree,
     side: &Side,
     size: [usize; 2],
@@ -167,21 +141,14 @@ pub fn untangled(
     Ok(found.with_pixels(filling(found.extent(), size))?)
 }
 
-/// A vessel in a pane, straightened by an amount.
-///
-/// # Errors
-/// Those of [`Uncurl::new`].
-pub fn uncurl(vessel: &Vessel, side: &Side, amount: f64, size: [usize; 2]) -> Result<Uncurl> {
+pub(crate) fn uncurl(vessel: &Vessel, side: &Side, amount: f64, size: [usize; 2]) -> Result<Uncurl> {
     let camera = fitted_uncurling(&side.camera(size)?, vessel, 0.0)?;
     let path = Arc::new(CenterlinePath::new(vessel, 0.0)?);
     Ok(Uncurl::new(path, camera, amount, None)?)
 }
 
-/// A vessel in a pane, its sections wound up as finely as the pane is wide; `smallest_side` is that of a voxel (mm).
-///
-/// # Errors
-/// `vessel tree` for a vessel without radii, and those of [`Spiral::new`].
-pub fn spiral(vessel: &Vessel, angle: f64, smallest_side: f64, size: [usize; 2]) -> Result<Spiral> {
+/// A spiral CPR as fine as the pane is wide; `smallest_side` is that of a voxel (mm).
+pub(crate) fn spiral(vessel: &Vessel, angle: f64, smallest_side: f64, size: [usize; 2]) -> Result<Spiral> {
     let no_radii = || Failure::from(crate::lumen_wall::no_radius());
     let usual = known_radius(vessel).ok_or_else(no_radii)?;
     let largest = vessel.radius().unwrap_or_default().iter().copied().fold(usual, f64::max);
@@ -194,7 +161,7 @@ pub fn spiral(vessel: &Vessel, angle: f64, smallest_side: f64, size: [usize; 2])
         let parameters = SpiralParameters { pitch, radius, sampling: Sampling::Arc, pixel_spacing, angle };
         let made = Spiral::new(Arc::clone(&path), &head_up(), parameters)?;
         let width = made.size()[0];
-        // Windings are a little longer than their area says.
+        // Windings are slightly longer than their area suggests.
         if width <= size[0].max(1) {
             return Ok(made);
         }
@@ -202,11 +169,7 @@ pub fn spiral(vessel: &Vessel, angle: f64, smallest_side: f64, size: [usize; 2])
     }
 }
 
-/// The wall of a vessel that was found, unrolled in a pane.
-///
-/// # Errors
-/// Those of [`LumenMap::new`].
-pub fn map(
+pub(super) fn map(
     volume: &Volume,
     (path, found): (&Arc<CenterlinePath>, &FoundWall),
     (of, size): (MapOf, [usize; 2]),
@@ -223,18 +186,17 @@ pub fn map(
     Ok(lumen_map(volume, path, &head_up(), found, (&request, stop))?)
 }
 
-/// Where the pixels of a map look beyond the wall (mm): about the wall itself where its radius is shown.
-pub fn band_of(of: MapOf) -> [f64; 2] {
+/// The sampled range beyond the wall (mm): the wall itself if its radius is shown.
+pub(crate) fn band_of(of: MapOf) -> [f64; 2] {
     if of == MapOf::Radius { [0.0; 2] } else { BAND }
 }
 
-/// How straightened vessels are seen: the head is up.
-pub fn head_up() -> View {
+pub(crate) fn head_up() -> View {
     View { up: DVec3::Z, angle: 0.0, normal: None }
 }
 
-/// The side of the pixels (mm) in which an extent (mm) fits into a pane.
+/// The pixel side (mm) at which an extent (mm) fits a pane.
 fn filling(extent: DVec2, size: [usize; 2]) -> f64 {
     let [width, height] = size.map(|side| side.saturating_sub(2).max(1) as f64);
-    (extent.x / width).max(extent.y / height).max(FINEST)
+    (extent.x / width).max(extent.y / height).max(MIN_PIXEL_MM)
 }

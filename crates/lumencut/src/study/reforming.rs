@@ -1,4 +1,4 @@
-//! The reformation of the study that is shown beside the straightened CPR, and what its pixels show.
+//! Renders and picks the reformation shown next to the straightened CPR.
 
 use glam::{DVec2, DVec3};
 use lumencut_core::frame::Frame;
@@ -25,12 +25,7 @@ use crate::study::reformed::{Mark, Reformed, ReformedPicture};
 use crate::value_colours::{Colours, coloured, scale_end};
 
 impl Study {
-    /// A reformation in a pane of this size, in a window.
-    ///
-    /// # Errors
-    /// `vessel tree` where no vessels are shown, for a vessel that there is not, and for one without radii where they are needed;
-    /// `volume` where none is open; and those of the layout.
-    pub fn reformed(
+    pub(crate) fn reformed(
         &mut self,
         message: ReformationMessage,
         size: [usize; 2],
@@ -50,12 +45,9 @@ impl Study {
         Ok(picture)
     }
 
-    /// What a place in the reformation that was shown last shows; none where it shows nothing.
-    ///
-    /// # Errors
-    /// `settings` where none was shown.
-    pub fn pick_reformed(&self, pixel: [f64; 2]) -> Result<Option<Pick>> {
-        let none = || Failure::of_message("reformation", &"none", "one that is shown");
+    /// What a position in the last reformation shows; None if nothing.
+    pub(crate) fn pick_reformed(&self, pixel: [f64; 2]) -> Result<Option<Pick>> {
+        let none = || Failure::of_message("reformation", &"none", "a reformation shown before");
         let reformed = self.reformed.as_ref().ok_or_else(none)?;
         let point = reformed.laid.layout().world_from_pixel(DVec2::from_array(pixel));
         if !point.is_finite() {
@@ -67,12 +59,12 @@ impl Study {
             }
             laid => (reformed.message.vessel(), laid.arc_length(pixel)),
         };
-        let told = self.told(point, vessel);
-        Ok(Some(Pick { arc_length: along.or(told.arc_length), ..told }))
+        let pick = self.pick_at(point, vessel);
+        Ok(Some(Pick { arc_length: along.or(pick.arc_length), ..pick }))
     }
 
-    /// Column and row of a world point in the reformation that was shown last; none where it is not shown.
-    pub fn on_reformed(&self, point: [f64; 3]) -> Option<[f64; 2]> {
+    /// Column and row of a world point in the last reformation; None if not shown.
+    pub(crate) fn on_reformed(&self, point: [f64; 3]) -> Option<[f64; 2]> {
         let pixel = self.reformed.as_ref()?.laid.layout().pixel_from_world(DVec3::from_array(point));
         pixel.is_finite().then(|| pixel.to_array())
     }
@@ -109,7 +101,7 @@ impl Study {
         })
     }
 
-    /// The path of a vessel and the wall around it: that of its profile, or of its radii where no lumen can be measured.
+    /// The path of a vessel and its wall: from the profile, or from its radii if no lumen can be measured.
     pub(super) fn wall_of(&mut self, number: usize, stop: Stop) -> Result<(Arc<CenterlinePath>, FoundWall)> {
         let vessel = self.vessel(number)?.clone();
         let line = self.content.named.as_ref().and_then(|named| named.lines.get(number)).copied();
@@ -127,7 +119,7 @@ impl Study {
         Ok((path, found))
     }
 
-    /// What each pixel shows: a value of the volume, or a length (mm); NaN where it shows nothing.
+    /// The value of each pixel: of the volume, or a length (mm); NaN if empty.
     fn values_of(&self, message: &ReformationMessage, laid: &Laid, stop: Stop) -> Result<Vec<f32>> {
         let volume = self.scene()?.volume.ok_or_else(no_volume)?;
         let of = match message {
@@ -163,7 +155,6 @@ impl Study {
         }
     }
 
-    /// The picture of a reformation in a window, and what there is to say of it.
     fn picture_of(&self, reformed: &Reformed, (window, stop): ([f64; 2], Stop)) -> Result<ReformedPicture> {
         let layout = reformed.laid.layout();
         let size = layout.size();
@@ -182,7 +173,6 @@ impl Study {
         Ok(ReformedPicture { size, bytes, words, pixel_spacing, marks })
     }
 
-    /// Names of vessels where they end, or where they open into the one that is shown.
     fn marks_of(&self, laid: &Laid) -> Vec<Mark> {
         let Some(named) = self.content.named.as_ref() else { return Vec::new() };
         let places: Vec<(usize, [f64; 2])> = match laid {

@@ -1,4 +1,4 @@
-//! Looks by region of the body: a look, a window and the thickness of a slab under one name, as that region is mostly read.
+//! Looks by body region: look, window and slab as that region is usually read.
 
 use lumencut_core::settings::{LOOKS, Slab, SlabMode, Value};
 use serde::Serialize;
@@ -6,27 +6,25 @@ use serde_json::{Map, Value as Json};
 
 use crate::study::settings::settings_of_a_look;
 
-/// What is chosen for a region.
 struct Region {
     name: &'static str,
     words: &'static str,
     sentence: &'static str,
-    /// The name of its look.
     look: &'static str,
-    /// How thick its slab of largest values is (mm), where that differs from the look's.
+    /// Slab thickness (mm) if it differs from the look's.
     slab: Option<f64>,
-    /// The name of its window in Hounsfield units, and in another unit.
+    /// Window names for Hounsfield and other units.
     presets: [&'static str; 2],
 }
 
-/// All regions. The window for vessels with much calcium is wide, at least 1500 HU, so that calcium does not cover the lumen
-/// (Fleischmann et al. 2006, doi:10.1097/01.RVI.0000191361.02857.DE, of the arteries of the leg); a slab of 5 mm is usual for coronary
-/// arteries (SCCT, Leipsic et al. 2014, doi:10.1016/j.jcct.2014.07.003). The rest is ours.
+/// The window for heavily calcified vessels is at least 1500 HU wide, so that calcium does not hide the lumen (Fleischmann et al.
+/// 2006, doi:10.1097/01.RVI.0000191361.02857.DE, leg arteries). A 5 mm slab is usual for coronary arteries (SCCT, Leipsic et al.
+/// 2014, doi:10.1016/j.jcct.2014.07.003). The rest is ours.
 const REGIONS: [Region; 5] = [
     Region {
         name: "aorta",
         words: "Aorta",
-        sentence: "the cut around the vessels amid the shaded body, in the window for CT angiography",
+        sentence: "the cut around the vessels within the shaded body, in the CT angiography window",
         look: "focus",
         slab: None,
         presets: ["cta", "mra"],
@@ -34,7 +32,7 @@ const REGIONS: [Region; 5] = [
     Region {
         name: "carotid",
         words: "Carotid",
-        sentence: "the cut through the middle of every vessel, in the window for CT angiography",
+        sentence: "the cut through the middle of every vessel, in the CT angiography window",
         look: "lumen",
         slab: None,
         presets: ["cta", "mra"],
@@ -42,7 +40,7 @@ const REGIONS: [Region; 5] = [
     Region {
         name: "runoff",
         words: "Run-off",
-        sentence: "the largest value of 10 mm around the cut, in a wide window, so that calcium does not cover the lumen",
+        sentence: "the largest value within 10 mm around the cut, in a wide window: calcium does not hide the lumen",
         look: "slab",
         slab: None,
         presets: ["stent", "mra"],
@@ -50,7 +48,7 @@ const REGIONS: [Region; 5] = [
     Region {
         name: "coronary",
         words: "Coronary",
-        sentence: "the largest value of 5 mm around the cut, in the window for CT angiography",
+        sentence: "the largest value within 5 mm around the cut, in the CT angiography window",
         look: "slab",
         slab: Some(5.0),
         presets: ["cta", "mra"],
@@ -58,34 +56,29 @@ const REGIONS: [Region; 5] = [
     Region {
         name: "tof",
         words: "TOF",
-        sentence: "the largest value along each ray, in the window for MR angiography",
+        sentence: "for time-of-flight MR: the largest value along each ray, in the MR angiography window",
         look: "mip",
         slab: None,
         presets: ["mra", "mra"],
     },
 ];
 
-/// A region for viewers.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct RegionRow {
-    /// Its name.
+pub(crate) struct RegionRow {
     pub name: &'static str,
-    /// What it is called.
     pub words: &'static str,
-    /// What it shows.
     pub sentence: &'static str,
-    /// The values of all settings that some look chooses.
+    /// Values of all settings that any look sets.
     #[cfg_attr(test, ts(type = "Settings"))]
     pub settings: Map<String, Json>,
-    /// The name of its window where the values are Hounsfield units.
-    pub preset: &'static str,
-    /// The name of its window where they are not.
-    pub preset_of_other_units: &'static str,
+    /// Window name for Hounsfield units.
+    pub(crate) preset: &'static str,
+    /// Window name for other units.
+    pub(crate) preset_of_other_units: &'static str,
 }
 
-/// All regions, in the order to show them.
-pub fn regions() -> Vec<RegionRow> {
+pub(crate) fn regions() -> Vec<RegionRow> {
     REGIONS.iter().map(row).collect()
 }
 

@@ -1,5 +1,4 @@
-//! The report of measured vessels, and what was found on them in sentences, as a viewer asks for both: it gives pictures, and the
-//! facade the rest.
+//! Findings and reports of measured vessels as a viewer requests them: it supplies pictures, the facade the rest.
 
 use lumencut_core::stop::Stop;
 use serde::{Deserialize, Serialize};
@@ -15,60 +14,44 @@ use crate::study::measure_messages::VesselMessage;
 use crate::study::open_study::Study;
 use crate::study::view::method_word;
 
-/// What was found on a vessel.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct Finding {
-    /// Its line.
+pub(crate) struct Finding {
     line: usize,
-    /// The same sentences that the report has, in their order.
     sentences: Vec<Sentence>,
 }
 
-/// What was found in a scan.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct Findings {
-    /// On each of the vessels, in their order.
+pub(crate) struct Findings {
     vessels: Vec<Finding>,
-    /// Straight distances, a sentence each.
     distances: Vec<String>,
 }
 
-/// A vessel of a report with its pictures, PNGs in base64.
+/// A vessel with its report pictures (PNG, base64).
 #[derive(Clone, Debug, Deserialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct ReportVessel {
-    /// The vessel, with its marks.
+pub(crate) struct ReportVessel {
     vessel: VesselMessage,
-    /// A view of all vessels.
     view: View,
-    /// The straightened vessel.
     strip: Strip,
-    /// A section for each place of the plan.
     sections: Vec<String>,
 }
 
-/// A report of some vessels.
 #[derive(Clone, Debug, Deserialize)]
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename = "ReportRequest"))]
-pub struct ReportMessage {
-    /// A page each, in this order.
+pub(crate) struct ReportMessage {
     vessels: Vec<ReportVessel>,
-    /// The name of the scan, where the user wants it there.
     scan: Option<String>,
-    /// When it was saved, in words.
     saved: String,
-    /// What is known of the scan's grid.
     stated: Stated,
-    /// Whether it is the reader alone who says how far its voxels lie apart.
+    /// Whether the reader assumed the voxel spacing.
     is_millimetre_assumed: bool,
-    /// Level and width.
     window: [f64; 2],
-    /// The settings of the view that differ from the usual ones.
+    /// View settings that differ from the defaults.
     #[cfg_attr(test, ts(type = "Settings"))]
     settings: Map<String, Json>,
-    /// Straight distances (mm), told on the first page.
+    /// Straight distances (mm), shown on the first page.
     distances: Vec<f64>,
 }
 
@@ -86,20 +69,18 @@ impl ReportMessage {
         }
     }
 
-    /// What else was measured on a vessel of this number; distances belong to the scan, and stand on the first page.
+    /// Other lengths of the vessel at this index; the scan's distances go on the first page.
     fn lengths(&self, number: usize) -> Lengths {
         let distances = if number == 0 { self.distances.clone() } else { Vec::new() };
         Lengths { distances, ..lengths_of(&self.vessels[number].vessel) }
     }
 }
 
-/// What was measured on a vessel beside a stenosis; the scan's distances are no vessel's.
 fn lengths_of(vessel: &VesselMessage) -> Lengths {
     let marks = &vessel.marks;
     Lengths { stretches: marks.stretches(), diameters: marks.diameters().to_vec(), distances: Vec::new() }
 }
 
-/// The value of a setting in words.
 fn words_of(value: &Json) -> String {
     match value {
         Json::Null => "none".to_owned(),
@@ -110,11 +91,8 @@ fn words_of(value: &Json) -> String {
 }
 
 impl Study {
-    /// What was found on vessels, and the straight distances (mm) of the scan, in the sentences of the report.
-    ///
-    /// # Errors
-    /// As [`Study::profile`]; `settings` for marks with another method or territory.
-    pub fn findings(
+    /// The findings on vessels and the straight distances (mm), in the report's sentences.
+    pub(crate) fn findings(
         &mut self,
         vessels: &[VesselMessage],
         straight: &[f64],
@@ -129,22 +107,14 @@ impl Study {
         Ok(Findings { vessels: found.collect(), distances: distances(stated, straight) })
     }
 
-    /// The pictures that the report of a vessel asks for.
-    ///
-    /// # Errors
-    /// As [`Study::findings`].
-    pub fn report_plan(&mut self, vessel: &VesselMessage, stop: Stop) -> Result<Plan> {
+    pub(crate) fn report_plan(&mut self, vessel: &VesselMessage, stop: Stop) -> Result<Plan> {
         let marked = vessel.marks.marked()?;
         let profile = self.measured(vessel.line, stop)?;
         let marks: Vec<ReportMark> = marked.places(profile).iter().map(ReportMark::from).collect();
         Ok(plan(profile, &marks))
     }
 
-    /// The report of vessels as HTML.
-    ///
-    /// # Errors
-    /// As [`Study::report_plan`], and `settings` for a picture that is not base64.
-    pub fn measured_report(&mut self, message: &ReportMessage, stop: Stop) -> Result<String> {
+    pub(crate) fn measured_report(&mut self, message: &ReportMessage, stop: Stop) -> Result<String> {
         let vessels: Vec<VesselMessage> = message.vessels.iter().map(|one| one.vessel.clone()).collect();
         let graded = self.graded(&vessels, stop)?;
         let shown = message.shown(self.asked(&vessels, &graded));

@@ -1,4 +1,4 @@
-//! Session files: their lines become lines that the page holds, and the other way round.
+//! Reads and writes session files.
 
 use glam::DMat4;
 use lumencut_io as centerlines;
@@ -11,30 +11,22 @@ use crate::study::held_volume::HeldVolume;
 use crate::study::lines::{Line, Lines, NamedLine};
 use crate::study::open_study::Study;
 
-/// The program that writes the files.
 const SOFTWARE: &str = concat!("lumencut ", env!("CARGO_PKG_VERSION"));
 
-/// By how much the grids of one scan may differ after they were written and read (mm).
-const ROUNDING: f64 = 1e-3;
+/// Rounding tolerance of a scan's grid in a file (mm).
+const GRID_TOLERANCE_MM: f64 = 1e-3;
 
-/// A session as the page has it: lines by their numbers, and all else as the file has it but for what is known at each point.
+/// A session as the page has it: lines by number, everything else as in the file except point data.
 #[derive(Debug, Deserialize, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct SessionContent {
-    /// One for each vessel.
+pub(crate) struct SessionContent {
     lines: Vec<NamedLine>,
-    /// One for each doubtful branch.
     doubtful_lines: Vec<NamedLine>,
-    /// All but the lines.
     #[cfg_attr(test, ts(type = "SavedSession"))]
     session: Value,
 }
 
-/// The bytes of a session file.
-///
-/// # Errors
-/// `settings` for an invalid content, `vessel tree` for lines that do not exist, `format` for parts that do not go together.
-pub fn written(content: SessionContent, lines: &Lines) -> Result<Vec<u8>> {
+pub(crate) fn written(content: SessionContent, lines: &Lines) -> Result<Vec<u8>> {
     let SessionContent { lines: named, doubtful_lines, session } = content;
     let session = session_of(session, (named.len(), doubtful_lines.len()))?;
     let mut file = SessionFile { lines: Vec::new(), session };
@@ -42,7 +34,7 @@ pub fn written(content: SessionContent, lines: &Lines) -> Result<Vec<u8>> {
         let line = lines.get(named.line)?;
         state.confidence.clone_from(&line.confidence);
         state.bridged.clone_from(&line.bridged);
-        // Confidence stands beside the vessel, where it is read again.
+        // Confidence is stored with the vessel instead.
         file.lines.push(centerlines::Line { confidence: None, ..line.in_file(&named.name) });
     }
     for (named, branch) in doubtful_lines.iter().zip(&mut file.session.doubtful) {
@@ -54,12 +46,12 @@ pub fn written(content: SessionContent, lines: &Lines) -> Result<Vec<u8>> {
     Ok(write_session(&file, SOFTWARE)?)
 }
 
-/// What the page says of a session, with room for what it does not say.
+/// The page's session, completed with empty fields.
 fn session_of(mut said: Value, counts: (usize, usize)) -> Result<Session> {
     let wrong = |found: &str| Failure::of_message("session", &found, "a session as JSON");
     let count = |list: &str| said.get(list).and_then(Value::as_array).map(Vec::len);
     if (count("vessels"), count("doubtful")) != (Some(counts.0), Some(counts.1)) {
-        return Err(wrong("other vessels than lines"));
+        return Err(wrong("different numbers of vessels and lines"));
     }
     let add = |to: &mut Value, fields: Value| {
         if let (Some(to), Value::Object(fields)) = (to.as_object_mut(), fields) {
@@ -74,19 +66,12 @@ fn session_of(mut said: Value, counts: (usize, usize)) -> Result<Session> {
 }
 
 impl Study {
-    /// The bytes of a session file.
-    ///
-    /// # Errors
-    /// As [`written`].
-    pub fn write_session(&self, content: SessionContent) -> Result<Vec<u8>> {
+    pub(crate) fn write_session(&self, content: SessionContent) -> Result<Vec<u8>> {
         written(content, &self.lines)
     }
 
-    /// The content of a session file of the scan that is open; its lines are held from now on, and nothing is shown yet.
-    ///
-    /// # Errors
-    /// `session` where no scan is open and for a session of another one, `format` for an invalid file. Nothing is held then.
-    pub fn read_session(&mut self, bytes: &[u8], name: &str) -> Result<SessionContent> {
+    /// The content of a session file of the open scan; its lines are held but not yet shown.
+    pub(crate) fn read_session(&mut self, bytes: &[u8], name: &str) -> Result<SessionContent> {
         let Some(held) = &self.content.held else {
             return Err(not_of_scan(name, "a session without its scan", "a scan that is open"));
         };
@@ -94,25 +79,24 @@ impl Study {
         if let Some(scan) = file.session.scan.as_ref().filter(|scan| !is_of(scan, held)) {
             let [ni, nj, nk] = scan.size;
             let found = format!("a session of a scan of {ni} × {nj} × {nk} voxels in another place");
-            return Err(not_of_scan(name, &found, "a session of the scan that is open"));
+            return Err(not_of_scan(name, &found, "a session of the open scan"));
         }
         taken(file, &mut self.lines)
     }
 }
 
-/// Whether a session was made of a volume.
 fn is_of(saved: &Scan, held: &HeldVolume) -> bool {
     let here = DMat4::from(held.world_from_index).transpose().to_cols_array();
     let there = saved.world_from_index.as_flattened();
-    saved.size == held.size && here.iter().zip(there).all(|(here, there)| (here - there).abs() <= ROUNDING)
+    saved.size == held.size
+        && here.iter().zip(there).all(|(here, there)| (here - there).abs() <= GRID_TOLERANCE_MM)
 }
 
 fn not_of_scan(name: &str, found: &str, expected: &str) -> Failure {
-    let mend = "open the scan that the session was made of, then the session".to_owned();
+    let mend = "open the session's own scan, then the session".to_owned();
     Failure { kind: "session", mend, ..Failure::of_message(name, &found, expected) }
 }
 
-/// The content of a session file, whose lines are held from now on.
 fn taken(file: SessionFile, lines: &mut Lines) -> Result<SessionContent> {
     let SessionFile { lines: curves, mut session } = file;
     let mut named = Vec::with_capacity(curves.len());
@@ -213,14 +197,14 @@ mod tests {
         let content_of = |session, lines: &mut Lines| content(lines, session);
         let refused = |content, lines: &Lines| written(content, lines).expect_err("no session").found;
         let few = content_of(fewer, &mut lines);
-        assert_eq!(refused(few, &lines), "other vessels than lines");
+        assert_eq!(refused(few, &lines), "different numbers of vessels and lines");
         let mut odd = said();
         odd["bridge"] = json!("yes");
         let odd = content_of(odd, &mut lines);
         assert!(refused(odd, &lines).contains("invalid type"));
     }
 
-    /// A study with a volume of 2 x 3 x 4 voxels at a place along the first axis (mm).
+    /// A volume of 2 × 3 × 4 voxels at a position along the first axis (mm).
     fn study_at(place: f64) -> Study {
         let mut study = Study::default();
         let rows = [[1.0, 0.0, 0.0, place], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]];
@@ -239,7 +223,7 @@ mod tests {
         let bytes = study.write_session(content).expect("a file");
         let back = study.read_session(&bytes, "saved.mrk.json").expect("a session");
         assert_eq!(*study.lines.get(back.lines[0].line).expect("a line"), line(Some(vec![false, true])));
-        // Rounded as files are; elsewhere it is another scan.
+        // Rounded as in files; otherwise another scan.
         assert!(study_at(5.0005).read_session(&bytes, "saved.mrk.json").is_ok());
         let other = study_at(5.1).read_session(&bytes, "saved.mrk.json").expect_err("another scan");
         assert_eq!((other.kind, other.subject.as_str()), ("session", "saved.mrk.json"));

@@ -1,4 +1,4 @@
-//! Settings by name, as JSON: the same table as everywhere.
+//! Settings by name as JSON, from the common table.
 
 use lumencut_core::named::Named;
 use lumencut_core::settings::{
@@ -9,35 +9,25 @@ use serde_json::{Map, Value as Json};
 
 use crate::study::failure::{Failure, Result};
 
-/// A row of the table of settings.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct SettingRow {
-    /// Its name in Python and in files.
+pub(crate) struct SettingRow {
     name: &'static str,
-    /// What kind of value it has.
     kind: &'static str,
-    /// Whether it may be left open.
     optional: bool,
-    /// The value where nothing is chosen.
     #[cfg_attr(test, ts(type = "SettingValue"))]
     default: Json,
-    /// The smallest number.
     low: Option<f64>,
-    /// The largest number.
     high: Option<f64>,
     /// The unit of a number.
     unit: Option<&'static str>,
-    /// The names that can be chosen.
     choices: Vec<&'static str>,
-    /// What holds where it is left open, for those that are open by default.
+    /// The effect if unset, for settings unset by default.
     open: Option<&'static str>,
-    /// What it does.
     sentence: String,
 }
 
-/// The table of settings for viewers.
-pub fn rows() -> Vec<SettingRow> {
+pub(super) fn rows() -> Vec<SettingRow> {
     let row = |setting: &Setting| SettingRow {
         name: setting.name,
         kind: setting.kind.name(),
@@ -53,23 +43,19 @@ pub fn rows() -> Vec<SettingRow> {
     table().map(row).collect()
 }
 
-/// A look for viewers: several settings under one name.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct LookRow {
-    /// Its name on the command line and in Python.
+pub(crate) struct LookRow {
+    /// Its name in Python and on the command line.
     pub name: &'static str,
-    /// What its button is called.
     words: &'static str,
-    /// What it shows.
     sentence: &'static str,
-    /// The values of all settings that some look chooses: of those that this one leaves alone, the defaults.
+    /// Values of all settings that any look sets; defaults for those this one leaves alone.
     #[cfg_attr(test, ts(type = "Settings"))]
     pub settings: Map<String, Json>,
 }
 
-/// All looks, in the order to show them.
-pub fn looks() -> Vec<LookRow> {
+pub(crate) fn looks() -> Vec<LookRow> {
     let row = |look: &Look| {
         let settings = settings_of_a_look(&(look.values)());
         LookRow { name: look.name, words: look.words, sentence: look.sentence, settings }
@@ -77,8 +63,8 @@ pub fn looks() -> Vec<LookRow> {
     LOOKS.iter().map(row).collect()
 }
 
-/// The values of all settings that some look chooses: those that are given, and else the defaults.
-pub fn settings_of_a_look(chosen: &[(&'static str, Value)]) -> Map<String, Json> {
+/// Values of all settings that any look sets: the chosen ones, else defaults.
+pub(crate) fn settings_of_a_look(chosen: &[(&'static str, Value)]) -> Map<String, Json> {
     let value = |setting: &Setting| {
         let own = chosen.iter().find(|(name, _)| *name == setting.name);
         json_of(own.map_or_else(|| setting.default(), |(_, value)| value.clone()))
@@ -105,11 +91,8 @@ fn json_of(value: Value) -> Json {
     }
 }
 
-/// The settings that an object of names and values stands for, after those of `first`; all others have their defaults.
-///
-/// # Errors
-/// `settings` for an unknown name, a value of another kind, or one outside its range.
-pub fn settings(first: Vec<(&str, Value)>, chosen: &Map<String, Json>) -> Result<Settings> {
+/// Settings from names and values, applied after `first`; all others have defaults.
+pub(super) fn settings(first: Vec<(&str, Value)>, chosen: &Map<String, Json>) -> Result<Settings> {
     let mut choices = Choices::default();
     for (name, value) in first {
         choices.set(name, value)?;
@@ -145,7 +128,7 @@ fn pair(json: &Json) -> Option<[f64; 2]> {
     serde_json::from_value(json.clone()).ok()
 }
 
-/// A slab: its thickness (mm) and the name of its mode.
+/// A slab: thickness (mm) and mode.
 fn slab(json: &Json) -> Result<Option<Slab>> {
     let Ok((thickness, mode)) = serde_json::from_value::<(f64, String)>(json.clone()) else {
         return Ok(None);

@@ -1,4 +1,4 @@
-//! The straightened CPR of one vessel, and the way between its pixels and the world.
+//! The straightened CPR of a vessel: its layout, from pixels to the world and back.
 
 use crate::feature_aggregation::Feature;
 use glam::{DVec2, DVec3};
@@ -10,34 +10,30 @@ use serde::Deserialize;
 
 use crate::study::failure::Result;
 
-/// A CPR as the page asks for it.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq)]
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename = "Cpr"))]
-pub struct CprMessage {
-    /// The vessel's number.
+pub(crate) struct CprMessage {
+    /// Index of the vessel.
     pub vessel: usize,
-    /// The rotation about its axis (radians).
+    /// Rotation about its axis (radians).
     pub angle: f64,
-    /// The width of the picture (mm).
+    /// Width of the picture (mm).
     pub width: f64,
-    /// The side of a pixel (mm).
+    /// Pixel side (mm).
     pub pixel_spacing: f64,
-    /// Which value of a half circle a pixel shows, by CFA; without one its own.
+    /// The CFA feature of a half circle; none for the plain value.
     #[serde(default)]
-    pub feature: Option<Aggregated>,
-    /// Which side of the lumen each row follows; without one all rows have the same angle.
+    pub(crate) feature: Option<Aggregated>,
+    /// The side of the lumen that rows follow; none for a constant angle.
     #[serde(default)]
-    pub roll: Option<Followed>,
+    pub(crate) roll: Option<Followed>,
 }
 
-/// The sides that a roll follows, by their names.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq)]
 #[serde(rename_all = "lowercase")]
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename = "Roll"))]
-pub enum Followed {
-    /// The narrowest one.
+pub(crate) enum Followed {
     Narrowest,
-    /// The widest one.
     Widest,
 }
 
@@ -50,16 +46,12 @@ impl From<Followed> for Side {
     }
 }
 
-/// The features of CFA by their names.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq)]
 #[serde(rename_all = "lowercase")]
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename = "Feature"))]
-pub enum Aggregated {
-    /// The largest value.
+pub(crate) enum Aggregated {
     Max,
-    /// The mean.
     Mean,
-    /// The smallest value.
     Min,
 }
 
@@ -73,21 +65,16 @@ impl From<Aggregated> for Feature {
     }
 }
 
-/// The layout of the vessel that was straightened last.
 #[derive(Clone)]
-pub struct Laid {
-    /// What was asked for.
+pub(crate) struct Laid {
+    /// The request.
     pub message: CprMessage,
-    /// From pixels to the world and back.
-    pub cpr: Cpr,
+    pub(crate) cpr: Cpr,
 }
 
 impl Laid {
-    /// The layout that is asked for; that of `before` turned, where [`Laid::is_turned`] says so.
-    ///
-    /// # Errors
-    /// `camera` for an invalid angle, width or spacing.
-    pub fn new(message: CprMessage, vessel: &Vessel, before: Option<&Self>) -> Result<Self> {
+    /// The requested layout; reuses `before` if [`Laid::is_turned`].
+    pub(crate) fn new(message: CprMessage, vessel: &Vessel, before: Option<&Self>) -> Result<Self> {
         if let Some(laid) = before.filter(|laid| laid.is_turned(&message)) {
             let is_rolled = message.roll.is_some();
             let cpr = if is_rolled { laid.cpr.clone() } else { laid.cpr.rotated(message.angle)? };
@@ -99,31 +86,24 @@ impl Laid {
         Ok(Self { message, cpr })
     }
 
-    /// The same with rows that follow a roll.
-    ///
-    /// # Errors
-    /// As [`Cpr::rolled`].
-    pub fn rolled(self, roll: Roll) -> Result<Self> {
+    pub(crate) fn rolled(self, roll: Roll) -> Result<Self> {
         Ok(Self { cpr: self.cpr.rolled(roll)?, ..self })
     }
 
-    /// Whether a message asks for this layout, but for the angle and what a pixel shows.
-    pub fn is_turned(&self, message: &CprMessage) -> bool {
+    pub(crate) fn is_turned(&self, message: &CprMessage) -> bool {
         CprMessage { angle: message.angle, feature: message.feature, ..self.message } == *message
     }
 
-    /// The world point at a place in the picture, column and row.
-    pub fn world(&self, pixel: [f64; 2]) -> [f64; 3] {
+    pub(crate) fn world(&self, pixel: [f64; 2]) -> [f64; 3] {
         self.cpr.world_from_pixel(DVec2::from_array(pixel)).to_array()
     }
 
-    /// The column and row of a world point.
-    pub fn pixel(&self, point: [f64; 3]) -> [f64; 2] {
+    pub(crate) fn pixel(&self, point: [f64; 3]) -> [f64; 2] {
         self.cpr.pixel_from_world(DVec3::from_array(point)).to_array()
     }
 
     /// The arc length (mm) of a row.
-    pub fn arc_length(&self, row: f64) -> f64 {
+    pub(crate) fn arc_length(&self, row: f64) -> f64 {
         row * self.message.pixel_spacing
     }
 }

@@ -1,4 +1,4 @@
-//! The straightened CPR of a vessel of the study, and what its pixels show.
+//! Renders and picks the straightened CPR of a vessel.
 
 use crate::feature_aggregation::{Feature, feature_aggregation, half_circle};
 use crate::windows::sample;
@@ -17,27 +17,26 @@ use crate::study::held_volume::no_volume;
 use crate::study::open_study::{Picture, Study, shown_flat};
 use crate::study::straightened::{CprMessage, Laid};
 
-/// What a place in the straightened CPR shows.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct StraightenedPick {
+pub(crate) struct StraightenedPick {
     /// The world point.
     pub point: [f64; 3],
-    /// The volume there; none outside.
+    /// The volume's value; none outside.
     pub value: Option<f32>,
-    /// The vessel that is straightened.
+    /// The vessel.
     pub vessel: usize,
-    /// The place along it (mm).
+    /// The arc length (mm).
     pub arc_length: f64,
 }
 
 impl Study {
-    /// The straightened CPR of a vessel in a window. A roll needs the lumen, which is measured where it is not known yet.
-    ///
-    /// # Errors
-    /// `vessel tree` for a vessel that there is not, and for a roll along one without radii whose lumen cannot be measured either;
-    /// `camera` for a feature of a roll; and those of the layout.
-    pub fn straightened(&mut self, message: CprMessage, (window, stop): ([f64; 2], Stop)) -> Result<Picture> {
+    /// The straightened CPR of a vessel in a window. A roll needs the lumen, which is measured if unknown.
+    pub(crate) fn straightened(
+        &mut self,
+        message: CprMessage,
+        (window, stop): ([f64; 2], Stop),
+    ) -> Result<Picture> {
         let mut laid = Laid::new(message, self.vessel(message.vessel)?, self.laid.as_ref())?;
         if let Some(followed) = message.roll
             && self.laid.as_ref().is_none_or(|before| !before.is_turned(&message))
@@ -56,13 +55,9 @@ impl Study {
         Ok(picture)
     }
 
-    /// What a place in the straightened CPR that was shown last shows: of the half circle of a CFA the place with the largest or the
-    /// smallest value, as it shows them.
-    ///
-    /// # Errors
-    /// `settings` where none was shown.
-    pub fn pick_straightened(&self, [column, row]: [f64; 2]) -> Result<StraightenedPick> {
-        let none = || Failure::of_message("CPR", &"none", "one that is shown");
+    /// What a position in the last straightened CPR shows; for a CFA of largest or smallest values, the place of that value.
+    pub(crate) fn pick_straightened(&self, [column, row]: [f64; 2]) -> Result<StraightenedPick> {
+        let none = || Failure::of_message("CPR", &"none", "a straightened CPR shown before");
         let laid = self.laid.as_ref().ok_or_else(none)?;
         let on_half_circle = match laid.message.feature {
             Some(feature) => self.aggregated_place(laid, feature.into(), [column, row])?,
@@ -80,8 +75,8 @@ impl Study {
         Ok(place.map(|n| circle[n].to_array()))
     }
 
-    /// Column and row of a world point in the straightened CPR that was shown last; none where none was.
-    pub fn on_straightened(&self, point: [f64; 3]) -> Option<[f64; 2]> {
+    /// Column and row of a world point in the last straightened CPR; None without one.
+    pub(crate) fn on_straightened(&self, point: [f64; 3]) -> Option<[f64; 2]> {
         self.laid.as_ref().map(|laid| laid.pixel(point))
     }
 
@@ -108,7 +103,7 @@ impl Study {
 
 fn feature_of_roll() -> Failure {
     let found = "a CPR whose rows follow a side of the lumen";
-    Failure::of_message("feature of the CFA", &found, "one at an even angle")
+    Failure::of_message("feature of the CFA", &found, "a CPR at a constant angle")
 }
 
 #[cfg(test)]

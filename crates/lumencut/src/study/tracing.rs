@@ -1,4 +1,4 @@
-//! Vessels between clicks and from a seed, in the study that is open, and the lines that are made of them.
+//! Traces vessels between clicks and from a seed in the open study, and manages their lines.
 
 use glam::DVec3;
 use lumencut_core::error::{Error, ErrorKind};
@@ -20,58 +20,50 @@ use crate::study::line_edits::{cut, join};
 use crate::study::lines::{Line, LineContent, ListedLine, NamedLine};
 use crate::study::open_study::Study;
 
-/// How long work is watched: asked whether to stop, and how far it is.
+/// Control of long work: stop and progress.
 #[derive(Clone, Copy)]
 pub struct Watch<'a> {
-    /// Asked again and again.
+    /// Polled during work.
     pub stop: Stop<'a>,
-    /// Told how far the work is.
+    /// Receives the progress.
     pub progress: &'a Progress,
 }
 
-/// A ball that no vessel may pass.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename = "Stopper"))]
-pub struct StopperMessage {
-    /// Its center.
+pub(crate) struct StopperMessage {
     pub center: [f64; 3],
     /// Its radius (mm).
     pub radius: f64,
 }
 
-/// Vessels that are clicked.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct TraceRequest {
-    /// At least two points for each.
+    /// At least two points each.
     pub vessels: Vec<Vec<[f64; 3]>>,
-    pub stoppers: Vec<StopperMessage>,
-    /// Whether stretches without lumen are bridged, however long.
-    pub bridge: bool,
-    /// Lines that exist already and do not change: a traced vessel that meets one of them ends at a point of it.
+    pub(crate) stoppers: Vec<StopperMessage>,
+    /// Whether to bridge stretches without lumen, however long.
+    pub(crate) bridge: bool,
+    /// Existing lines: a traced vessel that meets one ends at a point of it.
     pub beside: Vec<usize>,
 }
 
-/// A way to where the pointer is.
 #[derive(Clone, Debug, Deserialize)]
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename = "PathRequest"))]
-pub struct PathMessage {
-    /// The last click.
+pub(crate) struct PathMessage {
     from: [f64; 3],
-    /// Where the pointer is.
     to: [f64; 3],
-    /// What no vessel may pass.
     stoppers: Vec<StopperMessage>,
-    /// Whether stretches without lumen are bridged, however long.
+    /// Whether to bridge stretches without lumen, however long.
     bridge: bool,
 }
 
-/// A vessel that was found in the scan.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct HeldLine {
-    /// The number of its line.
+    /// Its line number.
     pub line: usize,
-    /// Why it is doubtful; none where it is not.
-    pub doubt: Option<&'static str>,
+    /// Why it is doubtful; none if it is not.
+    pub(crate) doubt: Option<&'static str>,
 }
 
 impl From<&StopperMessage> for Stopper {
@@ -81,10 +73,7 @@ impl From<&StopperMessage> for Stopper {
 }
 
 impl Study {
-    /// The numbers of the lines of vessels that are clicked, in their order. A line that is what it was keeps its number.
-    ///
-    /// # Errors
-    /// `tracing` as [`lumencut_vessels::trace::clicks::tracer::Tracer::trace`], `volume` where none is open, `interrupted`.
+    /// The line numbers of clicked vessels, in order; an unchanged line keeps its number.
     pub(crate) fn trace(&mut self, request: &TraceRequest, watch: Watch) -> Result<Vec<usize>> {
         let volume = self.content.held.as_ref().ok_or_else(no_volume)?.volume()?;
         let beside = request.beside.iter().map(|line| Ok(self.lines.get(*line)?.met()));
@@ -106,20 +95,13 @@ impl Study {
         Ok(self.traced.clone())
     }
 
-    /// Refuses a place that no vessel can begin at.
-    ///
-    /// # Errors
-    /// `tracing` as [`lumencut_vessels::trace::clicks::tracer::Tracer::check_click`], `volume` where none is open.
-    pub fn check_click(&self, click: [f64; 3]) -> Result<()> {
+    pub(crate) fn check_click(&self, click: [f64; 3]) -> Result<()> {
         let volume = self.content.held.as_ref().ok_or_else(no_volume)?.volume()?;
         Ok(self.tracer.check_click(&volume, DVec3::from_array(click))?)
     }
 
-    /// The way that a vessel would take to where the pointer is; none where it is not found before `stop` says so.
-    ///
-    /// # Errors
-    /// `volume` where none is open.
-    pub fn path(&mut self, message: &PathMessage, stop: Stop) -> Result<Option<Vec<[f64; 3]>>> {
+    /// The path of a vessel to the pointer; None if not found before `stop`.
+    pub(crate) fn path(&mut self, message: &PathMessage, stop: Stop) -> Result<Option<Vec<[f64; 3]>>> {
         let volume = self.content.held.as_ref().ok_or_else(no_volume)?.volume()?;
         let stoppers: Vec<Stopper> = message.stoppers.iter().map(Stopper::from).collect();
         let between = [message.from, message.to].map(DVec3::from_array);
@@ -128,10 +110,7 @@ impl Study {
         Ok(way.map(|points| points.iter().map(|point| point.to_array()).collect()))
     }
 
-    /// The vessels that hang together with the one that a seed lies in, down to the radius of Python; the doubtful ones last.
-    ///
-    /// # Errors
-    /// `tracing` as [`found_vessels::trace_from`], `volume` where none is open, `interrupted`.
+    /// The vessels connected to a seed's, down to Python's default radius; doubtful ones last.
     pub(crate) fn trace_from(&mut self, seed: [f64; 3], watch: Watch) -> Result<Vec<HeldLine>> {
         let volume = self.content.held.as_ref().ok_or_else(no_volume)?.volume()?;
         let Watch { stop, progress } = watch;
@@ -140,41 +119,31 @@ impl Study {
         self.held_lines(tree.vessels)
     }
 
-    /// All vessels of the scan, down to the radius of Python, the doubtful ones last; and what is to be told of the scan. Where none
-    /// is sure `doubtful` says whether the others are wanted.
-    ///
-    /// # Errors
-    /// `tracing` as [`found_vessels::told`] and [`found_vessels::told_with_doubtful`], `volume` where none is open, `interrupted`.
+    /// All vessels of the scan down to Python's default radius, doubtful ones last, with notes. `doubtful` accepts a result
+    /// without a confident vessel.
     pub(crate) fn find_vessels(
         &mut self,
         doubtful: bool,
         watch: Watch,
     ) -> Result<(Vec<HeldLine>, Vec<String>)> {
-        let told = if doubtful { found_vessels::told_with_doubtful } else { found_vessels::told };
-        let tree = told(self.trees(watch)?, SMALLEST_RADIUS)?;
+        let as_tree =
+            if doubtful { found_vessels::tree_with_doubtful } else { found_vessels::confident_tree };
+        let tree = as_tree(self.trees(watch)?, SMALLEST_RADIUS)?;
         Ok((self.held_lines(tree.vessels)?, tree.notes))
     }
 
-    /// The lines of vessels that were found, from now on among those that the study holds.
     fn held_lines(&mut self, found: Vec<FoundLine>) -> Result<Vec<HeldLine>> {
         let hold =
             |found: FoundLine| Ok(HeldLine { line: self.lines.add(found.line.into())?, doubt: found.doubt });
         found.into_iter().map(hold).collect()
     }
 
-    /// The two parts of a line that is cut at an arc length (mm).
-    ///
-    /// # Errors
-    /// `vessel tree` for a line that there is not, and a place that is not between its ends.
+    /// The two parts of a line cut at an arc length (mm).
     pub(crate) fn cut(&mut self, line: usize, at: f64) -> Result<[usize; 2]> {
         let [first, second] = cut(&*self.lines.get(line)?, at)?;
         Ok([self.lines.add(first)?, self.lines.add(second)?])
     }
 
-    /// One line of two, joined at the ends that are nearest to each other.
-    ///
-    /// # Errors
-    /// `vessel tree` for a line that there is not, one that is joined to itself, and ends that are far apart.
     pub(crate) fn join(&mut self, first: usize, second: usize) -> Result<usize> {
         if first == second {
             let found = "the same line twice";
@@ -184,28 +153,17 @@ impl Study {
         self.lines.add(join(&*self.lines.get(first)?, &*self.lines.get(second)?)?)
     }
 
-    /// The content of a line.
-    ///
-    /// # Errors
-    /// `vessel tree` for a line that there is not.
-    pub fn line(&self, line: usize) -> Result<LineContent> {
+    pub(crate) fn line(&self, line: usize) -> Result<LineContent> {
         Ok(self.lines.get(line)?.content())
     }
 
-    /// Takes over a line.
-    ///
-    /// # Errors
-    /// `vessel tree` for an invalid tree.
-    pub fn add_line(&mut self, content: LineContent) -> Result<usize> {
+    pub(crate) fn add_line(&mut self, content: LineContent) -> Result<usize> {
         self.lines.add(content.into())
     }
 
-    /// Shows the lines of a list that are not hidden as the tree, in this order; none shows the volume alone. They are measured among
-    /// all of the list. Windows stay as they were, unless the lumen of what is shown is white in them.
-    ///
-    /// # Errors
-    /// `vessel tree` for a line that there is not; what was shown stays then.
-    pub fn show(&mut self, listed: &[ListedLine]) -> Result<()> {
+    /// Shows the lines of a list that are not hidden, in order; an empty list shows the volume only. All are measured together.
+    /// Windows change only if the shown lumen would be white. After an error the view stays.
+    pub(crate) fn show(&mut self, listed: &[ListedLine]) -> Result<()> {
         let vessels = listed.iter().map(|one| self.lines.get(one.line)?.vessel());
         let vessels = vessels.collect::<Result<Vec<_>>>()?;
         let shown: Vec<_> = listed.iter().zip(&vessels).filter(|(one, _)| !one.hidden).collect();
@@ -224,11 +182,8 @@ impl Study {
         self.content.hold_lumen()
     }
 
-    /// The bytes of a centerline file of these lines: `vtp` or `mrk.json`.
-    ///
-    /// # Errors
-    /// `format` for another kind and for no lines, `vessel tree` for a line that there is not.
-    pub fn write(&self, lines: &[NamedLine], kind: &str) -> Result<Vec<u8>> {
+    /// The bytes of a centerline file: `vtp` or `mrk.json`.
+    pub(crate) fn write(&self, lines: &[NamedLine], kind: &str) -> Result<Vec<u8>> {
         let write = match kind {
             "vtp" => write_vtp,
             "mrk.json" => write_mrk_json,
@@ -238,10 +193,6 @@ impl Study {
         Ok(write(&in_file.collect::<Result<Vec<_>>>()?)?)
     }
 
-    /// Puts the vessels of a tree into the table of lines, and shows them.
-    ///
-    /// # Errors
-    /// `vessel tree` for an invalid tree.
     pub(crate) fn show_tree(&mut self, tree: VesselTree, names: Vec<String>) -> Result<()> {
         let lines = tree.vessels().iter().map(|vessel| self.lines.add(vessel.into()));
         let lines = lines.collect::<Result<_>>()?;

@@ -1,4 +1,4 @@
-//! What the page asks for in the turning view: a camera, a method and settings.
+//! The turning view as the page requests it: camera, method and settings.
 
 use crate::flight::flight;
 use crate::method::Method;
@@ -12,38 +12,31 @@ use serde_json::{Map, Value as Json};
 use crate::study::failure::{Failure, Result};
 use crate::study::settings::settings;
 
-/// A camera: orthographic, its axes unit vectors.
+/// An orthographic camera; its axes are unit vectors.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename = "Camera"))]
 pub struct CameraMessage {
-    /// What is in the middle of the picture.
     center: [f64; 3],
-    /// From the viewer into the scene.
     direction: [f64; 3],
-    /// Upwards.
     up: [f64; 3],
-    /// Columns and rows.
     size: [usize; 2],
-    /// The side of a pixel (mm).
+    /// Pixel side (mm).
     pixel_spacing: f64,
 }
 
 impl CameraMessage {
-    /// The camera of the core.
-    ///
-    /// # Errors
-    /// `camera` for one that defines no view.
+    /// The core's camera.
     pub fn camera(&self) -> Result<Camera> {
         let [center, direction, up] = [self.center, self.direction, self.up].map(DVec3::from_array);
         Ok(Camera::new(center, direction, up, self.size, self.pixel_spacing)?)
     }
 }
 
-/// The views of a flight from one camera to another, equal times apart.
-///
-/// # Errors
-/// `camera` for one that defines no view, and for other flights than [`flight`] knows.
-pub fn views_between(from: &CameraMessage, to: &CameraMessage, views: usize) -> Result<Vec<CameraMessage>> {
+pub(crate) fn views_between(
+    from: &CameraMessage,
+    to: &CameraMessage,
+    views: usize,
+) -> Result<Vec<CameraMessage>> {
     Ok(flight(&from.camera()?, &to.camera()?, views)?.iter().map(CameraMessage::from).collect())
 }
 
@@ -59,20 +52,19 @@ impl From<&Camera> for CameraMessage {
     }
 }
 
-/// The methods of a view by the names that are saved, and how readers call them, in the order to show them.
+/// View methods: saved name and label, in display order.
 pub const METHODS: [[&str; 2]; 4] =
     [["csr", "CSR"], ["csr-paper", "CSR (paper)"], ["cr", "CR"], ["mpcpr", "mpCPR"]];
 
-/// How readers call a method of a view.
-pub fn method_word(name: &str) -> &str {
+pub(crate) fn method_word(name: &str) -> &str {
     METHODS.iter().find(|[known, _]| *known == name).map_or(name, |[_, word]| word)
 }
 
-/// A view as the page asks for it.
+/// A requested view.
 #[derive(Clone, Debug, Deserialize)]
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename = "View"))]
 pub struct ViewMessage {
-    /// From where.
+    /// The camera.
     pub camera: CameraMessage,
     /// One of the names of [`METHODS`].
     #[cfg_attr(test, ts(type = "Method"))]
@@ -82,30 +74,27 @@ pub struct ViewMessage {
     pub settings: Map<String, Json>,
 }
 
-/// A view, checked.
+/// A checked view.
 #[derive(Clone, Debug)]
 pub struct View {
-    /// From where.
+    /// The camera.
     pub camera: Camera,
-    /// By which method.
+    /// The method.
     pub method: Method,
-    /// How.
+    /// The settings.
     pub settings: Settings,
 }
 
 impl ViewMessage {
-    /// The view of a text of JSON.
+    /// Parses a view.
     ///
     /// # Errors
-    /// `settings` for a text that is no view.
+    /// `settings` for an invalid text.
     pub fn read(text: &str) -> Result<Self> {
         serde_json::from_str(text).map_err(|error| Failure::of_message("view", &error, "a view as JSON"))
     }
 
-    /// The same, checked.
-    ///
-    /// # Errors
-    /// Those of camera and settings, and `settings` for another name of a method.
+    /// Checks the view.
     pub fn view(&self) -> Result<View> {
         let method = match self.method.as_str() {
             "csr" | "csr-paper" => Method::CutSurface,
@@ -116,7 +105,7 @@ impl ViewMessage {
         let first = if self.method == "csr-paper" { Settings::paper_values() } else { Vec::new() };
         let mut settings = settings(first, &self.settings)?;
         if method != Method::CutSurface {
-            // The viewer shows one picture by several methods, of which the cut surface alone has a focus.
+            // The viewer shows one picture by several methods; only the cut surface has a focus.
             settings.focus = None;
             settings.focus_vessels.clear();
         }

@@ -1,11 +1,11 @@
-//! The voxels of the one volume that is open, in their own type. The page turns other types into one of these.
+//! Voxels in their own type; the page converts other types to one of these.
 
 use lumencut_core::error::{Error, ErrorKind, Mend};
 use lumencut_core::volume::Voxels;
 
 use crate::study::failure::{Failure, Result};
 
-/// Voxels of one of the types that a volume can have in a browser.
+/// The voxel types of a volume in a browser.
 #[derive(Debug)]
 pub enum Stored {
     /// `uint8`
@@ -18,7 +18,7 @@ pub enum Stored {
     F32(Vec<f32>),
 }
 
-/// Runs `$body` with `$voxels` bound to the voxels in their own type.
+/// Runs `$body` with `$voxels` bound to the typed voxels.
 macro_rules! with_stored {
     ($stored:expr, $voxels:ident => $body:expr) => {
         match $stored {
@@ -31,11 +31,8 @@ macro_rules! with_stored {
 }
 
 impl Stored {
-    /// Room for `count` voxels of the type that NumPy calls `dtype`, all 0.
-    ///
-    /// # Errors
-    /// `volume` for another type, and where the browser has not enough memory.
-    pub fn zeros(dtype: &str, count: f64) -> Result<Self> {
+    /// `count` zero voxels of NumPy's type `dtype`.
+    pub(crate) fn zeros(dtype: &str, count: f64) -> Result<Self> {
         Ok(match dtype {
             "uint8" => Self::U8(room(count)?),
             "int16" => Self::I16(room(count)?),
@@ -51,16 +48,12 @@ impl Stored {
         })
     }
 
-    /// The voxels as the bytes that they are in memory (little-endian).
-    pub fn bytes_mut(&mut self) -> &mut [u8] {
+    pub(crate) fn bytes_mut(&mut self) -> &mut [u8] {
         with_stored!(self, voxels => bytemuck::cast_slice_mut(voxels))
     }
 
-    /// Room for `count` voxels of the same type, with those of this one where `place` puts them and 0 elsewhere.
-    ///
-    /// # Errors
-    /// As [`Stored::zeros`].
-    pub fn placed(&self, count: usize, place: impl Iterator<Item = usize>) -> Result<Self> {
+    /// `count` voxels of the same type: these at the indices in `place`, 0 elsewhere.
+    pub(crate) fn placed(&self, count: usize, place: impl Iterator<Item = usize>) -> Result<Self> {
         Ok(match self {
             Self::U8(voxels) => Self::U8(scattered(voxels, count, place)?),
             Self::I16(voxels) => Self::I16(scattered(voxels, count, place)?),
@@ -94,7 +87,7 @@ fn scattered<T: Copy + Default>(
 
 fn room<T: Clone + Default>(count: f64) -> Result<Vec<T>> {
     let mut voxels = Vec::new();
-    // A count beyond all numbers of bytes becomes the largest one, for which there is no room either.
+    // Saturates: a count beyond all memory fails to allocate just the same.
     if voxels.try_reserve_exact(count as usize).is_err() {
         let megabytes = (count * size_of::<T>() as f64 / 1e6).ceil();
         let found = format!("{megabytes} MB of voxels");

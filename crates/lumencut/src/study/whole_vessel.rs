@@ -1,4 +1,4 @@
-//! The whole vessel of one click, in the study that is open: it is one of all vessels of the scan, which are looked for once.
+//! Finds the whole vessel at a click among all vessels of the scan, which are searched for once.
 
 use glam::DVec3;
 use lumencut_core::error::ErrorKind;
@@ -12,7 +12,7 @@ use lumencut_vessels::voxels::Voxels;
 use serde::Serialize;
 
 use crate::found_vessels::one_vessel;
-use crate::study::document::{DocumentVessel, Place};
+use crate::study::document::{DocumentVessel, WorldPoint};
 use crate::study::draft::Draft;
 use crate::study::failure::Result;
 use crate::study::held_volume::no_volume;
@@ -20,26 +20,21 @@ use crate::study::lines::Line;
 use crate::study::open_study::Study;
 use crate::study::tracing::Watch;
 
-/// A vessel of which the scan shows hardly more than it is wide is taken where it is round: its points have this confidence on average.
-/// It is no wider than the widest aorta that is no organ (radius in mm).
-const ROUND: f64 = 0.6;
-const WIDEST_SHORT: f64 = 25.0;
+/// A stump hardly longer than wide is accepted if it is round: its points have at least this mean confidence, and its radius (mm)
+/// is at most that of the widest aorta.
+const MIN_ROUND_CONFIDENCE: f64 = 0.6;
+const MAX_STUMP_RADIUS_MM: f64 = 25.0;
 
-/// The whole vessel that a click would add.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub struct WholeVessel {
+pub(crate) struct WholeVessel {
     /// The points of its line (mm, LPS).
-    pub points: Vec<Place>,
-    /// How long it is and which vessels it joins, such as `84.2 mm, joins Vessel 2 at 12 mm`.
+    pub points: Vec<WorldPoint>,
+    /// Length and joined vessels, such as `84.2 mm, joins Vessel 2 at 12 mm`.
     pub words: String,
 }
 
 impl Study {
-    /// The vessels of the scan down to the radius of Python, sure and doubtful ones.
-    ///
-    /// # Errors
-    /// `volume` where none is open, `interrupted`.
     pub(crate) fn trees(&mut self, watch: Watch) -> Result<&Trees> {
         let volume = self.content.held.as_ref().ok_or_else(no_volume)?.volume()?;
         let Watch { stop, progress } = watch;
@@ -53,28 +48,24 @@ impl Study {
         })
     }
 
-    /// Adds the vessel that a click lies in, from the nearest vessel that there is already to its end.
-    ///
-    /// # Errors
-    /// `tracing` as [`one_vessel`] and for a place that no vessel can begin at, `volume` where none is open, `interrupted`.
     pub(crate) fn add_whole_vessel(
         &mut self,
         draft: &mut Draft,
         notes: &mut Vec<String>,
-        (click, watch): (Place, Watch),
+        (click, watch): (WorldPoint, Watch),
     ) -> Result<()> {
-        // A place in air or fat is refused at once: the search would look through all of the scan before it says so.
+        // Reject a place in air or fat at once, instead of after a search of the whole scan.
         self.check_click(click)?;
         self.trees(watch)?;
         let known = self.known_vessel(click, &draft.document.vessels);
-        // Where a second click would help, the scan may show too little of the vessel for a tube to be found.
+        // A mend of a second click hints that the scan shows too little of the vessel.
         let is_short = known.as_ref().is_err_and(|refused| !refused.mend.is_empty());
         let short = if is_short { self.short_vessel(click, &draft.document.vessels, watch)? } else { None };
         if let Some(line) = short {
             let line = self.lines.add(line)?;
             let name = draft.add_named(line, "", "Vessel").called();
             notes.push(format!(
-                "{name} was traced from the click alone, as no vessel was found there: is it one?"
+                "{name} was traced from the click alone, because no vessel was found there: check it."
             ));
         } else if let Some(line) = known? {
             let line = self.lines.add(line.into())?;
@@ -83,9 +74,13 @@ impl Study {
         Ok(())
     }
 
-    /// The vessel around a click that is cut off by the scan on both sides, and hardly longer than wide in between; none where there
-    /// is none that is round.
-    fn short_vessel(&self, click: Place, vessels: &[DocumentVessel], watch: Watch) -> Result<Option<Line>> {
+    /// The vessel at a click if the scan cuts it off on both sides, it is hardly longer than wide, and round.
+    fn short_vessel(
+        &self,
+        click: WorldPoint,
+        vessels: &[DocumentVessel],
+        watch: Watch,
+    ) -> Result<Option<Line>> {
         let volume = self.content.held.as_ref().ok_or_else(no_volume)?.volume()?;
         let Some(ends) = OwnLumen::around(&Voxels::new(&volume), DVec3::from_array(click)).cut_ends() else {
             return Ok(None);
@@ -99,20 +94,16 @@ impl Study {
         };
         let is_round = |line: &Centerline| {
             let sum: f64 = line.confidence.iter().sum();
-            let is_narrow = line.radius.iter().all(|radius| *radius <= WIDEST_SHORT);
-            is_narrow && sum >= ROUND * line.confidence.len() as f64
+            let is_narrow = line.radius.iter().all(|radius| *radius <= MAX_STUMP_RADIUS_MM);
+            is_narrow && sum >= MIN_ROUND_CONFIDENCE * line.confidence.len() as f64
         };
         Ok(traced.into_iter().find(|traced| is_round(&traced.line)).map(Line::from))
     }
 
-    /// The vessel that a click would add beside those of a list that are sure; none as long as the vessels of the scan were not looked
-    /// for.
-    ///
-    /// # Errors
-    /// Those of [`one_vessel`], `vessel tree` for a line that there is not, `volume` where none is open.
+    /// The vessel that a click would add; None before the scan's vessels were searched for.
     pub(crate) fn known_vessel(
         &self,
-        click: Place,
+        click: WorldPoint,
         vessels: &[DocumentVessel],
     ) -> Result<Option<Centerline>> {
         let volume = self.content.held.as_ref().ok_or_else(no_volume)?.volume()?;
@@ -123,11 +114,12 @@ impl Study {
         Ok(Some(one_vessel(&volume, trees, DVec3::from_array(click), &beside)?))
     }
 
-    /// The vessel that a click would add; none where it would add none, and as long as that is not known at once.
-    ///
-    /// # Errors
-    /// `vessel tree` for a line that there is not, `volume` where none is open.
-    pub fn whole_vessel(&self, click: Place, vessels: &[DocumentVessel]) -> Result<Option<WholeVessel>> {
+    /// As [`Study::known_vessel`], but None instead of an error about the click.
+    pub(crate) fn whole_vessel(
+        &self,
+        click: WorldPoint,
+        vessels: &[DocumentVessel],
+    ) -> Result<Option<WholeVessel>> {
         let line = match self.known_vessel(click, vessels) {
             Err(refused) if refused.kind == "tracing" => return Ok(None),
             known => known?,

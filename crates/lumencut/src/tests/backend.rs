@@ -11,7 +11,6 @@ use lumencut_core::volume::{Volume, Voxels};
 
 use super::*;
 
-/// The result of work on the CPU, which never waits.
 fn at_once<T>(work: impl Future<Output = T>) -> T {
     match pin!(work).poll(&mut std::task::Context::from_waker(Waker::noop())) {
         Poll::Ready(done) => done,
@@ -32,19 +31,19 @@ fn an_interrupted_picture_leaves_the_reason_of_the_fall_back_to_the_next() {
     let render = |limit| {
         let scene = Scene::default().with_volume(volume);
         let computer = Computer::Cpu(CpuRenderer::default());
-        let mut backend = Backend { computer, untold: Some(reason.clone()) };
+        let mut backend = Backend { computer, unreported: Some(reason.clone()) };
         asked.store(0, Ordering::Relaxed);
         allowed.store(limit, Ordering::Relaxed);
-        let first = at_once(backend.render(&scene, &request)).map(|(_, told)| told);
+        let first = at_once(backend.render(&scene, &request)).map(|(_, described)| described);
         let checks = asked.load(Ordering::Relaxed);
         allowed.store(usize::MAX, Ordering::Relaxed);
-        let (frame, told) = at_once(backend.render(&scene, &request)).unwrap();
+        let (frame, described) = at_once(backend.render(&scene, &request)).unwrap();
         assert!(!frame.image.is_empty());
-        (first, told, checks)
+        (first, described, checks)
     };
     let (first, second, checks) = render(usize::MAX);
     assert_eq!((first, second), (Ok(Some(reason.clone())), None));
-    // The first of five pictures asks at least once, and so does every sample.
+    // The first of five pictures checks at least once, and so does every sample.
     assert!(checks >= 5, "{checks}");
     for limit in 0..checks {
         let (first, second, _) = render(limit);
@@ -64,12 +63,12 @@ fn reformations_need_a_tree_and_a_cut_surface_does_not() {
     let line = Vessel::new(vec![DVec3::new(2.0, 3.0, 0.0), DVec3::new(5.0, 4.0, 7.0)], None).unwrap();
     let whole = alone.clone().with_tree(VesselTree::new(vec![line]).unwrap());
     for method in [Method::MpCpr, Method::Cr(CrParameters::default())] {
-        let mut backend = Backend { computer: Computer::Cpu(CpuRenderer::default()), untold: None };
+        let mut backend = Backend { computer: Computer::Cpu(CpuRenderer::default()), unreported: None };
         let refused = at_once(backend.render_by(method, &alone, &request)).map(|_| ()).unwrap_err();
         assert_eq!(refused.kind, ErrorKind::VesselTree);
-        let (frame, told) = at_once(backend.render_by(method, &whole, &request)).unwrap();
-        assert_eq!((frame.image.len(), frame.vessel.len(), told), (72, 72, None));
-        // The folds are those of mpCPR alone.
+        let (frame, described) = at_once(backend.render_by(method, &whole, &request)).unwrap();
+        assert_eq!((frame.image.len(), frame.vessel.len(), described), (72, 72, None));
+        // Only mpCPR has folds.
         assert_eq!(frame.folded.len(), if method == Method::MpCpr { 72 } else { 0 });
     }
 }

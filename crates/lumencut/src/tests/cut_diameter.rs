@@ -3,13 +3,13 @@ use lumencut_core::volume::Voxels;
 
 use super::*;
 
-/// A slab from i = 12 to i = 20 between even surroundings, in voxels of 1 mm.
+/// A slab from i = 12 to 20 in even surroundings, 1 mm voxels.
 fn slab(lumen: f32, around: f32) -> Vec<f32> {
     (0..40 * 9 * 9).map(|n| if (12..=20).contains(&(n % 40)) { lumen } else { around }).collect()
 }
 
-/// What a view from the front through the slab's middle tells, moved by `beside` (mm).
-fn told(voxels: &[f32], beside: f64, radius: f64) -> Option<f64> {
+/// The diameter in a view from the front, moved by `beside` (mm) from the slab's middle.
+fn described(voxels: &[f32], beside: f64, radius: f64) -> Option<f64> {
     let volume = Volume::new(Voxels::F32(voxels), [40, 9, 9], [1, 40, 360], DAffine3::IDENTITY).unwrap();
     let place = DVec3::new(16.0 + beside, 4.0, 4.0);
     cut_diameter(&volume, &Camera::new(place, DVec3::Y, DVec3::Z, [40, 40], 1.0).unwrap(), radius)
@@ -19,8 +19,8 @@ fn told(voxels: &[f32], beside: f64, radius: f64) -> Option<f64> {
 fn the_walls_lie_half_way_whichever_is_brighter_and_wherever_the_place_is() {
     for (lumen, around) in [(300.0, 0.0), (0.0, 300.0), (-50.0, -1000.0)] {
         for beside in [0.0, 1.2] {
-            // Half values lie half a voxel beyond the outermost voxels of the lumen.
-            let found = told(&slab(lumen, around), beside, 4.0).unwrap();
+            // Half values lie half a voxel outside the outermost lumen voxels.
+            let found = described(&slab(lumen, around), beside, 4.0).unwrap();
             assert!((found - 9.0).abs() < 0.01, "{lumen} in {around}, {beside} mm off: {found}");
         }
     }
@@ -28,7 +28,7 @@ fn the_walls_lie_half_way_whichever_is_brighter_and_wherever_the_place_is() {
 
 #[test]
 fn the_far_wall_of_a_vessel_that_touches_this_one_is_not_its_own() {
-    // Between both slabs the values fall by a tenth alone.
+    // Between both slabs the values fall by only a tenth.
     let touching = |lumen: f32, other: f32| -> Vec<f32> {
         let value = |i: usize| match i {
             12..=20 => lumen,
@@ -39,21 +39,21 @@ fn the_far_wall_of_a_vessel_that_touches_this_one_is_not_its_own() {
         (0..40 * 9 * 9).map(|n| value(n % 40)).collect()
     };
     for other in [300.0, 900.0] {
-        assert_eq!(told(&touching(300.0, other), 0.0, 4.5), None, "beside {other}");
+        assert_eq!(described(&touching(300.0, other), 0.0, 4.5), None, "beside {other}");
     }
 }
 
 #[test]
 fn without_two_walls_there_is_none() {
-    assert_eq!(told(&slab(40.0, 40.0), 0.0, 4.0), None, "nothing differs");
-    assert_eq!(told(&slab(300.0, 0.0), 100.0, 4.0), None, "outside the volume");
+    assert_eq!(described(&slab(40.0, 40.0), 0.0, 4.0), None, "nothing differs");
+    assert_eq!(described(&slab(300.0, 0.0), 100.0, 4.0), None, "outside the volume");
     let one: Vec<f32> = (0..40 * 9 * 9).map(|n| if n % 40 < 18 { 300.0 } else { 0.0 }).collect();
-    assert_eq!(told(&one, 0.0, 4.0), None, "a single wall");
+    assert_eq!(described(&one, 0.0, 4.0), None, "a single wall");
     let mut voxels = slab(300.0, 0.0);
     for (n, value) in voxels.iter_mut().enumerate() {
         if n % 40 == 11 {
             *value = f32::NAN;
         }
     }
-    assert_eq!(told(&voxels, 0.0, 4.0), None, "beside what is no number");
+    assert_eq!(described(&voxels, 0.0, 4.0), None, "beside what is no number");
 }

@@ -11,7 +11,6 @@ fn ends() -> [Camera; 2] {
     [camera([0.0, 0.0, 0.0], [0.0, 1.0, 0.0], 2.0), camera([30.0, -12.0, 40.0], [1.0, -0.4, 0.7], 0.25)]
 }
 
-/// The angle of the rotation from one view to another.
 fn turn(from: &Camera, to: &Camera) -> f64 {
     orientation(from).angle_between(orientation(to))
 }
@@ -46,7 +45,7 @@ fn turn_and_zoom_go_evenly_with_the_way_by_the_shortest_rotation() {
         assert!((zoom - way * (0.125f64).ln()).abs() < 1e-9, "frame {n}");
         assert!(view.up().dot(view.direction()).abs() < 1e-12);
     }
-    // At rest at both ends, fastest in the middle.
+    // Slow at both ends, fastest in the middle.
     let step = |n: usize| turn(&views[n], &views[n + 1]);
     assert!(step(0) < 0.1 * step(20) && step(39) < 0.1 * step(20));
 }
@@ -62,7 +61,7 @@ fn half_a_turn_is_flown_too() {
 
 #[test]
 fn what_is_in_the_middle_of_the_closer_view_goes_straight_there() {
-    // Without a turn, so that places in the picture can be compared.
+    // Without rotation, so that picture positions are comparable.
     let (from, to) =
         (camera([0.0; 3], [0.0, 1.0, 0.0], 2.0), camera([60.0, 3.0, -20.0], [0.0, 1.0, 0.0], 0.1));
     let views = flight(&from, &to, 21).unwrap();

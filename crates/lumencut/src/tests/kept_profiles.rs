@@ -1,4 +1,4 @@
-//! Profiles that are kept.
+//! Cached profiles.
 
 use lumencut_core::error::ErrorKind;
 use lumencut_core::volume::Voxels;
@@ -9,7 +9,6 @@ use lumencut_vessels::measure::wall_level::{WallRequest, WallSource};
 
 use super::*;
 
-/// Asks the kept profiles of a phantom's vessels.
 fn with_junction(look: impl FnOnce(Scan)) {
     let Phantom { voxels, size, world_from_index, tree, .. } =
         lumencut_phantom::y_junction().expect("a phantom");
@@ -18,8 +17,8 @@ fn with_junction(look: impl FnOnce(Scan)) {
     look(Scan { volume: &volume, tree: tree.vessels() });
 }
 
-fn asking<'a>(fwhm: Option<f64>, stop: Stop<'a>) -> Asking<'a> {
-    Asking { step: 1.0, fwhm, wall: WallRequest::Automatic, stop }
+fn parameters<'a>(fwhm: Option<f64>, stop: Stop<'a>) -> MeasureParameters<'a> {
+    MeasureParameters { step: 1.0, fwhm, wall: WallRequest::Automatic, stop }
 }
 
 #[test]
@@ -28,9 +27,9 @@ fn a_profile_is_measured_once() {
         let mut kept = KeptProfiles::default();
         let vessel = &scan.tree[1];
         let go_on = || false;
-        let first = kept.of(1, vessel, scan, &asking(None, &go_on)).expect("a profile");
+        let first = kept.of(1, vessel, scan, &parameters(None, &go_on)).expect("a profile");
         let never = || true;
-        assert_eq!(kept.of(1, vessel, scan, &asking(None, &never)).expect("what was kept"), first);
+        assert_eq!(kept.of(1, vessel, scan, &parameters(None, &never)).expect("what was kept"), first);
         let request = MeasureRequest {
             step: 1.0,
             fwhm: None,
@@ -49,18 +48,18 @@ fn what_is_asked_for_in_another_way_is_measured_anew() {
     with_junction(|scan| {
         let mut kept = KeptProfiles::default();
         let go_on = || false;
-        kept.of(0, &scan.tree[0], scan, &asking(None, &go_on)).expect("a profile");
+        kept.of(0, &scan.tree[0], scan, &parameters(None, &go_on)).expect("a profile");
         let never = || true;
-        let finer = Asking { step: 0.5, ..asking(None, &never) };
-        let without_wall = Asking { wall: WallRequest::Off, ..asking(None, &never) };
-        for asking in [finer, without_wall, asking(Some(1.0), &never)] {
-            let error = kept.of(0, &scan.tree[0], scan, &asking).expect_err("it was stopped");
+        let finer = MeasureParameters { step: 0.5, ..parameters(None, &never) };
+        let without_wall = MeasureParameters { wall: WallRequest::Off, ..parameters(None, &never) };
+        for parameters in [finer, without_wall, parameters(Some(1.0), &never)] {
+            let error = kept.of(0, &scan.tree[0], scan, &parameters).expect_err("it was stopped");
             assert_eq!(error.kind, ErrorKind::Interrupted);
         }
-        let without_wall = Asking { wall: WallRequest::Off, ..asking(None, &go_on) };
-        let told = kept.of(0, &scan.tree[0], scan, &without_wall).expect("a profile");
-        assert_eq!(kept.kept(told).wall_source, WallSource::NotAsked);
-        let given = kept.of(0, &scan.tree[0], scan, &asking(Some(1.0), &go_on)).expect("a profile");
+        let without_wall = MeasureParameters { wall: WallRequest::Off, ..parameters(None, &go_on) };
+        let estimates = kept.of(0, &scan.tree[0], scan, &without_wall).expect("a profile");
+        assert_eq!(kept.kept(estimates).wall_source, WallSource::NotAsked);
+        let given = kept.of(0, &scan.tree[0], scan, &parameters(Some(1.0), &go_on)).expect("a profile");
         assert_eq!((kept.kept(given).fwhm, &kept.kept(given).fwhm_source), (1.0, &Source::Given));
     });
 }
@@ -71,7 +70,8 @@ fn all_vessels_of_a_scan_have_one_point_spread() {
         let mut kept = KeptProfiles::default();
         let go_on = || false;
         let mut spread = |number: usize| {
-            let found = kept.of(number, &scan.tree[number], scan, &asking(None, &go_on)).expect("a profile");
+            let found =
+                kept.of(number, &scan.tree[number], scan, &parameters(None, &go_on)).expect("a profile");
             (kept.kept(found).fwhm, kept.kept(found).fwhm_source.clone())
         };
         assert_eq!(spread(0), spread(1));

@@ -1,10 +1,10 @@
-//! Lines in order give no doubt; disorder, strays, gaps and two lines of one vessel do.
+//! Ordered lines raise no doubt; disorder, strays, gaps and two lines of one vessel do.
 
 use std::f64::consts::TAU;
 
 use super::*;
 
-/// Numbers that look random, from 0 to 1.
+/// Pseudo-random numbers from 0 to 1.
 fn numbers(seed: u64) -> impl FnMut() -> f64 {
     let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
     move || {
@@ -39,7 +39,6 @@ fn kinds(points: &[DVec3]) -> Vec<&'static str> {
     doubts(points).iter().map(|doubt| doubt.kind).collect()
 }
 
-/// Lines in order, as tortuous as vessels are and more.
 fn in_order() -> Vec<(&'static str, Vec<DVec3>)> {
     let helix = |pitch: f64, step: f64| {
         along(400, move |n| {
@@ -120,7 +119,10 @@ fn points_in_another_order_are_doubted() {
         assert_eq!(kinds(&turned), ["order"], "{count} points, the middle third turned round");
     }
     let words = doubts(&shuffled(&wavy(70), 3))[0].words();
-    assert!(words.contains("a path through its points 72.4") && words.contains("another order"), "{words}");
+    assert!(
+        words.contains("a path through its points only 72.4") && words.contains("wrong order"),
+        "{words}"
+    );
 }
 
 #[test]

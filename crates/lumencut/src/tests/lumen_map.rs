@@ -8,7 +8,7 @@ use super::*;
 const SIZE: [usize; 3] = [64, 64, 81];
 const FRONT: View = View { up: DVec3::Z, angle: 0.0, normal: None };
 
-/// A lumen of 4 mm radius and 300, a crust of 1 mm and 900 on the side of the patient's back, and 0 around both.
+/// A lumen of 4 mm radius and 300, a 1 mm crust of 900 on the posterior side, and 0 elsewhere.
 fn values() -> Vec<f32> {
     let each = |n: usize| {
         let [i, j] = [n % 64, n / 64 % 64].map(|index| index as f64 * 0.5 - 16.0);
@@ -21,9 +21,9 @@ fn values() -> Vec<f32> {
     (0..SIZE.iter().product()).map(each).collect()
 }
 
-fn with<T>(values: &[f32], told: impl FnOnce(&Volume) -> T) -> T {
+fn with<T>(values: &[f32], described: impl FnOnce(&Volume) -> T) -> T {
     let affine = DAffine3::from_mat3_translation(DMat3::IDENTITY * 0.5, DVec3::new(-16.0, -16.0, 0.0));
-    told(&Volume::new(Samples::F32(values), SIZE, [1, 64, 4096], affine).expect("a volume"))
+    described(&Volume::new(Samples::F32(values), SIZE, [1, 64, 4096], affine).expect("a volume"))
 }
 
 fn path() -> Arc<CenterlinePath> {

@@ -4,13 +4,12 @@ use lumencut_io::{Space, Unit};
 
 use super::*;
 
-/// A volume of 81 voxels of 1 mm along each axis, its middle at the origin.
+/// A volume of 81³ voxels of 1 mm, centred at the origin.
 const SIDE: usize = 81;
-const LPS: Place = Place { space: Space::Lps, unit: Unit::Millimetre };
-const RAS: Place = Place { space: Space::Ras, unit: Unit::Millimetre };
+const LPS: CoordinateSystem = CoordinateSystem { space: Space::Lps, unit: Unit::Millimetre };
+const RAS: CoordinateSystem = CoordinateSystem { space: Space::Ras, unit: Unit::Millimetre };
 
-/// What the points count where voxels have a value by their place.
-fn counted(value: impl Fn(DVec3) -> f32, lines: &Lines, place: Place) -> LumenCount {
+fn counted(value: impl Fn(DVec3) -> f32, lines: &Lines, place: CoordinateSystem) -> LumenCount {
     let middle = (SIDE / 2) as f64;
     let at = |n: usize| DVec3::new((n % SIDE) as f64, (n / SIDE % SIDE) as f64, (n / SIDE / SIDE) as f64);
     let voxels: Vec<f32> = (0..SIDE * SIDE * SIDE).map(|n| value(at(n) - middle)).collect();
@@ -19,7 +18,7 @@ fn counted(value: impl Fn(DVec3) -> f32, lines: &Lines, place: Place) -> LumenCo
     lumen_count(&volume, lines, place)
 }
 
-/// The middle of a vessel of 4 mm radius along z, beside the origin: a point for each half mm.
+/// The centerline of a vessel of 4 mm radius along z, off the origin, in 0.5 mm steps.
 fn points() -> Vec<DVec3> {
     (-60..60).map(|n| DVec3::new(15.0, -9.0, 0.5 * f64::from(n) + 0.25)).collect()
 }
@@ -28,7 +27,7 @@ fn is_lumen(p: DVec3) -> bool {
     (p.x - 15.0).hypot(p.y + 9.0) < 4.0
 }
 
-/// Numbers from 0 to 1 that have nothing to do with each other.
+/// Uncorrelated numbers from 0 to 1.
 fn noise(p: DVec3) -> f32 {
     let [x, y, z] = p.as_i64vec3().to_array();
     let mixed = ((x * 73_856_093) ^ (y * 19_349_663) ^ (z * 83_492_791)).wrapping_mul(2_654_435_761) as u64;
@@ -41,7 +40,7 @@ fn lumen_is_told_whatever_the_units_of_the_volume_and_bright_or_dark() {
     let points = points();
     let radii = vec![4.0; points.len()];
     let lines = Lines { points: &points, radii: &radii };
-    // CT whose tissue is not even, bytes of MR on an empty background, the same inverted, and CT with much noise.
+    // CT with uneven tissue, 8-bit MR on an empty background, its inverse, and noisy CT.
     let values: [&dyn Fn(DVec3) -> f32; 4] = [
         &|p| if is_lumen(p) { 350.0 } else { 40.0 + (p.x + p.z) as f32 },
         &|p| if is_lumen(p) { 255.0 } else { 0.0 },
@@ -53,8 +52,8 @@ fn lumen_is_told_whatever_the_units_of_the_volume_and_bright_or_dark() {
         // 60 mm in cubes of 2 mm.
         assert_eq!((as_it_is.of, mirrored.of), (30, 30));
         assert!(as_it_is.like_lumen >= 28, "volume {n}: {as_it_is:?}");
-        let told = format!("volume {n}: {as_it_is:?} beside {mirrored:?}");
-        assert!(as_it_is.is_evident_beside(mirrored) && !mirrored.is_evident_beside(as_it_is), "{told}");
+        let described = format!("volume {n}: {as_it_is:?} beside {mirrored:?}");
+        assert!(as_it_is.is_evident_over(mirrored) && !mirrored.is_evident_over(as_it_is), "{described}");
     }
 }
 
@@ -63,7 +62,7 @@ fn lines_without_radii_are_looked_at_too() {
     let (points, value) = (points(), |p| if is_lumen(p) { 350.0 } else { 40.0 + (p.x + p.z) as f32 });
     let radii = vec![f64::NAN; points.len()];
     let lines = Lines { points: &points, radii: &radii };
-    assert!(counted(value, &lines, LPS).is_evident_beside(counted(value, &lines, RAS)));
+    assert!(counted(value, &lines, LPS).is_evident_over(counted(value, &lines, RAS)));
 }
 
 #[test]
@@ -78,8 +77,8 @@ fn noise_nothing_and_what_is_symmetric_decide_nothing() {
         }];
     for (n, value) in values.iter().enumerate() {
         let [as_it_is, mirrored] = [LPS, RAS].map(|place| counted(value, &lines, place));
-        assert!(!as_it_is.is_evident_beside(mirrored), "volume {n}: {as_it_is:?} beside {mirrored:?}");
-        assert!(!mirrored.is_evident_beside(as_it_is), "volume {n}: {mirrored:?} beside {as_it_is:?}");
+        assert!(!as_it_is.is_evident_over(mirrored), "volume {n}: {as_it_is:?} beside {mirrored:?}");
+        assert!(!mirrored.is_evident_over(as_it_is), "volume {n}: {mirrored:?} beside {as_it_is:?}");
     }
 }
 
@@ -89,7 +88,7 @@ fn points_that_lie_closely_count_once_and_units_are_those_of_the_place() {
     let close: Vec<DVec3> = (0..500).map(|n| DVec3::new(1.5, -0.9, 0.0001 * f64::from(n))).collect();
     let radii = vec![0.4; close.len()];
     let lines = Lines { points: &close, radii: &radii };
-    let place = Place { unit: Unit::Centimetre, ..LPS };
+    let place = CoordinateSystem { unit: Unit::Centimetre, ..LPS };
     assert_eq!(counted(value, &lines, place), LumenCount { like_lumen: 1, of: 1 });
 }
 

@@ -17,7 +17,7 @@ fn graded(method: Method, references: Vec<[f64; 2]>) -> Stenosis {
 
 #[test]
 fn bounds_are_told_where_there_are_some() {
-    let words = "2.10 mm if nothing brighter is lumen, 3.46 mm if all of it is";
+    let words = "2.10 mm if brighter material is excluded, 3.46 mm if it is included";
     assert_eq!(of_bounds([2.1, 3.456]).as_deref(), Some(words));
     assert_eq!(of_bounds([f64::NAN; 2]), None);
 }
@@ -44,25 +44,25 @@ fn doubts_stand_behind_the_percentage() {
     assert_eq!(of_doubtful_stenosis(&sure), of_stenosis(&sure));
     assert!(of_doubts(&sure.doubts).is_empty());
     let doubts = Doubts { flags: CALCIUM | BRANCH, is_branch_between: true };
-    let told = [
+    let described = [
         "At these places: branch, calcium.",
         "A branch lies between the place and a reference: beyond it a vessel may be of another width.",
     ];
-    assert_eq!(of_doubts(&doubts), told);
+    assert_eq!(of_doubts(&doubts), described);
     let doubtful = Stenosis { doubts, ..sure.clone() };
-    assert_eq!(of_doubtful_stenosis(&doubtful), format!("{}. {}", of_stenosis(&sure), told.join(" ")));
-    assert_eq!(of_doubts(&Doubts { flags: 0, is_branch_between: true }), told[1..]);
+    assert_eq!(of_doubtful_stenosis(&doubtful), format!("{}. {}", of_stenosis(&sure), described.join(" ")));
+    assert_eq!(of_doubts(&Doubts { flags: 0, is_branch_between: true }), described[1..]);
 }
 
 #[test]
 fn angles_of_a_c_arm_have_no_signs() {
-    let told =
+    let described =
         |lao: f64, cranial: f64| of_c_arm(&CArm { lao: lao.to_radians(), cranial: cranial.to_radians() });
-    assert_eq!(told(-20.2, 5.0), "RAO 20° CRAN 5°");
-    assert_eq!(told(89.6, -30.0), "LAO 90° CAUD 30°");
-    assert_eq!(told(0.0, 0.0), "LAO 0° CRAN 0°");
-    // What cannot be seen decides nothing.
-    assert_eq!(told(-1e-9, -0.4), "LAO 0° CRAN 0°");
+    assert_eq!(described(-20.2, 5.0), "RAO 20° CRAN 5°");
+    assert_eq!(described(89.6, -30.0), "LAO 90° CAUD 30°");
+    assert_eq!(described(0.0, 0.0), "LAO 0° CRAN 0°");
+    // An invisible fraction does not decide the side.
+    assert_eq!(described(-1e-9, -0.4), "LAO 0° CRAN 0°");
 }
 
 #[test]

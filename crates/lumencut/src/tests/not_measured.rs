@@ -1,4 +1,4 @@
-//! What is told of stretches that were not measured.
+//! Messages about unmeasured stretches.
 
 use super::*;
 use crate::tube::tube;
@@ -8,7 +8,7 @@ fn a_vessel_that_has_a_wall_everywhere_tells_nothing() {
     assert_eq!(not_measured(&tube()), []);
 }
 
-/// The tube of 60 mm without the sections before and behind these places (mm).
+/// The 60 mm tube without sections outside these places (mm).
 fn measured_within([low, high]: [f64; 2]) -> Profile {
     let mut profile = tube();
     for (area, at) in profile.area.iter_mut().zip(&profile.arc_length) {

@@ -16,12 +16,12 @@ fn where_nothing_is_safe_the_hindrances_are_told() {
     stent.flags[7] = CALCIUM;
     stent.uncertainty[9] = 20.0;
     let [reason] = &not_suggested(&stent, None, &[])[..] else { panic!("one reason") };
-    // A branch is no more there: all flags were written over.
+    // The branch flag is gone: all flags were overwritten.
     assert_eq!(
         reason,
-        "No narrowest place is suggested: no section is safe (metal, calcium, unsure diameter). Mark it yourself."
+        "No narrowest place is suggested: no section is reliable (metal, calcium, unsure diameter). Mark it yourself."
     );
-    // A place that is marked has no reference then.
+    // A marked place has no reference then.
     let [reason] = &not_suggested(&stent, Some(30.0), &[])[..] else { panic!("one reason") };
     assert!(reason.starts_with("No reference is suggested for 30.0 mm: no place within 50 mm"), "{reason}");
 }
@@ -45,5 +45,5 @@ fn a_vessel_that_only_gets_thinner_says_so() {
     }
     taper.flags.fill(0);
     let [reason] = &not_suggested(&taper, None, &[])[..] else { panic!("one reason") };
-    assert!(reason.contains("gets thinner towards its end by itself"), "{reason}");
+    assert!(reason.contains("tapers towards its end"), "{reason}");
 }

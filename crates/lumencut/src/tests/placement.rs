@@ -7,7 +7,7 @@ use crate::misplaced::{Misplaced, better_place, fits_nowhere};
 use crate::places::{SMALLEST, across};
 use lumencut_io::Mend;
 
-/// A volume of 100 mm along each axis, far enough from the origin that only one space fits it.
+/// A volume of 100 mm sides, far enough from the origin that only one space fits.
 fn volume() -> Extent {
     Extent::new([101; 3], DAffine3::from_translation(DVec3::splat(20.0)))
 }
@@ -22,13 +22,11 @@ fn nothing() -> Known {
     }
 }
 
-/// Points inside the volume, as a file in this place would hold them.
 fn points(space: Space, unit: Unit) -> Vec<DVec3> {
-    let scale = Place { space, unit }.scale();
+    let scale = CoordinateSystem { space, unit }.scale();
     (0..50).map(|n| DVec3::splat(30.0 + f64::from(n)) / scale).collect()
 }
 
-/// A volume whose values say nothing.
 fn silent(extent: Extent) -> Judge<'static> {
     Judge { extent, lumen: &|_| LumenCount::default() }
 }
@@ -46,7 +44,7 @@ fn what_is_asked_rules_and_contradictions_are_told() {
         ..nothing()
     };
     let found = decided(&known, &points(Space::Lps, Unit::Millimetre));
-    assert_eq!(found.place, Place { space: Space::Ras, unit: Unit::Metre });
+    assert_eq!(found.place, CoordinateSystem { space: Space::Ras, unit: Unit::Metre });
     assert_eq!((found.space_from, found.unit_from), (Origin::Asked, Origin::Asked));
     assert_eq!(found.decision, "the file states lps; read as ras as asked");
     assert!(!found.is_unusual);
@@ -55,7 +53,7 @@ fn what_is_asked_rules_and_contradictions_are_told() {
 #[test]
 fn without_a_volume_the_usual_is_assumed() {
     let found = placement(&nothing(), &points(Space::Ras, Unit::Millimetre), None).unwrap();
-    assert_eq!(found.place, Place { space: Space::Lps, unit: Unit::Millimetre });
+    assert_eq!(found.place, CoordinateSystem { space: Space::Lps, unit: Unit::Millimetre });
     assert_eq!((found.space_from, found.unit_from), (Origin::Assumed, Origin::Assumed));
     assert_eq!(found.decision, "the file states no space and no unit; lps in mm is assumed");
 }
@@ -74,7 +72,7 @@ fn the_volume_confirms_the_usual_place() {
 fn the_volume_decides_against_the_usual_place() {
     let known = Known { stated_unit: Some(Unit::Millimetre), ..nothing() };
     let found = decided(&known, &points(Space::Ras, Unit::Millimetre));
-    assert_eq!(found.place, Place { space: Space::Ras, unit: Unit::Millimetre });
+    assert_eq!(found.place, CoordinateSystem { space: Space::Ras, unit: Unit::Millimetre });
     assert_eq!((found.space_from, found.unit_from), (Origin::Volume, Origin::Stated));
     let counts = "0 of 50 points lie inside the volume in lps in mm, but 50 in ras in mm";
     assert_eq!(found.decision, format!("the file states no space; {counts}: read so"));
@@ -85,7 +83,7 @@ fn the_volume_decides_against_the_usual_place() {
 #[test]
 fn a_space_and_a_unit_can_both_be_unusual() {
     let found = decided(&nothing(), &points(Space::Ras, Unit::Centimetre));
-    assert_eq!(found.place, Place { space: Space::Ras, unit: Unit::Centimetre });
+    assert_eq!(found.place, CoordinateSystem { space: Space::Ras, unit: Unit::Centimetre });
     assert_eq!(found.confirmed_by, Statement { space: Some(Space::Ras), unit: Some(Unit::Centimetre) });
 }
 
@@ -94,10 +92,13 @@ fn spaces_that_fit_alike_are_left_to_the_caller() {
     let around = Extent::new([101; 3], DAffine3::from_translation(DVec3::splat(-50.0)));
     let points: Vec<DVec3> = (0..20).map(|n| DVec3::splat(f64::from(n) - 10.0)).collect();
     let error = placement(&nothing(), &points, Some(&silent(around))).unwrap_err().in_file("lines.csv");
-    let found = "neither stated nor to be told by the volume what its coordinates are: lps in mm (20 of 20 points \
+    let found = "coordinates that are not stated and that the volume does not decide: lps in mm (20 of 20 points \
                  inside), ras in mm (20 of 20 points inside)";
     let mend = "state the space, lps or ras";
-    assert_eq!(error.to_string(), format!("lines.csv: found {found}; expected one that fits; {mend}"));
+    assert_eq!(
+        error.to_string(),
+        format!("lines.csv: found {found}; expected a space and unit that fit; {mend}")
+    );
     assert_eq!(error.mended_by.as_deref(), Some(&Mend::Coordinates));
 }
 
@@ -118,10 +119,10 @@ fn centerlines_of_another_volume_are_refused() {
     let error = placement(&nothing(), &far, Some(&silent(volume()))).unwrap_err();
     assert_eq!(error.found, "no point inside the volume, in lps or ras, in um, mm, cm, dm, m");
     assert_eq!(error.mended_by.as_deref(), Some(&Mend::Place));
-    // Where the file states the space there is nothing to ask for.
+    // If the file states the space, it is not requested.
     let known = Known { stated_space: Some(Space::Ras), ..nothing() };
     let found = decided(&known, &far);
-    assert_eq!(found.place, Place { space: Space::Ras, unit: Unit::Millimetre });
+    assert_eq!(found.place, CoordinateSystem { space: Space::Ras, unit: Unit::Millimetre });
     assert_eq!(found.decision, "the file states no unit; ras in mm is assumed");
 }
 
@@ -131,19 +132,19 @@ fn a_better_place_is_named() {
     let better = better_place(&points(Space::Ras, Unit::Centimetre), &silent(volume())).unwrap();
     let how = "with x and y negated (LPS and RAS mixed up?) and 10 times as large (another unit?)";
     let found = format!("0 of 50 points lie inside the volume as read, but 50 {how}");
-    let meant = Place { space: Space::Ras, unit: Unit::Centimetre };
+    let meant = CoordinateSystem { space: Space::Ras, unit: Unit::Centimetre };
     assert_eq!(better, Misplaced { found, meant });
 }
 
 #[test]
 fn a_few_points_more_are_no_better_place() {
-    // Three of fifty fit only with x and y negated: under a tenth.
+    // Three of fifty fit only with x and y negated: below a tenth.
     let mut mixed = vec![DVec3::splat(7000.0); 47];
     mixed.extend_from_slice(&points(Space::Ras, Unit::Millimetre)[..3]);
     assert_eq!(better_place(&mixed, &silent(volume())), None);
     mixed.extend_from_slice(&points(Space::Ras, Unit::Millimetre)[3..6]);
     let better = better_place(&mixed, &silent(volume())).expect("a tenth of the points fits");
-    assert_eq!(better.meant, Place { space: Space::Ras, unit: Unit::Millimetre });
+    assert_eq!(better.meant, CoordinateSystem { space: Space::Ras, unit: Unit::Millimetre });
 }
 
 #[test]
@@ -152,14 +153,13 @@ fn what_misses_the_volume_everywhere_is_said_so() {
     assert!(fits_nowhere(&[DVec3::new(7000.0, 0.0, 0.0), DVec3::new(7000.0, 9.0, 0.0)], &volume()));
 }
 
-/// Twenty points that lie in the volume in both spaces.
 fn around_the_origin() -> (Extent, Vec<DVec3>) {
     let around = Extent::new([101; 3], DAffine3::from_translation(DVec3::splat(-50.0)));
     (around, (0..20).map(|n| DVec3::splat(f64::from(n) - 10.0)).collect())
 }
 
-/// Counts of points that look like lumen, of a hundred in LPS and in RAS.
-fn counts(lps: usize, ras: usize) -> impl Fn(Place) -> LumenCount {
+/// Lumen counts of a hundred points in LPS and in RAS.
+fn counts(lps: usize, ras: usize) -> impl Fn(CoordinateSystem) -> LumenCount {
     move |place| LumenCount { like_lumen: if place.space == Space::Lps { lps } else { ras }, of: 100 }
 }
 
@@ -173,25 +173,25 @@ fn between_spaces_that_fit_alike_the_values_decide_where_they_are_evident() {
         let found = found(lps, ras, &nothing()).unwrap();
         assert_eq!(
             (found.place, found.space_from),
-            (Place { space, unit: Unit::Millimetre }, Origin::Values)
+            (CoordinateSystem { space, unit: Unit::Millimetre }, Origin::Values)
         );
         assert_eq!((found.unit_from, found.is_unusual), (Origin::Volume, true));
         let (best, other) = if space == Space::Lps { ("lps", "ras") } else { ("ras", "lps") };
         let expected = format!(
             "the file states no space and no unit; both {best} in mm (20 of 20 points inside) and {other} in mm (20) fit the \
-             volume; of 100 points looked at, {} look like lumen in {best} and {} in {other}: read in {best}",
+             volume; of 100 sampled points, {} look like lumen in {best} and {} in {other}: read in {best}",
             lps.max(ras),
             lps.min(ras),
         );
         assert_eq!(found.decision, expected);
         assert_eq!(found.confirmed_by, Statement { space: Some(space), unit: None });
     }
-    // Too alike, too few of all.
+    // Too similar, or too few.
     for (lps, ras) in [(90, 31), (31, 90), (49, 0), (0, 0), (70, 70)] {
         let error = found(lps, ras, &nothing()).unwrap_err();
         assert_eq!(error.mended_by.as_deref(), Some(&Mend::Coordinates), "{error}");
     }
-    // What is stated or asked is not asked of the values.
+    // Stated or requested choices are not tested against values.
     let stated = Known { stated_space: Some(Space::Lps), ..nothing() };
     assert_eq!(found(0, 100, &stated).unwrap().place.space, Space::Lps);
     let asked = Known { asked_space: Some(Space::Ras), ..nothing() };
@@ -201,36 +201,35 @@ fn between_spaces_that_fit_alike_the_values_decide_where_they_are_evident() {
 #[test]
 fn fewer_than_twenty_points_decide_nothing() {
     let of = |like_lumen, of| LumenCount { like_lumen, of };
-    assert!(of(20, 20).is_evident_beside(of(6, 20)));
-    assert!(!of(19, 19).is_evident_beside(of(0, 19)));
+    assert!(of(20, 20).is_evident_over(of(6, 20)));
+    assert!(!of(19, 19).is_evident_over(of(0, 19)));
 }
 
 #[test]
 fn values_that_speak_for_the_mirrored_lines_are_told() {
     let (extent, points) = around_the_origin();
-    let told = |lps, ras| better_place(&points, &Judge { extent, lumen: &counts(lps, ras) });
-    let found = "of 100 points looked at, 20 look like lumen as read, but 80 with x and y negated (LPS and RAS mixed up?)";
-    let meant = Place { space: Space::Ras, unit: Unit::Millimetre };
-    assert_eq!(told(20, 80), Some(Misplaced { found: found.into(), meant }));
-    assert_eq!((told(80, 20), told(30, 80), told(0, 49)), (None, None, None));
-    // Lines that leave the volume when they are mirrored lie where they are read.
+    let described = |lps, ras| better_place(&points, &Judge { extent, lumen: &counts(lps, ras) });
+    let found = "of 100 sampled points, 20 look like lumen as read, but 80 with x and y negated (LPS and RAS mixed up?)";
+    let meant = CoordinateSystem { space: Space::Ras, unit: Unit::Millimetre };
+    assert_eq!(described(20, 80), Some(Misplaced { found: found.into(), meant }));
+    assert_eq!((described(80, 20), described(30, 80), described(0, 49)), (None, None, None));
+    // Lines that leave the volume when mirrored stay as read.
     let judge = Judge { extent: volume(), lumen: &counts(0, 100) };
     assert_eq!(better_place(&self::points(Space::Lps, Unit::Millimetre), &judge), None);
 }
 
-/// A cube of 640 mm whose voxels have a side of 1 mm, with its middle at a place.
+/// A 640 mm cube of 1 mm voxels, centred at a position.
 fn cube_around(middle: DVec3) -> Extent {
     Extent::new([640; 3], DAffine3::from_translation(middle - 319.5))
 }
 
-/// A line of a length (mm) around the middle of a cube, as a file in this place would hold it.
-fn line_of(length: f64, middle: DVec3, place: Place) -> Vec<DVec3> {
+fn line_of(length: f64, middle: DVec3, place: CoordinateSystem) -> Vec<DVec3> {
     let along = |n: i32| (f64::from(n) / 49.0 - 0.5) * length;
     let point = |n| middle + DVec3::new(3.0 * (along(n) / 9.0).sin(), -6.0, along(n));
     (0..50).map(|n| point(n) / place.scale()).collect()
 }
 
-/// What a caller states who follows a mend: all that it offers.
+/// What a caller states who follows a mend: each of its offers.
 fn followed(mend: &Mend, known: &Known) -> Vec<Known> {
     let space = |space: &Space| Known { asked_space: Some(*space), ..*known };
     let unit = |unit: &Unit| Known { asked_unit: Some(*unit), ..*known };
@@ -249,8 +248,8 @@ fn followed(mend: &Mend, known: &Known) -> Vec<Known> {
     }
 }
 
-/// Follows every mend until the points are read; whether one way ends at the place that is true.
-fn leads_to(truth: Place, known: &Known, points: &[DVec3], judge: &Judge) -> bool {
+/// Follows every mend until the points are read; whether one path ends at the truth.
+fn leads_to(truth: CoordinateSystem, known: &Known, points: &[DVec3], judge: &Judge) -> bool {
     match placement(known, points, Some(judge)) {
         Ok(found) => {
             let doubted = found.doubt.iter().flat_map(|doubt| &doubt.units).chain(&found.also);
@@ -275,11 +274,10 @@ fn leads_to(truth: Place, known: &Known, points: &[DVec3], judge: &Judge) -> boo
 
 const TRIED: [Unit; 4] = [Unit::Micrometre, Unit::Millimetre, Unit::Centimetre, Unit::Metre];
 
-/// Every line that is tried, with its place and the volume.
-fn tried() -> impl Iterator<Item = (Vec<DVec3>, Place, Extent)> {
+fn tried() -> impl Iterator<Item = (Vec<DVec3>, CoordinateSystem, Extent)> {
     let middles = [DVec3::new(20.0, -30.0, 5.0), DVec3::new(700.0, 800.0, 400.0)];
     let of = move |middle: DVec3, length: f64| {
-        let of = move |place: Place| (line_of(length, middle, place), place, cube_around(middle));
+        let of = move |place: CoordinateSystem| (line_of(length, middle, place), place, cube_around(middle));
         places(&Space::ALL, &TRIED).into_iter().map(of)
     };
     middles
@@ -293,14 +291,14 @@ fn no_unit_is_wrong_without_a_word_and_every_mend_leads_to_the_place() {
         let judge = silent(extent);
         let stated = |space, unit| Known { stated_space: space, stated_unit: unit, ..nothing() };
         let mut tried = vec![nothing(), stated(Some(truth.space), None)];
-        // What is stated is believed where it is a size of vessels, as 60 mm for 600 mm in cm are.
+        // A statement with a plausible size is trusted, such as 60 mm for 600 mm in cm.
         if !(SMALLEST..300.0).contains(&across(&points)) {
             tried.push(stated(Some(truth.space), Some(Unit::Millimetre)));
         }
         for known in tried {
             assert!(leads_to(truth, &known, &points, &judge), "{truth}, {known:?}, {} mm", across(&points));
         }
-        // The caller who names both is believed.
+        // A caller who names both is trusted.
         let asked = Known { asked_space: Some(truth.space), asked_unit: Some(truth.unit), ..nothing() };
         let found = placement(&asked, &points, Some(&judge)).expect("what was asked");
         assert_eq!((found.place, found.doubt, found.also), (truth, None, Vec::new()));
@@ -313,27 +311,28 @@ fn values_tell_the_unit_where_they_are_evident() {
         let lumen = |place| LumenCount { like_lumen: if place == truth { 90 } else { 20 }, of: 100 };
         let judge = Judge { extent, lumen: &lumen };
         for stated_space in [None, Some(truth.space)] {
-            let found = placement(&Known { stated_space, ..nothing() }, &points, Some(&judge)).expect("told");
+            let found =
+                placement(&Known { stated_space, ..nothing() }, &points, Some(&judge)).expect("described");
             assert_eq!(found.place, truth, "{}", found.decision);
             assert!(found.is_unusual || truth.unit == Unit::Millimetre && found.also.is_empty());
         }
     }
     let middle = DVec3::new(20.0, -30.0, 5.0);
-    let truth = Place { space: Space::Lps, unit: Unit::Centimetre };
+    let truth = CoordinateSystem { space: Space::Lps, unit: Unit::Centimetre };
     let lumen = |place| LumenCount { like_lumen: if place == truth { 90 } else { 20 }, of: 100 };
     let judge = Judge { extent: cube_around(middle), lumen: &lumen };
     let known = Known { stated_space: Some(Space::Lps), ..nothing() };
-    let found = placement(&known, &line_of(600.0, middle, truth), Some(&judge)).expect("told");
-    let told = "the file states no unit; lps in mm (50 of 50 points inside, 60 mm across), lps in cm (50 of 50 points \
-                inside, 600 mm across) fit the volume; 20 of 100 points looked at look like lumen in lps in mm, but 90 of \
-                100 points looked at look like lumen in lps in cm: read in cm";
-    assert_eq!((found.decision.as_str(), found.unit_from), (told, Origin::Values));
+    let found = placement(&known, &line_of(600.0, middle, truth), Some(&judge)).expect("described");
+    let described = "the file states no unit; lps in mm (50 of 50 points inside, 60 mm across), lps in cm (50 of 50 points \
+                inside, 600 mm across) fit the volume; 20 of 100 sampled points look like lumen in lps in mm, but 90 of \
+                100 sampled points look like lumen in lps in cm: read in cm";
+    assert_eq!((found.decision.as_str(), found.unit_from), (described, Origin::Values));
     assert_eq!(found.confirmed_by, Statement { space: None, unit: Some(Unit::Centimetre) });
 }
 
 #[test]
 fn a_size_that_is_none_is_told_without_a_volume_too() {
-    let at = Place { space: Space::Ras, unit: Unit::Metre };
+    let at = CoordinateSystem { space: Space::Ras, unit: Unit::Metre };
     let points = line_of(72.0, DVec3::ZERO, at);
     let stated = Known { stated_space: Some(Space::Ras), stated_unit: Some(Unit::Millimetre), ..nothing() };
     for known in [nothing(), stated] {
@@ -342,20 +341,20 @@ fn a_size_that_is_none_is_told_without_a_volume_too() {
         assert!(doubt.found.starts_with("the lines are 0.072"), "{}", doubt.found);
         assert!(doubt.found.contains("mm across in mm, 72."), "{}", doubt.found);
     }
-    let points = line_of(72.0, DVec3::ZERO, Place { unit: Unit::Millimetre, ..at });
+    let points = line_of(72.0, DVec3::ZERO, CoordinateSystem { unit: Unit::Millimetre, ..at });
     assert_eq!(placement(&stated, &points, None).expect("a place").doubt, None);
 }
 
 #[test]
 fn lines_of_a_few_voxels_are_told_of_with_the_volume_that_they_lie_in() {
     let middle = DVec3::new(20.0, -30.0, 5.0);
-    let points = line_of(72.0, middle, Place { space: Space::Lps, unit: Unit::Metre });
+    let points = line_of(72.0, middle, CoordinateSystem { space: Space::Lps, unit: Unit::Metre });
     let better = better_place(&points, &silent(cube_around(middle))).expect("a better place");
     assert!(
         better.found.starts_with("50 of 50 points lie inside the volume as read, 0.072"),
         "{}",
         better.found
     );
-    assert_eq!(better.meant, Place { space: Space::Lps, unit: Unit::Metre });
+    assert_eq!(better.meant, CoordinateSystem { space: Space::Lps, unit: Unit::Metre });
     assert!(!fits_nowhere(&points, &cube_around(middle)));
 }

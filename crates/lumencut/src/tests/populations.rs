@@ -8,14 +8,14 @@ fn volume(voxels: &[f32], size: [usize; 3]) -> Volume<'_> {
         .expect("a volume")
 }
 
-fn looked(voxels: &[f32], size: [usize; 3]) -> Looked {
-    Looked::at(&volume(voxels, size))
+fn sampled(voxels: &[f32], size: [usize; 3]) -> VoxelSample {
+    VoxelSample::at(&volume(voxels, size))
 }
 
 #[test]
 fn all_of_a_small_volume_is_looked_at() {
     let voxels: Vec<f32> = (0..5 * 4 * 9).map(|n| n as f32).collect();
-    let mut found = looked(&voxels, [5, 4, 9]);
+    let mut found = sampled(&voxels, [5, 4, 9]);
     found.voxels.sort_unstable_by(f64::total_cmp);
     assert!(found.voxels.iter().copied().eq((0..180).map(f64::from)));
     assert_eq!(found.count, 180);
@@ -25,9 +25,9 @@ fn all_of_a_small_volume_is_looked_at() {
 
 #[test]
 fn what_is_no_number_counts_as_a_voxel_only() {
-    let found = looked(&[f32::NAN, f32::INFINITY, 7.0, f32::NEG_INFINITY], [4, 1, 1]);
+    let found = sampled(&[f32::NAN, f32::INFINITY, 7.0, f32::NEG_INFINITY], [4, 1, 1]);
     assert_eq!((found.voxels, found.largest, found.count), (vec![7.0], vec![7.0], 4));
-    let found = looked(&[f32::NAN; 4], [4, 1, 1]);
+    let found = sampled(&[f32::NAN; 4], [4, 1, 1]);
     assert_eq!((found.voxels.len(), found.largest.len(), found.count), (0, 0, 4));
     assert!(Populations::of(&mut { found }).is_none());
     assert_eq!(range(&volume(&[f32::NAN, 3.0, -2.0, f32::INFINITY], [4, 1, 1])), [-2.0, 3.0]);
@@ -36,7 +36,7 @@ fn what_is_no_number_counts_as_a_voxel_only() {
 #[test]
 fn of_a_large_volume_cubes_that_are_spread_over_it_are_looked_at() {
     let size = [256, 256, 128];
-    let found = looked(&vec![1.0; 256 * 256 * 128], size);
+    let found = sampled(&vec![1.0; 256 * 256 * 128], size);
     // 64 × 64 × 32 cubes are four times too many: every second one along each axis.
     assert_eq!((found.largest.len(), found.voxels.len()), (32 * 32 * 16, 32 * 32 * 16 * 64));
 }
@@ -45,7 +45,7 @@ fn of_a_large_volume_cubes_that_are_spread_over_it_are_looked_at() {
 fn padding_is_a_dark_value_that_many_voxels_have() {
     let mut padded = [vec![-2000.0; 30], (0..70).map(f64::from).collect()].concat();
     assert_eq!(without_padding(&mut padded).len(), 70);
-    // The same number of voxels in the middle is no padding, nor is a volume of nothing else.
+    // As many voxels mid-range are no padding, nor is a constant volume.
     let mut tissue = [vec![35.0; 30], (0..70).map(f64::from).collect()].concat();
     assert_eq!(without_padding(&mut tissue).len(), 100);
     assert_eq!(without_padding(&mut [0.0; 50]).len(), 50);
@@ -56,14 +56,14 @@ fn padding_is_a_dark_value_that_many_voxels_have() {
 fn few_voxels_beside_padding_are_vessels() {
     // 0.8 % at 200.
     let voxels: Vec<f32> = (0..1000).map(|n| if n < 8 { 200.0 } else { 0.0 }).collect();
-    let found = Populations::of(&mut looked(&voxels, [10; 3])).expect("voxels");
+    let found = Populations::of(&mut sampled(&voxels, [10; 3])).expect("voxels");
     assert_eq!(
         (found.darkest, found.lumen, found.tissue, found.brightest_tissue),
         (0.0, 200.0, 150.0, 150.0)
     );
 }
 
-/// Air that is cut off at −1000, tissue of 40 to 60, in it a rod of 300 and a thicker one of 1000.
+/// Air clipped at −1000, tissue of 40 to 60, a rod of 300 and a thicker one of 1000.
 fn body() -> Vec<f32> {
     let value = |[i, j, k]: [usize; 3]| match (i, j, k) {
         (0..6, ..) => -1000.0,
@@ -77,7 +77,7 @@ fn body() -> Vec<f32> {
 
 #[test]
 fn lumen_is_told_from_tissue_and_bone_by_cubes() {
-    let found = Populations::of(&mut looked(&body(), [48; 3])).expect("voxels");
+    let found = Populations::of(&mut sampled(&body(), [48; 3])).expect("voxels");
     assert_eq!((found.darkest, found.lumen, found.brightest_tissue), (-1000.0, 300.0, 60.0));
     assert!((48.0..=52.0).contains(&found.tissue), "tissue {}", found.tissue);
 }
@@ -86,7 +86,7 @@ fn lumen_is_told_from_tissue_and_bone_by_cubes() {
 fn units_do_not_matter() {
     let voxels = body();
     let [plain, other] = [voxels.clone(), voxels.iter().map(|value| value * 0.5 + 8192.0).collect()]
-        .map(|voxels: Vec<f32>| Populations::of(&mut looked(&voxels, [48; 3])).expect("voxels"));
+        .map(|voxels: Vec<f32>| Populations::of(&mut sampled(&voxels, [48; 3])).expect("voxels"));
     assert_eq!(other.lumen, plain.lumen * 0.5 + 8192.0);
     assert_eq!(other.tissue, plain.tissue * 0.5 + 8192.0);
 }

@@ -1,8 +1,8 @@
 use super::*;
 use crate::tube::tube;
 
-/// The marks as `name at`, with a question mark behind what is offered.
-fn told(at: Option<f64>, references: &[f64]) -> Vec<String> {
+/// The marks as `name at`, with a question mark after suggestions.
+fn described(at: Option<f64>, references: &[f64]) -> Vec<String> {
     let found = marks(&tube(), at, references).expect("places on it");
     let word = |mark: &Mark| {
         let offered = if mark.is_suggestion { "?" } else { "" };
@@ -13,20 +13,20 @@ fn told(at: Option<f64>, references: &[f64]) -> Vec<String> {
 
 #[test]
 fn where_nothing_is_marked_all_places_are_offered() {
-    assert_eq!(told(None, &[]), ["narrowest place 26.5?", "reference 18?", "reference 36?"]);
+    assert_eq!(described(None, &[]), ["narrowest place 26.5?", "reference 18?", "reference 36?"]);
 }
 
 #[test]
 fn beside_one_reference_another_one_is_offered_on_the_other_side() {
-    assert_eq!(told(Some(30.0), &[40.0]), ["marked place 30", "reference 22?", "reference 40"]);
-    assert_eq!(told(Some(30.0), &[12.0]), ["marked place 30", "reference 12", "reference 38?"]);
-    assert_eq!(told(None, &[45.0]), ["narrowest place 26.5?", "reference 18?", "reference 45"]);
+    assert_eq!(described(Some(30.0), &[40.0]), ["marked place 30", "reference 22?", "reference 40"]);
+    assert_eq!(described(Some(30.0), &[12.0]), ["marked place 30", "reference 12", "reference 38?"]);
+    assert_eq!(described(None, &[45.0]), ["narrowest place 26.5?", "reference 18?", "reference 45"]);
 }
 
 #[test]
 fn beside_two_references_none_is_offered() {
-    assert_eq!(told(Some(30.0), &[12.0, 45.0]), ["marked place 30", "reference 12", "reference 45"]);
-    assert_eq!(told(Some(20.0), &[40.0, 45.0]), ["marked place 20", "reference 40", "reference 45"]);
+    assert_eq!(described(Some(30.0), &[12.0, 45.0]), ["marked place 30", "reference 12", "reference 45"]);
+    assert_eq!(described(Some(20.0), &[40.0, 45.0]), ["marked place 20", "reference 40", "reference 45"]);
 }
 
 #[test]

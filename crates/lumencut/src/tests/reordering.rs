@@ -1,4 +1,4 @@
-//! Points are put in order where their order is without doubt, and refused in words where it is not.
+//! Points are sorted if their order is unambiguous, and rejected otherwise.
 
 use super::*;
 
@@ -9,7 +9,6 @@ fn wavy(count: usize) -> Vec<DVec3> {
         .collect()
 }
 
-/// A line whose radii follow from its points.
 fn line(points: Vec<DVec3>) -> Line {
     Line { radius: Some(points.iter().map(|p| 1.0 + p.z / 100.0).collect()), points, ..Line::default() }
 }
@@ -18,7 +17,6 @@ fn of(lines: Vec<Line>) -> Centerlines {
     Centerlines { lines, ..Centerlines::default() }
 }
 
-/// Every seventh point, then every seventh of the others, and so on.
 fn dealt(points: &[DVec3]) -> Vec<DVec3> {
     (0..7).flat_map(|first| points.iter().skip(first).step_by(7)).copied().collect()
 }
@@ -65,7 +63,7 @@ fn an_order_in_doubt_is_refused_with_its_reason() {
     let mut ring: Vec<DVec3> = (0..70).map(|n| 9.0 * DVec3::new(turn(n).cos(), turn(n).sin(), 0.0)).collect();
     ring.sort_by(|a, b| a.x.total_cmp(&b.x));
     let error = in_order(of(vec![line(wavy(70)), line(ring)])).expect_err("a ring").to_string();
-    assert!(error.contains("points of line 1: found no order without doubt"), "{error}");
+    assert!(error.contains("points of line 1: found no unambiguous order"), "{error}");
 }
 
 #[test]

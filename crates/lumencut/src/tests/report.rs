@@ -25,7 +25,6 @@ fn shown() -> Shown {
     }
 }
 
-/// A page of the tube by a name, with what was marked on it.
 fn page_of<'a>(
     profile: &'a Profile,
     name: &str,
@@ -101,20 +100,19 @@ fn a_place_that_is_not_graded_keeps_its_rows_and_says_why() {
 
 #[test]
 fn beside_calcium_a_diameter_is_told_from_both_sides() {
-    let row =
-        "<td class=\"words\">calcium, 7.00 mm if nothing brighter is lumen, 9.00 mm if all of it is</td>";
+    let row = "<td class=\"words\">calcium, 7.00 mm if brighter material is excluded, 9.00 mm if it is included</td>";
     assert_eq!(html_of(&shown(), &marked(Some(30.0), &[20.0])).matches(row).count(), 1);
     let without = html_of(
         &Shown { stated: Stated { has_units: false, has_orientation: true }, ..shown() },
         &marked(Some(30.0), &[20.0]),
     );
-    assert!(without.contains("calcium, 7.00 if nothing brighter is lumen, 9.00 if all of it is"));
+    assert!(without.contains("calcium, 7.00 if brighter material is excluded, 9.00 if it is included"));
 }
 
 #[test]
 fn what_nobody_confirmed_stands_apart() {
     let text = html_of(&shown(), &marked(Some(30.0), &[]));
-    let (looked, offered) = text.split_once("<h2>Suggestions, not looked at</h2>").expect("suggestions");
+    let (looked, offered) = text.split_once("<h2>Suggestions, not confirmed</h2>").expect("suggestions");
     assert!(looked.contains("marked place at 30.0 mm</figcaption>") && !looked.contains("(suggestion)</td>"));
     assert!(offered.contains("reference before (suggestion)</td>"));
     assert!(offered.contains("longest diameter (suggestion)</td>"));
@@ -169,7 +167,7 @@ fn an_assumed_millimetre_is_told_in_every_output_and_only_where_it_is() {
 #[test]
 fn lengths_that_a_reader_measured_are_told() {
     let profile = tube();
-    let told = |shown: &Shown| {
+    let method_text = |shown: &Shown| {
         let mut page = page_of(&profile, "LAD", &marked(None, &[]), None);
         page.lengths = Lengths {
             stretches: vec![[10.0, 30.0], [30.0, 50.0]],
@@ -178,14 +176,14 @@ fn lengths_that_a_reader_measured_are_told() {
         };
         html(shown, &[page]).expect("a report")
     };
-    let text = told(&shown());
+    let text = method_text(&shown());
     assert!(text.contains("<p>Stretch: length 20.0 mm, straight 20.0 mm, tortuosity 1.000, C-arm "));
     assert!(text.contains("<p>Angle between both stretches: 0°</p>"));
     assert!(text.contains("<p>Straight distance 1: 12.3 mm</p>"));
     assert!(text.contains(">Diameter: 8.00 ± 0.10 mm at 10.0 mm, 7.20 to 8.80 mm</p>"));
     assert!(!text.contains("No percentage") && !text.contains("No reference is suggested"));
     assert!(
-        !told(&Shown { stated: Stated { has_units: true, has_orientation: false }, ..shown() })
+        !method_text(&Shown { stated: Stated { has_units: true, has_orientation: false }, ..shown() })
             .contains("C-arm")
     );
 }
@@ -194,15 +192,15 @@ fn lengths_that_a_reader_measured_are_told() {
 fn the_plot_shows_curves_flags_and_places() {
     let text = html_of(&shown(), &marked(Some(30.0), &[20.0]));
     let count = |part: &str| text.matches(part).count();
-    // Both flags that are set have a row; the branch is one run.
+    // Each flag that occurs has a row; the branch is one run.
     assert_eq!([count("<text class=\"flag\""), count("<rect x=")], [2, 4]);
-    // The marked ones, and the reference that is offered behind the place.
+    // The marks, and the reference offered after the place.
     assert_eq!(count("<g class=\"place\""), 3);
     assert_eq!(count("class=\"left-out\""), 20);
     assert!(
         text.contains("1.5 × FWHM: 1.80 mm") && text.contains("<image href=\"data:image/png;base64,QUJD\"")
     );
-    // The diameter is interrupted nowhere, and ends at the branch.
+    // The diameter curve is uninterrupted, and ends at the branch.
     let (_, curve) = text.split_once("<path class=\"width\" d=\"").expect("a curve");
     let (curve, _) = curve.split_once('"').expect("its end");
     assert_eq!(curve.matches(['M', 'L']).count(), 101);
@@ -215,7 +213,7 @@ fn how_it_was_measured_is_told() {
     let settings = vec![["view".to_owned(), "CSR".to_owned()]];
     let text = html_of(&Shown { asked, settings, ..shown() }, &marked(None, &[]));
     let words = "Settings: step 0.5 mm; FWHM 1.2 mm; window W 700 L 300; reference 10.0 mm and 50.0 mm; view CSR. \
-                 FWHM of the point spread 1.20 mm, given. Walls: not told apart, as asked. 121 sections, of which 101 count; flags: branch 20, calcium 1. \
+                 FWHM of the point spread 1.20 mm, given. Walls: not separated, as requested. 121 sections, of which 101 count; flags: branch 20, calcium 1. \
                  Contrast to noise 25, contrast 250 in the unit of the volume.";
     assert!(text.contains(words), "{text}");
     assert!(text.contains(". Imaging: series, phase, slice thickness, kernel not stated. Settings"));
@@ -227,6 +225,8 @@ fn a_vessel_of_which_nothing_counts_says_so() {
     let mut profile = tube();
     profile.flags.fill(BRANCH);
     let text = html(&shown(), &[page_of(&profile, "LAD", &marked(None, &[]), None)]).expect("a report");
-    assert!(text.contains("No place is marked, and no section is safe to suggest: see the flags."));
+    assert!(
+        text.contains("No place is marked, and no section is reliable enough to suggest: see the flags.")
+    );
     assert!(!text.contains("Sections at these places"));
 }

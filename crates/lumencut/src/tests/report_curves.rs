@@ -17,7 +17,7 @@ fn a_line_is_interrupted_where_nothing_counts() {
 fn a_section_that_stands_alone_is_no_line() {
     let values = [1.0, NONE, 2.0, NONE, NONE];
     assert_eq!(line(&AXES, &PLACES, &values), "");
-    assert_eq!(lonely(&values), [0, 2]);
+    assert_eq!(isolated(&values), [0, 2]);
 }
 
 #[test]

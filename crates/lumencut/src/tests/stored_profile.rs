@@ -17,7 +17,6 @@ fn profile(wall: WallRequest) -> Profile {
     measure(&volume, &tree.vessels()[1], &request).expect("a profile")
 }
 
-/// Everything of a profile; texts of numbers have all their digits.
 fn all_of(profile: &Profile) -> String {
     format!("{profile:?}")
 }

@@ -1,11 +1,11 @@
-//! What values may stand for, by volumes of a few levels.
+//! Estimated units of volumes with few levels.
 
 use lumencut_core::settings::Window;
 use lumencut_core::volume::{Volume, Voxels};
 
 use super::*;
 
-/// The unit of a cube of 40 voxels of one level, of which so many first ones have other levels.
+/// The unit of a 40³ cube of one level, except for some leading voxels.
 fn unit(level: i16, others: &[(usize, i16)], lumen: Window) -> ValueUnit {
     let mut values = vec![level; 40 * 40 * 40];
     let mut rest = &mut values[..];

@@ -4,7 +4,7 @@ use lumencut_core::volume::Voxels;
 
 use super::*;
 
-/// Voxels of 1 mm whose values `value` gives for each index.
+/// Voxels of 1 mm with values by index.
 fn grid(size: [usize; 3], value: impl Fn([usize; 3]) -> f32) -> Vec<f32> {
     let [ni, nj, nk] = size;
     (0..ni * nj * nk).map(|n| value([n % ni, n / ni % nj, n / (ni * nj)])).collect()
@@ -19,12 +19,11 @@ fn tree(radius: Option<f64>) -> VesselTree {
     VesselTree::new(vec![Vessel::new(points, radius.map(|r| vec![r; 2])).unwrap()]).unwrap()
 }
 
-/// A bright rod along i in dark tissue.
 fn rod() -> Vec<f32> {
     grid([40, 40, 40], |[_, j, k]| if j.abs_diff(20) < 5 && k.abs_diff(20) < 5 { 400.0 } else { 100.0 })
 }
 
-/// Where a value lies in a window: 0 is black, 1 white.
+/// A value's position in a window: 0 black, 1 white.
 fn share(window: Window, value: f64) -> f64 {
     (value - window.level) / window.width + 0.5
 }
@@ -36,14 +35,14 @@ fn a_window_along_centerlines_has_the_lumen_light_and_the_darkest_tissue_black()
         let found = along(&volume(&voxels, [40; 3]), &tree(radius)).unwrap();
         assert!(share(found, 100.0).abs() < 1e-12);
         // Nothing is brighter than the lumen.
-        assert!((share(found, 400.0) - LUMEN_AT[1]).abs() < 1e-12);
+        assert!((share(found, 400.0) - LUMEN_POSITION[1]).abs() < 1e-12);
     }
 }
 
 #[test]
 fn a_dark_lumen_has_the_mirrored_window_of_a_bright_one() {
     let [bright, dark] = [1.0, -1.0].map(|sign| {
-        // Something is brighter than white, so that of the negated values something is darker than black.
+        // Something is brighter than white; negated, darker than black.
         let voxels: Vec<f32> =
             rod().iter().enumerate().map(|(i, value)| sign * if i < 50 { 1500.0 } else { *value }).collect();
         along(&volume(&voxels, [40; 3]), &tree(Some(4.0))).unwrap()
@@ -72,7 +71,7 @@ fn white_is_the_brightest_there_is_and_black_the_darkest_within_what_the_lumen_n
 fn the_darkest_tissue_is_above_black_as_long_as_the_tissue_stays_dark() {
     let ends = [-1000.0, 5000.0];
     for (darkest, expected) in [
-        // Bright enough as it is: black lies 1.5 times the difference below the lumen.
+        // Bright enough: black lies 1.5 times the difference below the lumen.
         (-10.0, -75.0),
         (-100.0, 300.0 - 1.1 * 400.0),
         // At most 2.2 times.
@@ -87,7 +86,7 @@ fn the_darkest_tissue_is_above_black_as_long_as_the_tissue_stays_dark() {
 
 #[test]
 fn no_window_begins_below_the_smallest_value() {
-    // A thick rod in tissue; a quarter of all is masked, and 0.
+    // A thick rod in tissue; a quarter of the volume is masked to 0.
     let voxels = grid([40; 3], |[i, j, k]| match (j.abs_diff(20), k.abs_diff(20)) {
         (0..7, 0..7) => 300.0,
         _ if i < 30 => 10.0 + ((3 * i + 5 * j + 7 * k) % 101) as f32,
@@ -98,7 +97,7 @@ fn no_window_begins_below_the_smallest_value() {
     for found in [of_volume(&masked), of_mip(&masked), along(&masked, &tree(Some(6.0)))] {
         assert!(black(found.unwrap()).abs() < 1e-9);
     }
-    assert!((share(of_volume(&masked).unwrap(), 300.0) - ALONE_LUMEN_AT).abs() < 1e-9);
+    assert!((share(of_volume(&masked).unwrap(), 300.0) - VOLUME_LUMEN_POSITION).abs() < 1e-9);
     // A dark lumen: nothing is as dark as black would be.
     let voxels =
         grid([40; 3], |[_, j, k]| if j.abs_diff(20) < 5 && k.abs_diff(20) < 5 { 20.0 } else { 200.0 });
@@ -113,7 +112,7 @@ fn noise_widens_a_window_until_the_tissue_would_be_grey() {
     for (spread, expected) in [(10.0, 150.0), (75.0, 150.0), (100.0, 100.0), (110.0, 80.0), (190.0, 80.0)] {
         assert!((black(spread) - expected).abs() < 1e-9, "noise of {spread}: {}", black(spread));
     }
-    // A lumen that cannot be told from its tissue has the window of its noise.
+    // A lumen without contrast to its tissue gets the window of its noise.
     assert_eq!(black(210.0), -120.0);
     for spread in [0.0, 60.0, 190.0] {
         let [black, white] = around_lumen(300.0, Tissue { middle: 200.0, darkest: None }, spread, ends);
@@ -130,7 +129,7 @@ fn vessels_without_tissue_have_their_edges_for_it() {
             _ => nothing,
         });
         let found = along(&volume(&voxels, [40; 3]), &tree(Some(2.0))).unwrap();
-        assert!((share(found, 300.0) - LUMEN_AT[1]).abs() < 1e-12, "{nothing}: {found:?}");
+        assert!((share(found, 300.0) - LUMEN_POSITION[1]).abs() < 1e-12, "{nothing}: {found:?}");
         let black = found.level - found.width / 2.0;
         assert!((100.0..200.0).contains(&black), "black at {black}");
     }
@@ -138,7 +137,7 @@ fn vessels_without_tissue_have_their_edges_for_it() {
 
 #[test]
 fn tissue_among_padding_is_darker_than_edges_between_bright_structures() {
-    // All that is darker than 60 was cut off to 0, as most voxels are. What touches the vessel has values as bone has.
+    // Everything below 60 was clipped to 0, as most voxels are. What touches the vessel is as bright as bone.
     let voxels = grid([10, 40, 40], |[i, j, k]| match (j.abs_diff(20), k.abs_diff(20)) {
         (0..2, 0..2) => 300.0,
         (0..3, 0..3) => 200.0 + ((3 * i + 5 * j + 7 * k) % 41) as f32,
@@ -149,12 +148,12 @@ fn tissue_among_padding_is_darker_than_edges_between_bright_structures() {
     let vessel = Vessel::new(points, Some(vec![2.0; 2])).unwrap();
     let found = along(&volume(&voxels, [10, 40, 40]), &VesselTree::new(vec![vessel]).unwrap()).unwrap();
     let black = found.level - found.width / 2.0;
-    assert!(black < 1e-9 && share(found, 300.0) >= LUMEN_AT[0], "{found:?}");
+    assert!(black < 1e-9 && share(found, 300.0) >= LUMEN_POSITION[0], "{found:?}");
 }
 
 #[test]
 fn beside_a_point_are_six_places_beyond_its_wall() {
-    let places = beside(&tree(Some(3.0)), BESIDE);
+    let places = beside(&tree(Some(3.0)), TISSUE_DISTANCE_MM);
     assert_eq!(places.len(), 12);
     assert!(places[..6].iter().all(|place| place.distance(DVec3::new(2.0, 20.0, 20.0)) == 13.0));
     assert_eq!(places[0], DVec3::new(15.0, 20.0, 20.0));
@@ -163,7 +162,7 @@ fn beside_a_point_are_six_places_beyond_its_wall() {
 
 #[test]
 fn windows_of_the_whole_leave_padding_out_and_the_full_one_nothing() {
-    // Half padding, then tissue, and 2 % of lumen; one voxel of each is far beyond.
+    // Half padding, then tissue, and 2 % lumen; one voxel of each is far out.
     let voxels = grid([100, 1, 1], |[i, ..]| match i {
         0..50 => -1000.0,
         50..98 => 50.0,
@@ -195,9 +194,9 @@ fn what_is_no_number_is_left_out() {
     let voxels = vec![f32::NAN; 4];
     let empty = volume(&voxels, [4, 1, 1]);
     for found in [whole(&empty), of_volume(&empty), full(&empty), mra(&empty)] {
-        assert_eq!(found.unwrap(), OF_NOTHING);
+        assert_eq!(found.unwrap(), EMPTY_VOLUME_WINDOW);
     }
-    assert_eq!(along(&volume(&voxels, [4, 1, 1]), &tree(None)).unwrap(), OF_NOTHING);
+    assert_eq!(along(&volume(&voxels, [4, 1, 1]), &tree(None)).unwrap(), EMPTY_VOLUME_WINDOW);
 }
 
 #[test]
@@ -210,7 +209,7 @@ fn values_beyond_all_windows_are_refused_with_what_was_found() {
 #[test]
 fn the_window_of_a_mip_reaches_to_the_brightest_and_is_at_most_so_much_wider() {
     let tissue = |i: usize, j: usize, k: usize| 40.0 + ((3 * i + 5 * j + 7 * k) % 41) as f32;
-    for (brightest, wider) in [(300.0, 1.0), (3000.0, MIP_WIDEST)] {
+    for (brightest, wider) in [(300.0, 1.0), (3000.0, MIP_MAX_WIDENING)] {
         let voxels = grid([40; 3], |[i, j, k]| match (j.abs_diff(20), k.abs_diff(20)) {
             (0..2, 0..2) => brightest,
             (0..5, 0..5) => 300.0,
@@ -222,7 +221,7 @@ fn the_window_of_a_mip_reaches_to_the_brightest_and_is_at_most_so_much_wider() {
         let black = |window: Window| window.level - window.width / 2.0;
         assert!((black(mip) - black(blended)).abs() < 1e-9);
     }
-    // Between the two limits white is the brightest itself.
+    // Between the two limits white is the brightest value.
     let voxels = grid([40; 3], |[i, j, k]| match (j.abs_diff(20), k.abs_diff(20)) {
         (0..2, 0..2) => 390.0,
         (0..5, 0..5) => 300.0,
@@ -232,7 +231,7 @@ fn the_window_of_a_mip_reaches_to_the_brightest_and_is_at_most_so_much_wider() {
     assert!((found.level + found.width / 2.0 - 390.0).abs() < 1e-9, "{found:?}");
 }
 
-/// Air, fat and muscle with noise; in it a sac of 40 and, along i, a lumen of 350.
+/// Air, fat and muscle with noise; a sac of 40 with a lumen of 350 along i.
 fn sac() -> Vec<f32> {
     grid([40, 40, 40], |[i, j, k]| {
         let noise = ((i * 7919 + j * 104_729 + k * 1_299_709) % 97) as f32 / 97.0 - 0.5;
@@ -265,7 +264,7 @@ fn a_lumen_that_is_white_is_not_held() {
 
 #[test]
 fn bright_vessels_beside_many_faint_ones_are_held() {
-    // A third of the line is twice as bright as the rest of it.
+    // A third of the line is twice as bright as the rest.
     let voxels = grid([40, 40, 40], |[i, j, k]| match (i, j.abs_diff(20), k.abs_diff(20)) {
         (0..14, 0..5, 0..5) => 800.0,
         (_, 0..5, 0..5) => 400.0,
@@ -275,10 +274,10 @@ fn bright_vessels_beside_many_faint_ones_are_held() {
     assert!(!holds_lumen(along(&volume, &tree).unwrap(), &volume, &tree));
     let found = holding_lumen(&volume, &tree).unwrap();
     assert!(holds_lumen(found, &volume, &tree));
-    assert!((share(found, 800.0) - HELD[0]).abs() < 1e-9);
+    assert!((share(found, 800.0) - BRIGHT_LUMEN_POSITION[0]).abs() < 1e-9);
 }
 
-/// The line of [`tree`] with a point for each mm.
+/// The line of [`tree`] with a point per mm.
 fn line_of_points() -> VesselTree {
     let points = (2..38).map(|i| DVec3::new(f64::from(i), 20.0, 20.0)).collect();
     VesselTree::new(vec![Vessel::new(points, None).unwrap()]).unwrap()
@@ -286,7 +285,7 @@ fn line_of_points() -> VesselTree {
 
 #[test]
 fn slices_of_a_scan_whose_dark_values_are_cut_off_begin_there() {
-    // As a CTA whose soft tissue is 62 and all that is darker 0.
+    // A CTA with soft tissue of 62 and everything darker at 0.
     let voxels: Vec<f32> = sac().iter().map(|value| if *value < 0.0 { 0.0 } else { *value }).collect();
     let found = of_slices(&volume(&voxels, [40; 3])).unwrap();
     assert!(share(found, 0.0) < 0.05 && share(found, 40.0) > 0.05, "{found:?}");

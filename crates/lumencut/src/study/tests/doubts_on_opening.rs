@@ -1,4 +1,4 @@
-//! What a viewer is told where a scan or centerlines are doubtful: orders, units, sizes.
+//! Doubts reported when scans or centerlines are opened: orders, units, sizes.
 
 use glam::DVec3;
 use lumencut_io::Unit;
@@ -24,8 +24,9 @@ fn points_in_another_order_are_noted_and_can_be_put_in_order() {
         let asked = AskedMessage { reorder: Some(reorder), ..AskedMessage::default() };
         study.open_centerlines(markups(points).as_bytes(), "line.mrk.json", asked).expect("a line").notes
     };
-    let has_doubt =
-        |notes: &[String]| notes.iter().any(|note| note.contains("perhaps its points are in another order"));
+    let has_doubt = |notes: &[String]| {
+        notes.iter().any(|note| note.contains("perhaps its points are in the wrong order"))
+    };
     let mut turned = points.clone();
     turned.rotate_left(2);
     assert!(!has_doubt(&open(&mut study, &points, false)));
@@ -33,10 +34,7 @@ fn points_in_another_order_are_noted_and_can_be_put_in_order() {
     assert!(has_doubt(&open(&mut study, &turned, false)));
     assert_eq!(report_of(&study)["can_reorder"], true);
     let notes = open(&mut study, &turned, true);
-    assert!(
-        !has_doubt(&notes) && notes.iter().any(|note| note.contains("were put in another order")),
-        "{notes:?}"
-    );
+    assert!(!has_doubt(&notes) && notes.iter().any(|note| note.contains("were reordered")), "{notes:?}");
     assert!(report_of(&study)["can_reorder"].is_null());
     assert_eq!(study.content.tree().expect("a tree").tree().vessels()[0].points(), points);
 }

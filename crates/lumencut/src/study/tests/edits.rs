@@ -1,4 +1,4 @@
-//! Edits of vessels: what comes of each of them.
+//! The results of vessel edits.
 
 use glam::DVec3;
 use lumencut_core::progress::Progress;
@@ -13,22 +13,21 @@ use crate::study::failure::Result;
 use crate::study::open_study::Study;
 use crate::study::tracing::Watch;
 
-pub fn tried(study: &mut Study, document: &Document, edit: &Json, bridging: bool) -> Result<Edited> {
+pub(super) fn tried(study: &mut Study, document: &Document, edit: &Json, bridging: bool) -> Result<Edited> {
     let message = json!({"document": document, "edit": edit, "bridging": bridging});
     let message: EditMessage = serde_json::from_value(message).expect("a message");
     study.edit(&message, Watch { stop: &|| false, progress: &Progress::default() })
 }
 
-pub fn edited(study: &mut Study, document: &Document, edit: &Json) -> Edited {
+pub(super) fn edited(study: &mut Study, document: &Document, edit: &Json) -> Edited {
     tried(study, document, edit, false).expect("an edit")
 }
 
-pub fn after(study: &mut Study, document: &Document, edit: &Json) -> Document {
+pub(super) fn after(study: &mut Study, document: &Document, edit: &Json) -> Document {
     edited(study, document, edit).document
 }
 
-/// The scan of a phantom without its vessels, which are known beside it.
-pub fn bare(phantom: &str) -> (Study, Vec<Vec<DVec3>>) {
+pub(super) fn bare(phantom: &str) -> (Study, Vec<Vec<DVec3>>) {
     let mut study = opened(phantom);
     let lines = study.begin_document().vessels.iter().map(|vessel| points(&study, vessel.line)).collect();
     study.content.named = None;
@@ -36,7 +35,7 @@ pub fn bare(phantom: &str) -> (Study, Vec<Vec<DVec3>>) {
     (study, lines)
 }
 
-pub fn called(document: &Document) -> Vec<String> {
+pub(super) fn called(document: &Document) -> Vec<String> {
     document.vessels.iter().map(DocumentVessel::called).collect()
 }
 
@@ -44,8 +43,7 @@ fn ids(document: &Document) -> Vec<u32> {
     document.vessels.iter().map(|vessel| vessel.id).collect()
 }
 
-/// Three vessels with these names.
-pub fn three(study: &mut Study, names: [&str; 3]) -> Document {
+pub(super) fn three(study: &mut Study, names: [&str; 3]) -> Document {
     let lines: Vec<usize> = study.begin_document().vessels.iter().map(|vessel| vessel.line).collect();
     let named: Vec<Json> =
         lines.iter().zip(names).map(|(line, name)| json!({"line": line, "name": name})).collect();
@@ -74,11 +72,11 @@ fn an_id_is_never_given_twice() {
     let line = json!({"kind": "add_lines", "lines": [{"line": 0, "name": "d"}]});
     let more = edited(&mut study, &document, &line.clone());
     assert_eq!((more.words.as_str(), &more.added), ("open centerlines", &vec![4]));
-    // Also not after the last vessel is gone, or the step that brought it is undone.
+    // Ids are not reused after the last vessel is gone or its step undone …
     let fewer = after(&mut study, &more.document, &json!({"kind": "remove", "ids": [4]}));
     assert_eq!(fewer, document);
     assert_eq!(edited(&mut study, &document, &line.clone()).added, [5]);
-    // And not one of a document that was read.
+    // … nor are those of a document that was read.
     let mut read = document;
     read.vessels[1].id = 70;
     assert_eq!(edited(&mut study, &read, &line).added, [71]);
@@ -157,7 +155,7 @@ fn vessels_that_were_clicked_are_traced_beside_the_others_that_are_not_doubtful(
     assert!(tried(&mut study, &document, &begin.clone(), false).is_err(), "a hidden vessel is met too");
     document.vessels[0].doubt = Some("touches bone".into());
     let begun = after(&mut study, &document, &begin);
-    // All of them together: the first one gets no other line by the second.
+    // Traced together: the second vessel does not change the first.
     let second = json!({"kind": "begin_vessel", "clicks": clicks(&study, 1, 3)});
     document.vessels[1].doubt = Some("touches bone".into());
     let mut begun = Document { vessels: [&document.vessels[..], &begun.vessels[3..]].concat(), ..begun };
@@ -166,7 +164,6 @@ fn vessels_that_were_clicked_are_traced_beside_the_others_that_are_not_doubtful(
     assert_eq!((begun.vessels[3].line, called(&begun)[4].as_str()), (first, "Vessel 2"));
 }
 
-/// Two vessels that cross without touching, and a click on each of them.
 fn crossing() -> (Study, [[f64; 3]; 2], [f64; 3]) {
     let mut study = holding(lumencut_phantom::crossing().expect("a phantom"));
     let [first, second] = [0, 1].map(|vessel| points(&study, vessel));
@@ -215,7 +212,7 @@ fn a_refused_click_is_told_by_the_name_of_its_vessel_or_as_the_new_point() {
     ] {
         assert_eq!(subject(&mut study, &document, &edit), "this point");
     }
-    // Where another click is to blame, it is told which.
+    // If another click is at fault, the failure names it.
     let outside = corner + 2.0 * (corner - ends[0]);
     document.vessels[0].clicks = Some(vec![clicks[0], outside.to_array()]);
     document.vessels[0].name = "SMA".into();
@@ -239,7 +236,7 @@ fn stoppers_are_set_moved_and_removed_and_the_vessels_traced_around_them() {
     assert_eq!(moved.words, "move a stopper");
     let stopper = moved.document.stoppers[0];
     assert_eq!((stopper.center, stopper.radius), ([0.0, 13.0, 0.0], 3.0));
-    // One that closes the narrowest place leaves no way.
+    // A stopper at the narrowest place leaves no path.
     let closing = json!({"kind": "move_stopper", "number": 0, "center": [0.0, 0.0, 0.0]});
     let failure = tried(&mut study, &moved.document, &closing, false).expect_err("no way");
     assert_eq!(failure.kind, "tracing");
@@ -300,7 +297,7 @@ fn branches_from_a_seed_come_at_once_and_doubtful_ones_are_accepted_or_left_out(
     }
     let accepted = edited(&mut study, &document, &json!({"kind": "accept", "ids": [2]}));
     assert_eq!((accepted.words.as_str(), &accepted.document.vessels[1].doubt), ("accept a branch", &None));
-    // One that was accepted meanwhile is not left out.
+    // A branch accepted meanwhile is not discarded.
     let left = edited(&mut study, &accepted.document, &json!({"kind": "leave_out", "ids": [2, 3]}));
     assert_eq!(
         (left.words.as_str(), called(&left.document)),

@@ -1,4 +1,4 @@
-//! The lumens that a pointer means, with the sections across them.
+//! The lumens under a pointer, with their sections.
 
 use glam::DVec3;
 
@@ -18,7 +18,7 @@ fn a_ray_across_a_vessel_and_a_place_in_it_mean_the_same_section() {
     };
     let met = study.lumens(&pointed(from, Some(ray))).expect("a volume");
     let one = met.iter().find(|one| DVec3::from_array(one.center).distance(middle) < 0.5).expect("the trunk");
-    // The click that takes it stays under the pointer.
+    // The pointed place stays on the ray.
     assert!((DVec3::from_array(one.point) - from).cross(ray).length() < 1e-9);
     let [right, down] = [one.right, one.down].map(DVec3::from_array);
     assert!(right.cross(down).dot(along).abs() > 0.99 && right.dot(down).abs() < 1e-9);

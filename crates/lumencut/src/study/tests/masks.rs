@@ -1,4 +1,4 @@
-//! Masks beside the volume, and the brightest place on a ray.
+//! Masks with a volume, and the brightest place on a ray.
 
 use glam::{DAffine3, DMat4, DVec3};
 use lumencut_core::progress::Progress;
@@ -12,19 +12,17 @@ use crate::study::picking::Pick;
 use crate::study::tracing::Watch;
 use crate::study::view::ViewMessage;
 
-/// The grid of the volume that is open.
-pub fn grid(study: &Study) -> ([usize; 3], DAffine3) {
+pub(super) fn grid(study: &Study) -> ([usize; 3], DAffine3) {
     let held = study.content.held.as_ref().expect("a volume");
     (held.size, held.world_from_index)
 }
 
-pub fn header((size, world_from_index): ([usize; 3], DAffine3), dtype: &str) -> String {
+pub(super) fn header((size, world_from_index): ([usize; 3], DAffine3), dtype: &str) -> String {
     let rows = DMat4::from(world_from_index).transpose().to_cols_array_2d();
     json!({"size": size, "dtype": dtype, "world_from_index": rows}).to_string()
 }
 
-/// The voxels of the volume that is open.
-pub fn values(study: &Study) -> Vec<i16> {
+pub(super) fn values(study: &Study) -> Vec<i16> {
     match &study.content.held.as_ref().expect("a volume").stored {
         crate::study::voxels::Stored::I16(values) => values.clone(),
         other => panic!("{other:?}"),
@@ -53,7 +51,7 @@ fn the_lines_of_a_mask_are_those_of_the_vessels() {
         let away = near.flat_map(|line| line.points.clone()).map(|point| point.distance(middle));
         assert!(away.fold(f64::MAX, f64::min) < 0.6);
     }
-    // The grey values of the volume have refined it.
+    // The volume's grey values refined it.
     let line = study.lines.get(made.lines[0].line).expect("a line");
     assert!(line.confidence.is_some() && line.bridged.as_ref().is_some_and(|marks| !marks.contains(&true)));
 }
@@ -76,7 +74,7 @@ fn labels_name_the_lines_also_where_they_are_floats() {
     assert_eq!(names, ["label 4", "label 9"]);
 }
 
-/// The voxels of a mask in a box of those of the volume, with its header; the box begins at `low`.
+/// A mask in a box of the volume's voxels that begins at `low`, with its header.
 fn cropped(study: &Study, low: [usize; 3], size: [usize; 3], names: &serde_json::Value) -> (String, Vec<u8>) {
     let ([ni, nj, _], affine) = grid(study);
     let every = values(study);
@@ -134,18 +132,18 @@ fn masks_that_are_none_are_refused() {
     let larger = [size[0] + 1, size[1], size[2]];
     let zeros = vec![0u8; larger.iter().product()];
     let failure = traced(&mut study, &header((larger, affine), "uint8"), &zeros).expect_err("more");
-    assert!(failure.found.contains("reaches beyond the volume") && failure.mend.contains("resample"));
+    assert!(failure.found.contains("extends beyond the volume") && failure.mend.contains("resample"));
     assert_eq!(traced(&mut study, &own, &empty).expect_err("nothing").kind, "volume");
     let many: Vec<u8> = (0..count).flat_map(|n| ((n % 3000) as i16).to_le_bytes()).collect();
     let failure = traced(&mut study, &header((size, affine), "int16"), &many).expect_err("a scan");
-    assert!(failure.found.contains("more different values, as a scan has"));
+    assert!(failure.found.contains("more distinct values, as in a scan"));
     let half: Vec<u8> = (0..count).flat_map(|_| 0.5f32.to_le_bytes()).collect();
     let failure = traced(&mut study, &header((size, affine), "float32"), &half).expect_err("shares");
     assert_eq!(failure.found, "a voxel of 0.5");
     assert!(Study::default().begin_mask(&own).is_err());
 }
 
-/// A volume of 5 mm a side along x and y and 11 along z, 1 mm voxels, 0 but at some voxels of its middle column.
+/// A volume of 5 × 5 × 11 mm in 1 mm voxels, 0 except some voxels of its middle column.
 fn column(bright: &[(usize, i16)]) -> Study {
     let mut study = Study::default();
     study.begin_volume(&header(([5, 5, 11], DAffine3::IDENTITY), "int16")).expect("room");
@@ -156,7 +154,7 @@ fn column(bright: &[(usize, i16)]) -> Study {
     study
 }
 
-/// The brightest place seen from above at a place of a picture of 5 × 5 mm, with these settings.
+/// The brightest place seen from above at a pixel of a 5 × 5 mm picture, with these settings.
 fn brightest(study: &mut Study, pixel: [f64; 2], settings: &serde_json::Value) -> Result<Pick, Failure> {
     let camera = json!({"center": [2, 2, 0], "direction": [0, 0, 1], "up": [0, 1, 0], "size": [5, 5], "pixel_spacing": 1});
     let text = json!({"camera": camera, "method": "csr", "settings": settings}).to_string();
@@ -169,7 +167,7 @@ fn the_brightest_voxel_of_a_ray_is_found() {
     let mut study = column(&[(3, 200), (7, 500), (9, 499)]);
     let pick = brightest(&mut study, [2.0, 2.0], &json!({})).expect("a place");
     assert_eq!((pick.point, pick.value), ([2.0, 2.0, 7.0], Some(500.0)));
-    // Of two that are alike the one that is nearer to the viewer.
+    // Of equal voxels the nearer one wins.
     let mut alike = column(&[(3, 500), (7, 500)]);
     assert_eq!(brightest(&mut alike, [2.0, 2.0], &json!({})).expect("a place").point, [2.0, 2.0, 3.0]);
     let failure = brightest(&mut study, [9.0, 2.0], &json!({})).expect_err("beside");

@@ -1,4 +1,4 @@
-//! Measuring through the study: against tubes painted by formulas, and against the core's own measurement.
+//! Measuring through the study, compared with analytic tubes and with the core.
 
 use std::f64::consts::{FRAC_PI_6, PI};
 
@@ -24,12 +24,11 @@ const FWHM: f64 = 0.8;
 const MIDDLE: DVec2 = DVec2::new(10.0, 9.8);
 const LONGEST: f64 = FRAC_PI_6;
 
-/// Nobody says stop.
 fn go_on() -> bool {
     false
 }
 
-/// The lumen at a height: its axes are 4 and 6 mm, the longer one at 30 degrees to x, and by 60 % less at 20 mm.
+/// The lumen at a height: axes 4 and 6 mm, the longer at 30 degrees to x; 60 % less at 20 mm.
 fn lumen(z: f64) -> Ellipse {
     let away = ((z - 20.0) / 8.0).abs().min(1.0);
     let left = 1.0 - 0.6 * (0.5 + 0.5 * (PI * away).cos());
@@ -37,7 +36,6 @@ fn lumen(z: f64) -> Ellipse {
     Ellipse { center: MIDDLE, mean: 2.5, stretch }.scaled(left)
 }
 
-/// A volume of that tube under a known blur.
 fn voxels() -> Vec<u8> {
     let variance = variance_of(FWHM) + SIDE * SIDE / 12.0;
     let blur = DMat2::from_diagonal(DVec2::splat(variance));
@@ -52,7 +50,6 @@ fn voxels() -> Vec<u8> {
     bytes
 }
 
-/// A line of points beside the middle of the tube, as a file.
 fn line(from: f64, to: f64) -> String {
     let rows: Vec<String> =
         (0..=30).map(|n| format!("10.2,9.9,{},2.5\n", from + (to - from) * f64::from(n) / 30.0)).collect();
@@ -74,7 +71,6 @@ fn open_line(study: &mut Study, from: f64, to: f64) {
     study.open_centerlines(line(from, to).as_bytes(), "line.csv", LPS).expect("a line");
 }
 
-/// The number of a vessel's line, as the page knows it.
 fn line_of(study: &Study, vessel: usize) -> usize {
     let report = report_of(study);
     report["vessels"][vessel]["line"].as_u64().expect("a line") as usize
@@ -135,7 +131,7 @@ fn a_stenosis_has_the_percentage_that_was_painted() {
     let ecst = graded(ecst).expect("a stenosis");
     let expected = 100.0 * (1.0 - 0.4 * 24.0_f64.sqrt() / 8.0);
     assert!((ecst["percent"].as_f64().expect("a number") - expected).abs() < 0.7);
-    // Groups are those of NASCET.
+    // Groups exist for NASCET only.
     assert!(ecst["group"].is_null());
     assert_eq!(whole["doubts"], json!([]));
 }
@@ -155,7 +151,7 @@ fn a_place_that_is_not_graded_has_the_reason() {
         ),
         (
             json!({"at": 18.0, "references": [5.0], "method": "ecst"}),
-            "ECST needs the diameter that the vessel is assumed to have had there.",
+            "ECST needs the assumed original diameter at that place.",
         ),
         (
             json!({"at": 18.0, "references": [99.0]}),
@@ -165,7 +161,7 @@ fn a_place_that_is_not_graded_has_the_reason() {
     ] {
         assert_eq!(grade(given), json!({"stenosis": null, "not_graded": reason}));
     }
-    // Nothing is missing where nothing is marked.
+    // Without a mark nothing is missing.
     for given in [json!({}), json!({"method": "ecst", "original": 8.0, "group": "carotid"})] {
         assert_eq!(grade(given), json!({"stenosis": null, "not_graded": null}));
     }
@@ -190,7 +186,7 @@ fn what_another_method_needs_is_left_aside() {
         assert!(grade(all.clone())["stenosis"]["percent"].is_f64(), "{method}");
         assert_eq!(grade(all), grade(used), "{method}");
     }
-    // A reference that ECST does not use is not looked at.
+    // ECST does not check an unused reference.
     let ecst = json!({"at": 18.0, "references": [99.0], "original": 8.0, "method": "ecst"});
     assert_eq!(grade(ecst)["stenosis"]["references"], json!([]));
 }
@@ -235,7 +231,7 @@ fn a_stretch_is_seen_by_a_c_arm_from_the_front() {
     let vector =
         |value: &Json| DVec3::from(serde_json::from_value::<[f64; 3]>(value.clone()).expect("a vector"));
     assert!(vector(&stretch["direction"]).distance(DVec3::Z) < 1e-3);
-    // From the front into the patient, the head up.
+    // From the front into the patient, head up.
     assert!(vector(&stretch["view"]["direction"]).distance(DVec3::Y) < 1e-3);
     assert!(vector(&stretch["view"]["up"]).distance(DVec3::Z) < 1e-3);
     assert_eq!(stretch["c_arm"], json!("LAO 0° CRAN 0°"));
@@ -246,7 +242,6 @@ fn listed(line: usize) -> ListedLine {
     ListedLine { line, name: String::new(), hidden: false }
 }
 
-/// The first vessel of a tree, measured without the study.
 fn measured_by_core(study: &Study, tree: &[Vessel]) -> Profile {
     let volume = study.content.held.as_ref().expect("a volume").volume().expect("a volume");
     measure(
@@ -268,7 +263,7 @@ fn profiles_are_those_of_the_core_among_the_vessels_that_are_shown() {
         (&found.flags, &found.area, &found.fwhm_source),
         (&among_all.flags, &among_all.area, &among_all.fwhm_source)
     );
-    // One by itself has no branches, and tells the point spread alone.
+    // A single vessel has no branches, and determines the point spread alone.
     for (line, vessel) in [(trunk, 0), (branch, 1)] {
         study.show(&[listed(line)]).expect("one line");
         let expected = measured_by_core(&study, &tree.vessels()[vessel..=vessel]);
@@ -311,10 +306,10 @@ fn profiles_are_kept_until_other_vessels_are_shown() {
     assert_eq!(study.profile(line, None, &never).expect_err("stopped").kind, "interrupted");
     let first = study.profile(line, Some(FWHM), &go_on).expect("a profile").clone();
     study.profile(line, Some(1.0), &go_on).expect("a profile");
-    // What is kept is not measured again: nobody is asked whether to stop.
+    // A cached profile never asks whether to stop.
     assert_eq!(study.profile(line, Some(FWHM), &never).expect("kept").area, first.area);
     assert_eq!(study.measured(line, &never).expect("kept").area, first.area);
-    // The same line by another name.
+    // The same line under another name.
     study.show(&[ListedLine { name: "carotid".into(), ..listed(line) }]).expect("the line");
     assert_eq!(study.profile(line, Some(FWHM), &never).expect("kept").area, first.area);
     open_line(&mut study, 3.0, 37.0);
@@ -374,7 +369,7 @@ fn tables_have_a_line_for_each_section_of_each_vessel() {
     assert!(lines[0].ends_with(&format!(",wall_source,{scan},stenosis,doubts,not_graded")));
     assert!(lines[1..].iter().all(|line| line.ends_with(",,,Mark a reference: where the vessel is normal.")));
     assert!(lines[1].starts_with("0,,0,") && lines[1 + counts[0]].starts_with("2,,0,"));
-    // Of several vessels no single place was asked for.
+    // For several vessels no single place is recorded.
     let all: Json =
         serde_json::from_str(&study.profiles_json(&vessels, false, &go_on).expect("a text")).expect("JSON");
     assert!(all["settings"]["at_mm"].is_null());

@@ -1,4 +1,4 @@
-//! What viewers rely on.
+//! The study as viewers rely on it.
 
 mod after_edit;
 mod doubts_on_opening;
@@ -9,7 +9,7 @@ mod lumens;
 mod masks;
 mod planes;
 mod pretty;
-mod telling;
+mod trace_report;
 mod tracing;
 mod true_sides;
 pub(crate) mod typescript;
@@ -35,18 +35,16 @@ use crate::study::straightened::{Aggregated, CprMessage};
 use crate::study::view::{CameraMessage, ViewMessage};
 use crate::study::voxels::Stored;
 
-/// Centerlines are asked for in LPS.
-pub const LPS: Statement = Statement { space: Some(Space::Lps), unit: None };
+/// Centerlines read as LPS.
+pub(crate) const LPS: Statement = Statement { space: Some(Space::Lps), unit: None };
 
-/// A study that holds a phantom and its vessels.
-pub fn opened(phantom: &str) -> Study {
+pub(crate) fn opened(phantom: &str) -> Study {
     let mut study = Study::default();
     open_phantom(&mut study, phantom);
     study
 }
 
-/// Opens a phantom in the place of all that is open.
-pub fn open_phantom(study: &mut Study, name: &str) {
+pub(crate) fn open_phantom(study: &mut Study, name: &str) {
     let made = match name {
         "stenosis" => lumencut_phantom::stenosis(50.0),
         "helix" => lumencut_phantom::helix(),
@@ -61,8 +59,7 @@ pub fn open_phantom(study: &mut Study, name: &str) {
     study.open(held, tree, vessel_names).expect("a tree");
 }
 
-/// What a viewer is told of what is open.
-pub fn report_of(study: &Study) -> serde_json::Value {
+pub(crate) fn report_of(study: &Study) -> serde_json::Value {
     serde_json::to_value(study.report().expect("a report")).expect("JSON")
 }
 
@@ -72,7 +69,6 @@ fn view(study: &Study, size: [usize; 2]) -> ViewMessage {
     ViewMessage::read(&text.to_string()).expect("a view")
 }
 
-/// The middle of the first vessel, and how far along it is.
 fn on_first_vessel(study: &Study) -> (DVec3, f64) {
     let vessels = study.content.tree().expect("a tree").tree().vessels();
     let middle = vessels[0].points().len() / 2;
@@ -95,9 +91,9 @@ fn a_pick_is_the_pixel_of_the_whole_picture() {
             [x as f64, y as f64],
             f64::from(depth[y * 96 + x]),
         );
-        // The sub-view has other sums of floats, nothing else.
+        // The sub-view differs only by rounding.
         assert!(point.distance(DVec3::from_array(pick.point)) < 1e-3, "pixel {x}, {y}");
-        // The tube stands in the middle; of the pixels beside it none means it, though all lie in its zone.
+        // The tube is in the middle; pixels outside it select no vessel, although all lie in its zone.
         assert_eq!(vessel[y * 96 + x], 0);
         assert_eq!(pick.vessel, (x == 48 || x == 50).then_some(0), "pixel {x}, {y}");
     }
@@ -118,7 +114,7 @@ fn a_click_beside_a_vessel_means_it_as_far_as_it_is_seen_to_be_beside_it() {
     let mut study = opened("stenosis");
     let view = study.view_of(&view(&study, [96, 80])).expect("a view");
     let spacing = view.camera.pixel_spacing();
-    // The tube is straight, upright and 8 mm wide at its lower end; four pixels beside it still mean it.
+    // The tube is straight, upright and 8 mm wide at its lower end; four pixels outside still select it.
     let wall = 47.5 + 4.0 / spacing;
     let mut vessel = |x: f64| study.pick(&view, [x, 70.0]).expect("a pick").vessel;
     assert_eq!(vessel((wall + 3.0).floor()), Some(0));
@@ -134,7 +130,7 @@ fn where_nothing_is_cut_a_click_means_the_brightest_place_on_its_ray() {
     let brightest = study.brightest(&view, [48.0, 40.0]).expect("a place");
     assert_eq!(study.pick(&view, [48.0, 40.0]).expect("a pick"), brightest);
     assert!(brightest.value >= cut.value);
-    // Beside the scan there is none, which is no error: nothing lies there.
+    // Outside the scan nothing is picked, without an error.
     let mut wide = view.clone();
     wide.camera = lumencut_core::camera::Camera::new(
         wide.camera.center(),
@@ -146,7 +142,7 @@ fn where_nothing_is_cut_a_click_means_the_brightest_place_on_its_ray() {
     .expect("a camera");
     let nothing = study.pick(&wide, [2.0, 2.0]).expect("a pick");
     assert_eq!((nothing.value, nothing.vessel), (None, None));
-    // A focus of 1 mm shows the cut in the lumen, and what lies around it 10 mm beside the wall.
+    // A focus of 1 mm shows the cut in the lumen, and the surroundings 10 mm outside the wall.
     view.settings.focus = Some(lumencut_core::settings::Focus { margin: 1.0, fade: 0.0 });
     assert_eq!(study.pick(&view, [48.0, 40.0]).expect("a pick"), cut);
     let beside = [(47.5 + 14.0 / view.camera.pixel_spacing()).round(), 40.0];
@@ -166,7 +162,7 @@ fn a_slab_limits_no_ray_where_a_focus_shows_what_lies_around_the_vessels() {
         Some(lumencut_core::settings::Slab { thickness: 0.5, mode: lumencut_core::settings::SlabMode::Max });
     assert_eq!(study.pick(&view, beside).expect("a pick"), around);
     assert_eq!(study.brightest(&view, beside).expect("a place"), around);
-    // In the lumen the slab is what is shown.
+    // Within the lumen the slab is shown.
     let brightest = study.brightest(&view, inside).expect("a place").point;
     let far = DVec3::from_array(brightest).distance(DVec3::from_array(cut.point));
     assert!(far <= 0.25 + view.camera.pixel_spacing(), "{far} mm beside the cut");
@@ -197,7 +193,7 @@ fn a_slice_shows_the_voxels_of_its_plane() {
     };
     let value = study.at(point.to_array()).value.expect("inside");
     let picture = study.slice(&plane, [f64::from(value), 200.0]).expect("a slice");
-    // The level of a window is its middle grey.
+    // The level of a window is middle grey.
     assert!((i32::from(picture.bytes[4 * 4]) - 128).abs() <= 1);
     assert_eq!(picture.bytes.len(), 3 * 3 * 4);
     let away = Plane { center: [1e4, 0.0, 0.0], ..plane };
@@ -250,7 +246,7 @@ fn a_broken_file_of_centerlines_leaves_the_tree() {
     let points = study.content.tree().expect("a tree").tree().vessels()[0].points().to_vec();
     let rows = points.iter().map(|p| format!("{},{},{},1.5\n", p.x, p.y, p.z)).collect::<String>();
     let text = format!("x,y,z,radius\n{rows}");
-    // The phantom is as good a place for them mirrored.
+    // The mirrored lines fit the phantom equally well.
     let failure =
         study.open_centerlines(text.as_bytes(), "line.csv", Statement::default()).expect_err("no space");
     assert_eq!(failure.more.mends, [OfCenterlines::Coordinates.into()]);
@@ -330,7 +326,7 @@ fn a_feature_aggregation_is_as_bright_as_its_circles() {
     let [least, own, most] =
         [least, plain, CprMessage { feature: most, ..plain }].map(|m| shown(&mut study, m));
     assert_eq!((least.size, most.size), (own.size, own.size));
-    // A sample of the circle lies beside the pixel itself, by half an angle at most.
+    // A sample of the circle is up to half an angle away from the pixel.
     let brighter = |a: &[u8], b: &[u8]| a.iter().zip(b).all(|(a, b)| i32::from(*a) + 2 >= i32::from(*b));
     assert!(brighter(&most.bytes, &least.bytes));
     let middle = own.size[0] / 2 + own.size[0] * (own.size[1] / 2);

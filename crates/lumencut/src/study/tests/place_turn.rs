@@ -9,16 +9,15 @@ use crate::study::tests::LPS;
 const SIZE: [usize; 3] = [48, 48, 40];
 const SIDE: f64 = 0.5;
 const MIDDLE: f64 = 12.0;
-/// Half the axes of the lumen (mm); the longer one lies at 60 degrees to x.
+/// Half axes of the lumen (mm); the longer at 60 degrees to x.
 const AXES: [f64; 2] = [4.0, 3.0];
 
-/// How far the wall is from the middle of the lumen in a direction (mm).
+/// The distance of the wall in a direction (mm).
 fn wall(direction: DVec2) -> f64 {
     let along = DVec2::from_angle(-FRAC_PI_3).rotate(direction.normalize());
     1.0 / (along.x / AXES[0]).hypot(along.y / AXES[1])
 }
 
-/// A straight tube along z, whose values pass half way where its wall is.
 fn tube(with_radius: bool) -> Study {
     let mut study = Study::default();
     let rows = [[SIDE, 0.0, 0.0, 0.0], [0.0, SIDE, 0.0, 0.0], [0.0, 0.0, SIDE, 0.0], [0.0, 0.0, 0.0, 1.0]];
@@ -47,7 +46,7 @@ fn turn(study: &mut Study, at: f64) -> Result<PlaceTurn> {
 
 #[test]
 fn a_turn_sweeps_the_diameters_of_the_lumen() {
-    // Seen from the front x lies to the right; from there the viewer moves counterclockwise as seen from the head.
+    // From the front x points right; the viewer then moves counterclockwise as seen from the head.
     let expected = |degree: f64| 2.0 * wall(DVec2::from_angle(degree.to_radians()));
     for with_radius in [true, false] {
         let turn = turn(&mut tube(with_radius), 6.0).expect("a turn");

@@ -1,12 +1,11 @@
-//! TypeScript as people read it: a line for each field, which nobody changes.
+//! Formats TypeScript for readers: one readonly field per line.
 
-/// A comment of these words, with a line for each of theirs.
-pub fn comment(words: &str) -> String {
+pub(super) fn comment(words: &str) -> String {
     format!("/**\n * {}\n */\n", words.replace('\n', "\n * "))
 }
 
-/// A line for each field of an object; comments become those of one line where they have one.
-pub fn pretty(types: &str) -> String {
+/// One line per field; comments on one line if possible.
+pub(super) fn pretty(types: &str) -> String {
     let mut made = String::new();
     let mut depth: usize = 0;
     let mut rest = types;
@@ -53,15 +52,15 @@ pub fn pretty(types: &str) -> String {
     made
 }
 
-/// Whether what is written ends outside of brackets of tuples and generic types: a comma then ends a field.
+/// Whether the text so far ends outside tuple and generic brackets, where a comma ends a field.
 fn is_field(made: &str) -> bool {
     let line = made.rsplit('\n').next().unwrap_or_default();
     let count = |signs: [char; 2]| line.chars().filter(|sign| signs.contains(sign)).count();
     count(['[', '[']) == count([']', ']']) && count(['<', '<']) == count(['>', '>'])
 }
 
-/// Every field, list and tuple as one that nobody changes; places and pairs of numbers by their names.
-pub fn with_readonly(types: &str) -> String {
+/// Makes fields, lists and tuples readonly; places and number pairs get their names.
+pub(super) fn with_readonly(types: &str) -> String {
     let line = |line: &str| {
         let bare = line.trim_start();
         if bare.starts_with("/**") {

@@ -18,13 +18,11 @@ fn front() -> serde_json::Value {
     serde_json::json!({"direction": [0.0, 1.0, 0.0], "up": [0.0, 0.0, 1.0]})
 }
 
-/// The middle of a vessel.
 fn middle_of(study: &Study, vessel: usize) -> DVec3 {
     let points = study.vessel(vessel).expect("a vessel").points();
     points[points.len() / 2]
 }
 
-/// All kinds of reformations of a study, each of the vessel given.
 fn all_kinds(vessel: usize) -> Vec<ReformationMessage> {
     [
         serde_json::json!({"kind": "untangled", "side": front()}),
@@ -46,14 +44,14 @@ fn each_fits_into_its_pane_and_a_pick_leads_back_to_its_pixel() {
         assert!(width >= PANE[0] - 8 || height >= PANE[1] - 8, "{asked:?}: {width} × {height}");
         assert_eq!(picture.bytes.len(), 4 * width * height);
         assert!(picture.words.ends_with('.'), "{}", picture.words);
-        // A place in the middle itself lies on no wall.
+        // A place exactly in the middle lies on no wall.
         let point = middle_of(&study, 1) + DVec3::X * 0.2;
         let pixel =
             study.on_reformed(point.to_array()).unwrap_or_else(|| panic!("{asked:?} does not show {point}"));
         let pick = study.pick_reformed(pixel).expect("a picture").expect("something shown");
         assert_eq!(pick.vessel, Some(1), "{asked:?}");
         let along = pick.arc_length.expect("a place");
-        let expected = study.told(point, Some(1)).arc_length.expect("a place");
+        let expected = study.pick_at(point, Some(1)).arc_length.expect("a place");
         assert!((along - expected).abs() < picture.pixel_spacing, "{asked:?}: {along} and {expected}");
         // A map shows the wall around the middle, a spiral the nearest winding.
         let bound = match &study.reformed.as_ref().expect("a picture").laid {
@@ -96,10 +94,10 @@ fn a_window_alone_changes_the_picture_and_nothing_is_laid_out_again() {
     assert!(kept < laid_out, "the picture alone asks whether to stop: {kept} of {laid_out}");
     assert_eq!(brighter.size, first.size);
     assert_ne!(brighter.bytes, first.bytes);
-    // The tree stays as it is turned in a pane of another size.
+    // The tree keeps its layout in a pane of another size.
     let wide = study.reformed(asked, [480, 360], (WINDOW, &go)).expect("the same layout");
     assert!((wide.pixel_spacing - first.pixel_spacing / 2.0).abs() < 0.01 * first.pixel_spacing);
-    // Another side is laid out anew, which can be stopped.
+    // Another side needs a new layout, which can be stopped.
     let side = serde_json::json!({"direction": [1.0, 0.0, 0.0], "up": [0.0, 0.0, 1.0]});
     let other = message(serde_json::json!({"kind": "untangled", "side": side}));
     let stopped = study.reformed(other, PANE, (WINDOW, &|| true)).expect_err("a stop");
@@ -127,11 +125,11 @@ fn colours_of_a_map_tell_the_radius_of_the_wall() {
     assert!(picture.words.contains("Colours: from 0 (dark blue) to 4"), "{}", picture.words);
     let [width, height] = picture.size;
     let green = |row: usize| picture.bytes[4 * (row * width + width / 2) + 1];
-    // Half as wide in the middle, it is half way down the colours there.
+    // Half as wide in the middle: half way down the colours.
     assert!(green(height / 2) + 40 < green(height / 8));
     let value = &study.reformed.as_ref().expect("a map").value;
     assert!((value[height / 8 * width] - 4.0).abs() < 0.3);
-    // No calcium lies at its wall, whatever is asked of it.
+    // There is no calcium at its wall.
     let thick = message(serde_json::json!({"kind": "map", "vessel": 0, "of": "thickness"}));
     study.reformed(thick, PANE, (WINDOW, &go)).expect("a map");
     assert!(

@@ -1,16 +1,14 @@
-//! What a report tells of a scan: the findings in sentences, and a page for each vessel.
+//! Findings in sentences, and report pages.
 
 use serde_json::{Value as Json, json};
 
 use super::*;
 use crate::study::tests::{opened, report_of};
 
-/// Nobody says stop.
 fn go_on() -> bool {
     false
 }
 
-/// A vessel of the scan by its number, with these marks beside none.
 fn vessel(study: &Study, number: usize, marked: &Json) -> Json {
     let mut marks = json!({"at": null, "references": [], "method": "nascet", "original": null, "comparison": null, "group": null});
     for (name, value) in marked.as_object().expect("names") {
@@ -40,7 +38,7 @@ fn findings_are_told_in_the_sentences_of_the_report() {
     let is_stretch = |one: &Json| one["words"].as_str().is_some_and(|words| words.starts_with(stretch));
     assert!(sentences.iter().any(is_stretch), "{sentences:?}");
     assert_eq!(told["distances"], json!(["Straight distance 1: 12.3 mm"]));
-    // Where the scan states no spacing, no length has a unit.
+    // Without voxel spacing no length has a unit.
     assert!(!found(false).to_string().contains(" mm"));
 }
 

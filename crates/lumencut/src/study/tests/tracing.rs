@@ -1,4 +1,4 @@
-//! Tracing as the page relies on it, tested on this machine's own target.
+//! Tracing as the page relies on it, on the native target.
 
 use glam::{DAffine3, DMat4, DVec3};
 use lumencut_core::progress::Progress;
@@ -17,8 +17,7 @@ fn header(size: [usize; 3], world_from_index: DAffine3) -> String {
     json!({"size": size, "dtype": "int16", "world_from_index": rows}).to_string()
 }
 
-/// A phantom that the page does not offer.
-pub fn holding(phantom: Phantom) -> Study {
+pub(super) fn holding(phantom: Phantom) -> Study {
     let mut study = Study::default();
     study.begin_volume(&header(phantom.size, phantom.world_from_index)).expect("room");
     let bytes: Vec<u8> = phantom.voxels.iter().flat_map(|voxel| voxel.to_le_bytes()).collect();
@@ -39,8 +38,7 @@ fn request(vessels: &[Vec<[f64; 3]>], beside: &[usize]) -> TraceRequest {
     TraceRequest { vessels: vessels.to_vec(), beside: beside.to_vec(), ..TraceRequest::default() }
 }
 
-/// Two clicks on a vessel of the phantom, a number of points from its ends.
-pub fn clicks(study: &Study, vessel: usize, from_ends: usize) -> Vec<[f64; 3]> {
+pub(super) fn clicks(study: &Study, vessel: usize, from_ends: usize) -> Vec<[f64; 3]> {
     let points = study.content.tree().expect("a tree").tree().vessels()[vessel].points().to_vec();
     vec![points[from_ends].to_array(), points[points.len() - 1 - from_ends].to_array()]
 }
@@ -50,7 +48,7 @@ fn path(study: &mut Study, message: Json, stop: bool) -> Option<Vec<[f64; 3]>> {
     study.path(&message, &|| stop).expect("an open volume")
 }
 
-pub fn points(study: &Study, line: usize) -> Vec<DVec3> {
+pub(super) fn points(study: &Study, line: usize) -> Vec<DVec3> {
     study.lines.get(line).expect("a line").points.clone()
 }
 
@@ -166,9 +164,9 @@ fn the_way_to_the_pointer_goes_on_where_it_was_stopped() {
     let line = points(&study, 0);
     let away = |point: DVec3| line.iter().map(|own| own.distance(point)).fold(f64::MAX, f64::min);
     assert!(way.iter().all(|point| away(DVec3::from_array(*point)) < 4.0));
-    // What the front has come to needs no time.
+    // The front has already reached it, so no time is needed.
     assert_eq!(path(&mut study, sought(to), true), Some(way));
-    // Beside the vessel, outside of the volume, and from no lumen there is none.
+    // No path outside the vessel, outside the volume, or from a place without lumen.
     let beside = [from[0] + 6.0, from[1], from[2]];
     assert_eq!(path(&mut study, sought(beside), false), None);
     assert_eq!(path(&mut study, sought([1e4, 0.0, 0.0]), false), None);

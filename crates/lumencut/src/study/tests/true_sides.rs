@@ -1,4 +1,4 @@
-//! What the page shows of ramps, whose values are places: letters at edges and points that are told are the true ones.
+//! Ramps whose values are positions verify edge letters and reported points.
 
 use glam::{DAffine3, DVec3};
 use lumencut_core::vessel_tree::{Vessel, VesselTree};
@@ -13,10 +13,9 @@ use crate::study::straightened::CprMessage;
 use crate::study::voxels::Stored;
 
 const SIDE: usize = 41;
-/// A window that shows places from -40 to 40 mm.
+/// A window from -40 to 40 mm.
 const WINDOW: [f64; 2] = [0.0, 80.0];
 
-/// A left-handed grid that lies oblique in the patient, its middle at the origin.
 fn grid() -> DAffine3 {
     let across = DVec3::new(1.0, 0.3, -0.2).normalize();
     let ahead = DVec3::new(-0.3, 1.0, 0.1).reject_from_normalized(across).normalize();
@@ -26,7 +25,7 @@ fn grid() -> DAffine3 {
     DAffine3::from_cols(across, ahead, along, middle)
 }
 
-/// A study of a volume whose values are places along an axis of the patient (mm), and a vessel along a direction.
+/// A volume whose values are positions along a patient axis (mm), with a vessel along a direction.
 fn ramp(axis: usize, way: DVec3) -> Study {
     let places = (0..SIDE.pow(3)).map(|n| {
         let index = DVec3::new((n % SIDE) as f64, (n / SIDE % SIDE) as f64, (n / SIDE / SIDE) as f64);
@@ -46,7 +45,6 @@ fn ramp(axis: usize, way: DVec3) -> Study {
     study
 }
 
-/// How the true place changes to the right and downwards in a picture that is made of each ramp.
 fn ways(way: DVec3, mut picture: impl FnMut(&mut Study) -> Picture) -> [DVec3; 2] {
     let made = [0, 1, 2].map(|axis| picture(&mut ramp(axis, way)));
     let [width, height] = made[0].size;
@@ -65,7 +63,7 @@ fn letters(plane: &Plane) -> EdgeLetters {
     PictureLabels::from(from_value::<LaidPicture>(laid).expect("a picture")).letters
 }
 
-/// A value is known to a step of the window: letters of parts near a fifth may differ.
+/// Values are known to a window step: letters of components near a fifth may differ.
 fn agree(letters: &str, way: DVec3) -> bool {
     let named = |least: f64| sides(way).chars().filter(|side| part(*side, way) > least).collect::<String>();
     named(0.25).chars().all(|side| letters.contains(side))

@@ -1,5 +1,5 @@
-//! The types of the page, written of the table of questions: `web/src/core/generated/questions.ts`. A test fails where that file is
-//! stale; `make types` writes it anew.
+//! Generates the page's types, `web/src/core/generated/questions.ts`, from the table of questions. A test fails if the file is
+//! stale; `make types` rewrites it.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -15,18 +15,20 @@ use crate::study::asking::Turn;
 use crate::study::questions::declare;
 use crate::study::view::METHODS;
 
-/// What the table declares.
-pub struct Types {
+pub(crate) struct Types {
     config: Config,
-    /// The declarations of types, by their names.
     declared: BTreeMap<String, String>,
     questions: String,
     turns: String,
 }
 
 impl Types {
-    /// A row of the table.
-    pub fn question<M: TS + 'static, A: TS + 'static>(&mut self, name: &str, about: &[&str], turn: Turn) {
+    pub(crate) fn question<M: TS + 'static, A: TS + 'static>(
+        &mut self,
+        name: &str,
+        about: &[&str],
+        turn: Turn,
+    ) {
         let message = self.named::<M>();
         let answer = self.named::<A>();
         let about: Vec<&str> = about.iter().map(|line| line.trim()).collect();
@@ -42,7 +44,7 @@ impl Types {
         let _ = writeln!(self.turns, "  {name}: {turn},");
     }
 
-    /// The name of a type, which is declared with all that it is made of; the message of a row stands where it is.
+    /// The name of a type, declared with its dependencies; a row's message is inlined.
     fn named<T: TS + 'static>(&mut self) -> String {
         self.visit::<T>();
         let name = T::name(&self.config);
@@ -50,7 +52,6 @@ impl Types {
     }
 }
 
-/// The name of every message that a row declares itself.
 const ROW: &str = "Message";
 
 impl TypeVisitor for Types {
@@ -69,13 +70,11 @@ impl TypeVisitor for Types {
     }
 }
 
-/// A type of one of these texts.
 fn one_of(name: &str, texts: impl IntoIterator<Item = &'static str>) -> String {
     let texts: Vec<String> = texts.into_iter().map(|text| format!("'{text}'")).collect();
     format!("export type {name} = {};\n", texts.join(" | "))
 }
 
-/// The whole file.
 fn written() -> String {
     let config = Config::new().with_large_int("number");
     let (questions, turns) = (String::new(), String::new());

@@ -10,28 +10,26 @@ use super::{Shown, VesselPage, flag_rows};
 use crate::measure_words::{of_method, of_source, of_wall};
 use crate::text::{fixed, rounded, shortest};
 
-/// How to read the numbers.
-pub const EXPLAINED: &str = "Diameters are those of the lumen: thrombus and plaque are not lumen, so that an aneurysm may be \
-    wider. Diameter means that of a circle of the same area; ± is one standard deviation: noise, blur, wall, levels and \
-    surroundings. A stenosis is compared with the median within 1.5 mm of each reference. Suggested places are no findings: a reader must look at them. \
-    The contour of a section is cyan where it counts for what is narrowest or widest, and orange where its flags leave it out.";
+pub(super) const EXPLAINED: &str = "All diameters are of the lumen: thrombus and plaque are not lumen, so an aneurysm may be wider. \
+    Diameter means the diameter of a circle of the same area. ± is one standard deviation from noise, blur, wall, levels and \
+    surroundings. A stenosis is compared with the median diameter within 1.5 mm of each reference. Suggested places are not \
+    findings: a reader must check them. A cyan contour counts for the narrowest and the widest place; an orange one is excluded \
+    by its flags.";
 
-/// Why lengths have no unit.
-pub const UNITLESS: &str =
-    "The scan does not say how far its voxels lie apart: 1 mm is assumed, and lengths have no unit.";
+pub(super) const UNITLESS: &str = "The scan has no voxel spacing: 1 mm is assumed, and lengths have no unit.";
 
-/// What a file states of its grid, or a reader assumed.
+/// What a file states about its grid, or a reader assumed.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub struct Stated {
-    /// Whether it is known how far voxels lie apart: lengths have no unit otherwise.
+    /// Whether the voxel spacing is known; otherwise lengths have no unit.
     pub has_units: bool,
-    /// Whether it is known where the patient's left is: angles of a C-arm are not told otherwise.
+    /// Whether the orientation is known; otherwise C-arm angles are omitted.
     pub has_orientation: bool,
 }
 
 impl Stated {
-    /// The unit of lengths behind a number; empty where none is known.
+    /// The unit after a number; empty if unknown.
     pub(super) fn unit(&self) -> &'static str {
         if self.has_units { " mm" } else { "" }
     }
@@ -41,14 +39,13 @@ impl Stated {
         format!("{}{}", fixed(value, decimals), self.unit())
     }
 
-    /// A sentence of the engine, without units where lengths have none.
-    pub(super) fn spoken(&self, words: &str) -> String {
+    /// A sentence of the engine, without units if they are unknown.
+    pub(super) fn with_units(&self, words: &str) -> String {
         if self.has_units { words.to_owned() } else { words.replace(" mm²", "").replace(" mm", "") }
     }
 }
 
-/// How a vessel was measured and shown.
-pub fn told(shown: &Shown, vessel: &VesselPage) -> String {
+pub(super) fn method_text(shown: &Shown, vessel: &VesselPage) -> String {
     let profile = vessel.measured.profile;
     let counted = (0..profile.len()).filter(|n| profile.counts(*n)).count();
     format!(
@@ -58,7 +55,7 @@ pub fn told(shown: &Shown, vessel: &VesselPage) -> String {
         vessel.measured.scan.words(),
         settings(shown),
         shown.stated.length(profile.fwhm, 2),
-        shown.stated.spoken(&of_source(&profile.fwhm_source)),
+        shown.stated.with_units(&of_source(&profile.fwhm_source)),
         of_wall(&profile.wall_source),
         profile.len(),
         flags(profile),
@@ -82,22 +79,19 @@ fn settings(shown: &Shown) -> String {
         ("comparison", asked.comparison_mm.as_ref().map(length)),
         ("group", asked.group.clone()),
     ];
-    let told = named.into_iter().filter_map(|(name, value)| Some(format!("{name} {}", value?)));
+    let stated = named.into_iter().filter_map(|(name, value)| Some(format!("{name} {}", value?)));
     let shown = shown.settings.iter().map(|[name, value]| format!("{name} {value}"));
-    told.chain(shown).collect::<Vec<_>>().join("; ")
+    stated.chain(shown).collect::<Vec<_>>().join("; ")
 }
 
-/// How readers call a method of grading.
 fn method_word(name: &str) -> String {
     Method::named("method", name).map_or_else(|_| name.to_owned(), of_method)
 }
 
-/// A number in about four digits, without an exponent where it is an intensity of a usual scale.
 fn intensity(value: f64) -> String {
     if (100.0..1e7).contains(&value.abs()) { fixed(value, 0) } else { rounded(value, 3) }
 }
 
-/// The flags that are set, each with the number of its sections.
 fn flags(profile: &Profile) -> String {
     let count = |bit: u32| profile.flags.iter().filter(|bits| *bits & bit > 0).count();
     let words: Vec<String> =
@@ -105,7 +99,6 @@ fn flags(profile: &Profile) -> String {
     if words.is_empty() { "none".to_owned() } else { words.join(", ") }
 }
 
-/// How far lumen and background lie apart.
 fn contrast(profile: &Profile) -> String {
     let mut contrasts: Vec<f64> =
         profile.levels.iter().map(|[lumen, around]| (lumen - around).abs()).collect();

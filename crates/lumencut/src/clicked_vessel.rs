@@ -1,4 +1,4 @@
-//! Whether a click at a point means a vessel, and the place on it.
+//! Whether a click selects a vessel, and where on it.
 
 use glam::{DVec2, DVec3};
 use lumencut_core::math::arc_length::point_at;
@@ -6,18 +6,18 @@ use lumencut_core::vessel_tree::Vessel;
 
 use crate::vessel_views::radius_at;
 
-/// How far beside its wall a vessel is still meant by a click (mm), and how many pixels in a view from far away.
-const BESIDE: f64 = 2.0;
-const PIXELS_BESIDE: f64 = 4.0;
+/// How far outside its wall a vessel is still selected (mm), and in pixels of a distant view.
+const CLICK_MARGIN_MM: f64 = 2.0;
+const CLICK_MARGIN_PX: f64 = 4.0;
 
-/// Whether a click at a point of a view with pixels of this side (mm) means the vessel: in its lumen, or a little beside it.
-pub fn is_meant(vessel: &Vessel, point: DVec3, pixel_spacing: f64) -> bool {
+/// Whether a click selects the vessel: in its lumen or just outside. `pixel_spacing` is the pixel side (mm).
+pub fn is_clicked(vessel: &Vessel, point: DVec3, pixel_spacing: f64) -> bool {
     let at = nearest_arc_length(vessel, point);
-    let reach = BESIDE.max(PIXELS_BESIDE * pixel_spacing);
+    let reach = CLICK_MARGIN_MM.max(CLICK_MARGIN_PX * pixel_spacing);
     point.distance(point_at(vessel.points(), vessel.arc_length(), at)) <= radius_at(vessel, at) + reach
 }
 
-/// The arc length (mm) on a vessel that is nearest to a point.
+/// The arc length (mm) nearest to a point.
 pub fn nearest_arc_length(vessel: &Vessel, point: DVec3) -> f64 {
     let (points, along) = (vessel.points(), vessel.arc_length());
     let mut best = DVec2::new(f64::MAX, 0.0);
@@ -42,7 +42,7 @@ mod tests {
         let vessel = Vessel::new(points, Some(vec![3.0; 3])).expect("a vessel");
         let at = |y: f64| DVec3::new(12.0, y, 0.0);
         assert!((nearest_arc_length(&vessel, at(9.0)) - 12.0).abs() < 1e-9);
-        assert!(is_meant(&vessel, at(4.9), 0.1) && !is_meant(&vessel, at(5.1), 0.1));
-        assert!(is_meant(&vessel, at(6.9), 1.0) && !is_meant(&vessel, at(7.1), 1.0));
+        assert!(is_clicked(&vessel, at(4.9), 0.1) && !is_clicked(&vessel, at(5.1), 0.1));
+        assert!(is_clicked(&vessel, at(6.9), 1.0) && !is_clicked(&vessel, at(7.1), 1.0));
     }
 }

@@ -1,4 +1,4 @@
-//! What is told of a vessel that was traced, in scenes whose answer is known in closed form.
+//! Reports on traced vessels in scenes with a known answer.
 
 use glam::{DAffine3, DVec3};
 use lumencut_core::math::arc_length::arc_lengths;
@@ -12,15 +12,14 @@ use super::edits::edited;
 use super::tracing::{holding, points};
 use crate::study::document::Document;
 use crate::study::open_study::Study;
-use crate::study::telling::Told;
+use crate::study::trace_report::Told;
 
-/// A tube along z of radius 9 mm in fat, 96 mm long, in voxels of 1 mm whose values are those of a function of z, with an even noise
-/// of 20 on both sides.
+/// A 96 mm tube along z of radius 9 mm in fat, in 1 mm voxels with values from a function of z and noise of ±20.
 fn tube(lumen: impl Fn(f64) -> f64) -> Study {
     tube_of(96, lumen)
 }
 
-/// The same, of so many mm.
+/// The same, of `length` mm.
 fn tube_of(length: usize, lumen: impl Fn(f64) -> f64) -> Study {
     let size = [40, 40, length];
     let mut seed = 3u32;
@@ -52,7 +51,7 @@ fn tube_of(length: usize, lumen: impl Fn(f64) -> f64) -> Study {
 
 #[test]
 fn one_click_takes_a_vessel_that_is_hardly_longer_than_wide_in_the_scan_and_says_that_it_was_not_found() {
-    // A slab of 24 mm of a vessel 18 mm wide.
+    // A 24 mm slab of a vessel 18 mm wide.
     let mut study = tube_of(24, |_| 400.0);
     let whole = json!({"kind": "add_whole_vessel", "click": [2.0, -3.0, 12.0]});
     let begun = edited(&mut study, &Document::default(), &whole);
@@ -61,11 +60,10 @@ fn one_click_takes_a_vessel_that_is_hardly_longer_than_wide_in_the_scan_and_says
     assert!(off < 0.6, "{off}");
     assert!(line[0].distance(line[line.len() - 1]) > 16.0, "{line:?}");
     let told = begun.told.expect("words");
-    let words = "Vessel 1 was traced from the click alone, as no vessel was found there: is it one?";
+    let words = "Vessel 1 was traced from the click alone, because no vessel was found there: check it.";
     assert_eq!(told.doubts.iter().map(|doubt| doubt.words.as_str()).collect::<Vec<_>>(), [words]);
 }
 
-/// What is told of a vessel between clicks.
 fn told(study: &mut Study, clicks: [[f64; 3]; 2]) -> Told {
     let begin = json!({"kind": "begin_vessel", "clicks": clicks});
     edited(study, &Document::default(), &begin).told.expect("words")
@@ -85,7 +83,7 @@ fn a_lumen_that_changes_its_brightness_at_a_place_is_told_with_the_place() {
     let (line, lengths) = (points(&study, vessel.line), arc_lengths(&points(&study, vessel.line)));
     let place = line[lengths.partition_point(|length| *length < at)];
     assert!((place.z - 48.0).abs() < 3.0, "{at} {place}");
-    let words = format!("Doubtful from {at:.0} mm on: the lumen changes its brightness there.");
+    let words = format!("Doubtful from {at:.0} mm on: the brightness of the lumen changes there.");
     assert_eq!(doubt.words, words);
 }
 
@@ -101,7 +99,7 @@ fn a_way_across_the_lumen_is_told_and_one_along_it_is_none() {
     let mut study = tube(|_| 400.0);
     let across = told(&mut study, [[-6.0, 0.3, 48.0], [6.0, 0.1, 48.5]]);
     let [doubt] = &across.doubts[..] else { panic!("{:?}", across.doubts) };
-    assert_eq!(doubt.words, "The way runs across the lumen, not along it: click in another slice.");
+    assert_eq!(doubt.words, "The path runs across the lumen, not along it: click in another slice.");
     assert_eq!(doubt.at, None);
     assert_eq!(told(&mut study, [[-6.0, 0.3, 36.0], [6.0, 0.1, 58.0]]).doubts, Vec::new());
 }
