@@ -88,7 +88,7 @@ class Stenosis:
         return tuple(self._graded.doubts)
 
     def group(self, vessel: Literal["carotid", "coronary"]) -> str:
-        """Return the group of the field that the percentage falls into, with its source.
+        """Return the severity group of the percentage, with its source.
 
         Parameters
         ----------

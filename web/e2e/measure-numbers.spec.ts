@@ -22,9 +22,9 @@ test('by ECST an original diameter is asked for; by area the percentage is that 
   await numbers.getByLabel('Method').selectOption('area');
   await expect(tube.stenosis()).toHaveText(PYTHON.area);
   await numbers.getByLabel('Method').selectOption('nascet');
-  await numbers.getByLabel('Severity category').selectOption('carotid');
-  await expect(tube.stenosis()).toContainText('Severity category: ');
-  await numbers.getByLabel('Severity category').selectOption('');
+  await numbers.getByLabel('Severity group').selectOption('carotid');
+  await expect(tube.stenosis()).toContainText('Severity group: ');
+  await numbers.getByLabel('Severity group').selectOption('');
 });
 
 test('behind a near-occlusion there is no percentage', async () => {

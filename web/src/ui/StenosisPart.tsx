@@ -53,12 +53,12 @@ export function StenosisPart() {
             onGive={(comparison) => set('give the contralateral diameter', { comparison })}
           />
         )}
-        <label title="Reports the severity category of NASCET (carotid) or CAD-RADS 2.0 (coronary)">
-          Severity category
+        <label title="Reports the severity group of NASCET (carotid) or CAD-RADS 2.0 (coronary)">
+          Severity group
           <select
             value={marks.group ?? ''}
             onChange={(event) =>
-              set('choose the severity category', {
+              set('choose the severity group', {
                 group: (event.currentTarget.value || null) as Territory | null,
               })
             }
@@ -83,7 +83,7 @@ function Result({ marks }: { readonly marks: VesselMarks }) {
     return (
       <div role="status" data-testid="stenosis">
         <p class="graded">{stenosisWords(stenosis)}</p>
-        {stenosis.group && <p>{`Severity category: ${withKnownUnits(stenosis.group)}`}</p>}
+        {stenosis.group && <p>{`Severity group: ${withKnownUnits(stenosis.group)}`}</p>}
       </div>
     );
   }
