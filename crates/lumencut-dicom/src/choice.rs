@@ -8,7 +8,7 @@ use crate::series::{Series, plain};
 use crate::wording::{listed, quoted};
 
 /// The series that is asked for, the only one, or the only one that can be an angiography volume.
-pub fn chosen<'s, 'a>(
+pub(crate) fn chosen<'s, 'a>(
     every: &'s [Series<'a>],
     wanted: Option<&str>,
     notes: &mut Vec<String>,

@@ -17,7 +17,7 @@ const OF_THE_PATIENT: [Keyword; 4] =
 type Copy<'i, 'a> = (&'i Image<'a>, &'i Image<'a>);
 
 /// The images without copies, and each copy with the image that is read.
-pub fn without_copies<'i, 'a>(images: &[&'i Image<'a>]) -> (Vec<&'i Image<'a>>, Vec<Copy<'i, 'a>>) {
+pub(crate) fn without_copies<'i, 'a>(images: &[&'i Image<'a>]) -> (Vec<&'i Image<'a>>, Vec<Copy<'i, 'a>>) {
     let identifier = |(number, image): (usize, &&Image)| match image.get(Keyword::SOPInstanceUID) {
         uid if uid.is_empty() => format!("without, {number}"),
         uid => uid.to_string(),
@@ -32,7 +32,7 @@ pub fn without_copies<'i, 'a>(images: &[&'i Image<'a>]) -> (Vec<&'i Image<'a>>, 
 }
 
 /// The slices of copies in pairs, for the host to compare; refuses what differs and calls itself a copy.
-pub fn compared<'i>(
+pub(crate) fn compared<'i>(
     copies: &[Copy<'i, 'i>],
     unlike: &[Unlike],
     notes: &mut Vec<String>,

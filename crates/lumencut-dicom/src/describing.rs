@@ -11,7 +11,7 @@ const MODALITIES: [&str; 3] = ["CT", "MR", "XA"];
 const FEWEST_SLICES: i64 = 3;
 
 /// Describes a series, and tells whether it may be an angiography volume.
-pub fn described(series: &Series) -> Report {
+pub(crate) fn described(series: &Series) -> Report {
     let odd = why_no_angiography(series);
     let mut report = Report {
         number: series.number(),

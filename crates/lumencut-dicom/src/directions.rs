@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 /// Cosines may be this far from those of orthogonal unit vectors.
-pub const ROUNDING: f64 = 0.01;
+pub(crate) const ROUNDING: f64 = 0.01;
 /// Up to here cosines are read as they are, but for their length.
 const EXACT: f64 = 1e-4;
 

@@ -13,7 +13,7 @@ const RELATIVE: f64 = 1e-3;
 const COSINE: f64 = 1e-3;
 
 /// Refuses a series whose images differ in anything that all slices of one stack share.
-pub fn require_alike(slices: &[Slice]) -> Result<()> {
+pub(crate) fn require_alike(slices: &[Slice]) -> Result<()> {
     let size = |one: &Slice| one.size.map(|length| length as f64).to_vec();
     let along_i = |one: &Slice| one.directions.along_i.to_array().to_vec();
     let along_j = |one: &Slice| one.directions.along_j.to_array().to_vec();
@@ -51,7 +51,7 @@ fn alike(
 }
 
 /// Refuses a stack with holes; `steps` are the gaps in usual distances, 1 where there is no hole.
-pub fn refuse_gaps(ordered: &[Slice], gaps: &[f64], steps: &[i64]) -> Result<()> {
+pub(crate) fn refuse_gaps(ordered: &[Slice], gaps: &[f64], steps: &[i64]) -> Result<()> {
     let missing: i64 = steps.iter().map(|step| step - 1).sum();
     if missing == 0 {
         return Ok(());
@@ -68,6 +68,6 @@ pub fn refuse_gaps(ordered: &[Slice], gaps: &[f64], steps: &[i64]) -> Result<()>
 }
 
 /// Whether more slices are missing than there are: more made up than measured would be no mending.
-pub fn is_mostly_missing(ordered: &[Slice], steps: &[i64]) -> bool {
+pub(crate) fn is_mostly_missing(ordered: &[Slice], steps: &[i64]) -> bool {
     steps.iter().map(|step| step - 1).sum::<i64>() > ordered.len() as i64
 }

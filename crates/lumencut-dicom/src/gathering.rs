@@ -21,7 +21,7 @@ const SHARED: [Keyword; 6] = [
 ];
 
 /// The series, where those of one slice each that form one stack are put together in the place of the first.
-pub fn gathered(every: Vec<Series>) -> Vec<Series> {
+pub(crate) fn gathered(every: Vec<Series>) -> Vec<Series> {
     let numbers: Vec<usize> = (0..every.len()).filter(|&n| is_single(&every[n])).collect();
     let parts = groups(numbers.iter().map(|&n| shared(&every[n].images[0])));
     let mut every: Vec<Option<Series>> = every.into_iter().map(Some).collect();
@@ -55,7 +55,7 @@ fn shared(image: &Image) -> String {
 }
 
 /// Notes that a series was put together.
-pub fn note_parts(series: &Series, notes: &mut Vec<String>) {
+pub(crate) fn note_parts(series: &Series, notes: &mut Vec<String>) {
     if series.part_count > 1 {
         notes.push(format!(
             "{} series of one slice each are read as one scan: they share study, patient, number and grid",

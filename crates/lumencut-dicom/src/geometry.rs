@@ -27,7 +27,7 @@ const TILT: f64 = 0.1;
 
 /// What is mended of a stack where the caller asks for it.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct Mending {
+pub(crate) struct Mending {
     /// Places that no slice has are kept free instead of being refused.
     pub fill_gaps: bool,
     /// Uneven slices get places on a regular grid.
@@ -67,7 +67,7 @@ impl Stack<'_> {
 }
 
 /// Sorts slices along their normal and finds the affine of the stack; `unlike` are pairs that the host found to differ.
-pub fn stacked<'a>(
+pub(crate) fn stacked<'a>(
     mut slices: Vec<Slice<'a>>,
     mending: Mending,
     unlike: &[Unlike],

@@ -23,7 +23,7 @@ const COLOURS: [&str; 12] = [
 ];
 
 /// Refuses every kind of image whose frames are not slices of single numbers.
-pub fn require_grey(image: &Image) -> Result<()> {
+pub(crate) fn require_grey(image: &Image) -> Result<()> {
     let refused = require_size(image)
         .and_then(|()| require_one_number(image))
         .and_then(|()| require_rescaling(image))
@@ -34,7 +34,7 @@ pub fn require_grey(image: &Image) -> Result<()> {
 }
 
 /// How the numbers of an image are shown; empty where it does not say.
-pub fn photometric(image: &Image) -> String {
+pub(crate) fn photometric(image: &Image) -> String {
     match image.get(Keyword::PhotometricInterpretation) {
         Value::Empty => String::new(),
         stated => stated.to_string(),
@@ -42,7 +42,7 @@ pub fn photometric(image: &Image) -> String {
 }
 
 /// The number of columns and rows.
-pub fn plane_size(image: &Image) -> Option<[i64; 2]> {
+pub(crate) fn plane_size(image: &Image) -> Option<[i64; 2]> {
     let length = |keyword| image.get(keyword).integer();
     Some([length(Keyword::Columns)?, length(Keyword::Rows)?])
 }

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 /// The numbers of equal keys together, in the order in which the keys appear.
-pub fn groups(keys: impl IntoIterator<Item = String>) -> Vec<Vec<usize>> {
+pub(crate) fn groups(keys: impl IntoIterator<Item = String>) -> Vec<Vec<usize>> {
     together(keys.into_iter().collect())
 }
 

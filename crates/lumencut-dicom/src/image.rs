@@ -113,7 +113,7 @@ impl<'a> Image<'a> {
 }
 
 /// What a file is, in words.
-pub fn kind(file: &File) -> &str {
+pub(crate) fn kind(file: &File) -> &str {
     match &file.header {
         Some(header) => uids::name(&header.sop_class).unwrap_or("DICOM of no known kind"),
         None => &file.kind,

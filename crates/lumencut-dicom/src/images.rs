@@ -12,7 +12,7 @@ const DIRECTORY: &str = "Media Storage Directory";
 const SHAPES: [&str; 2] = ["RT Structure Set Storage", "Surface Segmentation Storage"];
 
 /// The images among the files; the others are noted.
-pub fn images<'a>(headers: &'a Headers, notes: &mut Vec<String>) -> Result<Vec<Image<'a>>> {
+pub(crate) fn images<'a>(headers: &'a Headers, notes: &mut Vec<String>) -> Result<Vec<Image<'a>>> {
     let (mut images, mut foreign) = (Vec::new(), Vec::new());
     for (number, file) in headers.files.iter().enumerate() {
         match &file.header {

@@ -10,7 +10,7 @@ use crate::value::Value;
 use crate::wording::{counted, listed, shown};
 
 /// Notes whatever a reader of the values should know.
-pub fn note_oddities(stack: &Stack, notes: &mut Vec<String>) {
+pub(crate) fn note_oddities(stack: &Stack, notes: &mut Vec<String>) {
     note_missing(stack, notes);
     note_rescaling(stack, notes);
     let images = images_of(stack);
@@ -27,7 +27,7 @@ pub fn note_oddities(stack: &Stack, notes: &mut Vec<String>) {
 }
 
 /// The images of a stack, each once, in the order of its slices.
-pub fn images_of<'a>(stack: &Stack<'a>) -> Vec<&'a Image<'a>> {
+pub(crate) fn images_of<'a>(stack: &Stack<'a>) -> Vec<&'a Image<'a>> {
     let mut seen = BTreeSet::new();
     stack.slices.iter().map(|one| one.image).filter(|image| seen.insert(image.file)).collect()
 }

@@ -9,7 +9,7 @@ use crate::wording::{counted, listed, quoted, shown};
 
 /// Whom an image names; a text is empty where the image does not state it.
 #[derive(Debug)]
-pub struct Patient {
+pub(crate) struct Patient {
     id: String,
     issuer: String,
     name: String,
@@ -18,7 +18,7 @@ pub struct Patient {
 
 impl Patient {
     /// The patient that an image names.
-    pub fn of(image: &Image) -> Self {
+    pub(crate) fn of(image: &Image) -> Self {
         let stated = |keyword| unpadded(image.get(keyword));
         Self {
             id: stated(Keyword::PatientID),
@@ -52,7 +52,7 @@ impl Patient {
 }
 
 /// Refuses images that name several patients; messages name them by ID alone.
-pub fn require_one_patient(images: &[Image]) -> Result<()> {
+pub(crate) fn require_one_patient(images: &[Image]) -> Result<()> {
     let every: Vec<Patient> = images.iter().map(Patient::of).collect();
     let firsts: Vec<usize> =
         groups(every.iter().map(|one| format!("{one:?}"))).iter().map(|group| group[0]).collect();

@@ -43,19 +43,19 @@ const WHOLE_PHASE: [Keyword; 3] = [
 ];
 
 /// The attribute that tells all of these pairs apart, the surest of them.
-pub fn telling(pairs: &[Pair]) -> Option<Keyword> {
+pub(crate) fn telling(pairs: &[Pair]) -> Option<Keyword> {
     let differs = |keyword| move |pair: &Pair| told(&pair.0, keyword) != told(&pair.1, keyword);
     PHASE_KEYWORDS.into_iter().find(|&keyword| pairs.iter().all(differs(keyword)))
 }
 
 /// How many slices have which value of the attribute that tells them apart.
-pub fn mixed(ordered: &[Slice], keyword: Keyword) -> String {
+pub(crate) fn mixed(ordered: &[Slice], keyword: Keyword) -> String {
     let mixed = if keyword == Keyword::ConvolutionKernel { "kernels" } else { "phases" };
     format!("{} differs ({}): mixed {mixed}", keyword.name(), values_of(ordered, keyword))
 }
 
 /// Picks the slices of one phase, by the value of the first attribute that has it for some of them only.
-pub fn of_phase<'a>(slices: &[Slice<'a>], phase: &str, notes: &mut Vec<String>) -> Result<Vec<Slice<'a>>> {
+pub(crate) fn of_phase<'a>(slices: &[Slice<'a>], phase: &str, notes: &mut Vec<String>) -> Result<Vec<Slice<'a>>> {
     for keyword in PHASE_KEYWORDS {
         let is_of = |one: &&Slice| is_called(one.get(keyword), phase);
         let count = slices.iter().filter(is_of).count();
@@ -87,7 +87,7 @@ fn note_left_out(every: &[Slice], own: &[Slice], phase: &str, notes: &mut Vec<St
 }
 
 /// Refuses phases whose slices lie between each other's at places of their own.
-pub fn refuse_interleaved(ordered: &[Slice]) -> Result<()> {
+pub(crate) fn refuse_interleaved(ordered: &[Slice]) -> Result<()> {
     for keyword in WHOLE_PHASE {
         let values: Vec<String> = ordered.iter().map(|one| told(one, keyword)).collect();
         let changes = values.windows(2).filter(|pair| pair[0] != pair[1]).count();
@@ -103,12 +103,12 @@ pub fn refuse_interleaved(ordered: &[Slice]) -> Result<()> {
 }
 
 /// A value as a text, by which phases are told apart.
-pub fn told(one: &Slice, keyword: Keyword) -> String {
+pub(crate) fn told(one: &Slice, keyword: Keyword) -> String {
     one.get(keyword).to_string()
 }
 
 /// The choice among the phases that an attribute tells apart, by values that can be shown as they are.
-pub fn choice(slices: &[Slice], keyword: Keyword) -> Mend {
+pub(crate) fn choice(slices: &[Slice], keyword: Keyword) -> Mend {
     let different: BTreeSet<String> = slices.iter().map(|one| told(one, keyword)).collect();
     let mut values: Vec<String> = different.into_iter().collect();
     if values.len() > MOST_PHASES || values.iter().any(|value| shown(value) != *value) {
@@ -119,13 +119,13 @@ pub fn choice(slices: &[Slice], keyword: Keyword) -> Mend {
 }
 
 /// The order of two values: numbers by their size before other texts.
-pub fn in_order(one: &str, other: &str) -> Ordering {
+pub(crate) fn in_order(one: &str, other: &str) -> Ordering {
     let number = |value: &str| value.parse().unwrap_or(f64::INFINITY);
     number(one).total_cmp(&number(other)).then_with(|| one.cmp(other))
 }
 
 /// Which values slices have, and how many have each.
-pub fn values_of(slices: &[Slice], keyword: Keyword) -> String {
+pub(crate) fn values_of(slices: &[Slice], keyword: Keyword) -> String {
     let mut counts = BTreeMap::new();
     for one in slices {
         *counts.entry(told(one, keyword)).or_insert(0) += 1;

@@ -82,7 +82,7 @@ impl Series<'_> {
 }
 
 /// Puts images of one series together, in the order in which the series appear.
-pub fn grouped(images: Vec<Image>) -> Vec<Series> {
+pub(crate) fn grouped(images: Vec<Image>) -> Vec<Series> {
     let groups = groups(images.iter().map(|image| image.text(Keyword::SeriesInstanceUID)));
     let mut images: Vec<Option<Image>> = images.into_iter().map(Some).collect();
     let series = groups.into_iter().map(|numbers| {
@@ -93,7 +93,7 @@ pub fn grouped(images: Vec<Image>) -> Vec<Series> {
 }
 
 /// A number without the zeros or the plus sign before it; other texts as they are.
-pub fn plain(number: &str) -> String {
+pub(crate) fn plain(number: &str) -> String {
     let digits = number.strip_prefix(['+', '-']).unwrap_or(number);
     if digits.is_empty() || digits.len() > 64 || !digits.bytes().all(|digit| digit.is_ascii_digit()) {
         return number.to_owned();

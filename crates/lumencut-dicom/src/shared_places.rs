@@ -16,7 +16,7 @@ use crate::spacing::ONE_PLACE;
 use crate::wording::{counted, listed};
 
 /// One slice for each place of a sorted stack, and the pairs that are to be compared.
-pub fn one_per_place<'a>(
+pub(crate) fn one_per_place<'a>(
     ordered: Vec<Slice<'a>>,
     unlike: &[Unlike],
     notes: &mut Vec<String>,

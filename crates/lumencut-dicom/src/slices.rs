@@ -11,10 +11,10 @@ use crate::keyword::Keyword;
 use crate::value::Value;
 
 /// A slice that is read, and another one that is taken for the same.
-pub type Pair<'a> = (Slice<'a>, Slice<'a>);
+pub(crate) type Pair<'a> = (Slice<'a>, Slice<'a>);
 
 /// Whether the host found that the values of a pair differ.
-pub fn are_unlike((kept, other): &Pair, unlike: &[Unlike]) -> bool {
+pub(crate) fn are_unlike((kept, other): &Pair, unlike: &[Unlike]) -> bool {
     let is = |slice: &Slice, frame: crate::headers::FrameOf| {
         slice.image.file == frame.file && slice.frame == frame.frame
     };
@@ -58,7 +58,7 @@ impl<'a> Slice<'a> {
 }
 
 /// Reads where the frames of a grey image lie; localisers among them are left out if others are there.
-pub fn slices_of<'a>(image: &'a Image<'a>) -> Result<Vec<Slice<'a>>> {
+pub(crate) fn slices_of<'a>(image: &'a Image<'a>) -> Result<Vec<Slice<'a>>> {
     let frames = 0..usize::try_from(image.frame_count).unwrap_or_default();
     let mut wanted: Vec<usize> = frames.clone().filter(|&frame| !image.is_localizer(frame)).collect();
     if wanted.is_empty() {

@@ -6,19 +6,19 @@ use crate::wording::rounded;
 const MILLIMETRE: f64 = 0.01;
 const OF_STEP: f64 = 0.01;
 /// Slices closer than this (mm) are at one place.
-pub const ONE_PLACE: f64 = 0.01;
+pub(crate) const ONE_PLACE: f64 = 0.01;
 /// So many wide distances in a row are those of a part of the scan.
 const RUN: usize = 3;
 /// How many different distances are told one by one.
 const TOLD: usize = 4;
 
 /// How far a slice may be off its place (mm).
-pub fn tolerance(step: f64) -> f64 {
+pub(crate) fn tolerance(step: f64) -> f64 {
     MILLIMETRE.max(OF_STEP * step)
 }
 
 /// The middle of some numbers, the mean of the middle two where they are even; NaN if any number is.
-pub fn median(numbers: &[f64]) -> f64 {
+pub(crate) fn median(numbers: &[f64]) -> f64 {
     let mut sorted = numbers.to_vec();
     sorted.sort_by(f64::total_cmp);
     let middle = sorted.len() / 2;
@@ -31,17 +31,17 @@ pub fn median(numbers: &[f64]) -> f64 {
 }
 
 /// The smallest and the largest of some numbers.
-pub fn ends(numbers: &[f64]) -> (f64, f64) {
+pub(crate) fn ends(numbers: &[f64]) -> (f64, f64) {
     numbers.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &n| (low.min(n), high.max(n)))
 }
 
 /// Whether wide steps of one length follow each other: a part scanned so, with nothing missing.
-pub fn has_run(steps: &[i64]) -> bool {
+pub(crate) fn has_run(steps: &[i64]) -> bool {
     steps.windows(RUN).any(|run| run[0] > 1 && run.iter().all(|step| *step == run[0]))
 }
 
 /// How many of all places those of a part leave out, and how many places there are.
-pub fn left_out(every: &[f64], part: &[f64]) -> (usize, usize) {
+pub(crate) fn left_out(every: &[f64], part: &[f64]) -> (usize, usize) {
     let (every, own) = (places(every), places(part));
     let has = |place: f64| {
         let after = own.partition_point(|one| *one < place - ONE_PLACE);
@@ -59,7 +59,7 @@ fn places(heights: &[f64]) -> Vec<f64> {
 }
 
 /// Distances as words: each with its count where they are few, in the order in which they come.
-pub fn told(gaps: &[f64]) -> String {
+pub(crate) fn told(gaps: &[f64]) -> String {
     let allowed = tolerance(median(gaps));
     let mut groups: Vec<(f64, usize)> = Vec::new();
     for &gap in gaps {

@@ -8,7 +8,7 @@ static NAMES: LazyLock<HashMap<&str, &str>> =
     LazyLock::new(|| include_str!("uids.txt").lines().filter_map(|line| line.split_once(' ')).collect());
 
 /// The name of a UID, none for one that the standard does not list.
-pub fn name(uid: &str) -> Option<&'static str> {
+pub(crate) fn name(uid: &str) -> Option<&'static str> {
     NAMES.get(uid).copied()
 }
 

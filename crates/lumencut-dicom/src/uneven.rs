@@ -19,7 +19,7 @@ const ROUNDING: f64 = 1e-6;
 
 /// Slices at uneven distances, sorted along their normal.
 #[derive(Debug)]
-pub struct Uneven<'s, 'a> {
+pub(crate) struct Uneven<'s, 'a> {
     /// The slices.
     pub ordered: &'s [Slice<'a>],
     /// The distances between them along their normal (mm).
@@ -28,7 +28,7 @@ pub struct Uneven<'s, 'a> {
 
 impl Uneven<'_, '_> {
     /// The error for whoever did not ask for a grid.
-    pub fn refused(&self) -> Error {
+    pub(crate) fn refused(&self) -> Error {
         if let Err(error) = self.require_line() {
             return error;
         }
@@ -46,7 +46,7 @@ impl Uneven<'_, '_> {
     ///
     /// Refused are slices beside a straight line, and holes unless they may be filled and the slices hold most of
     /// the stack.
-    pub fn places(&self, fill_gaps: bool) -> Result<Vec<f64>> {
+    pub(crate) fn places(&self, fill_gaps: bool) -> Result<Vec<f64>> {
         self.require_line()?;
         if let Some(hole) = self.hole().filter(|_| !(fill_gaps && self.is_mostly_measured())) {
             let found = format!("{}, with a hole {hole}", self.found());
@@ -60,7 +60,7 @@ impl Uneven<'_, '_> {
     }
 
     /// What became of the slices.
-    pub fn note(&self, places: &[f64]) -> String {
+    pub(crate) fn note(&self, places: &[f64]) -> String {
         let last = places.last().copied().unwrap_or_default();
         let kept = places.iter().filter(|place| place.fract() == 0.0).count();
         let whole =

@@ -7,7 +7,7 @@ use crate::xz;
 
 /// A `compressor` attribute.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Compressor {
+pub(crate) enum Compressor {
     Zlib,
     Lz4,
     Lzma,
@@ -18,7 +18,7 @@ impl Compressor {
     ///
     /// # Errors
     /// For any other name.
-    pub fn of_name(name: &str) -> Result<Self> {
+    pub(crate) fn of_name(name: &str) -> Result<Self> {
         match name {
             "vtkZLibDataCompressor" => Ok(Self::Zlib),
             "vtkLZ4DataCompressor" => Ok(Self::Lz4),
@@ -44,7 +44,7 @@ impl Compressor {
     ///
     /// # Errors
     /// Naming `subject` where the block is damaged or of another size.
-    pub fn unpack(self, subject: &str, block: &[u8], size: usize, out: &mut Vec<u8>) -> Result<()> {
+    pub(crate) fn unpack(self, subject: &str, block: &[u8], size: usize, out: &mut Vec<u8>) -> Result<()> {
         let before = out.len();
         let most = block.len().saturating_mul(self.largest_ratio());
         if size > most {
@@ -86,14 +86,14 @@ fn read_up_to(reader: impl Read, size: usize, out: &mut Vec<u8>) -> std::result:
 
 /// How many bytes the arrays of one file may still take, as they stand in it and as numbers.
 #[derive(Debug)]
-pub struct Budget {
+pub(crate) struct Budget {
     left: u64,
 }
 
 impl Budget {
     /// 1 MiB and 16 times the size of the file. A point with its radius and its place in a line takes about
     /// 66 bytes, and in a compressed file seldom less than 8; decompression bombs take thousands per byte.
-    pub fn of_file(size: usize) -> Self {
+    pub(crate) fn of_file(size: usize) -> Self {
         Self { left: (size as u64).saturating_mul(16).saturating_add(1 << 20) }
     }
 
@@ -101,7 +101,7 @@ impl Budget {
     ///
     /// # Errors
     /// Naming `subject` where that is more than is left.
-    pub fn take(&mut self, subject: &str, size: u64) -> Result<usize> {
+    pub(crate) fn take(&mut self, subject: &str, size: u64) -> Result<usize> {
         let too_much = || {
             let found = format!("{size} bytes to unpack");
             Error::new(subject, found, format!("at most {} bytes from a file of this size", self.left))

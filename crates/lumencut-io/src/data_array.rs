@@ -4,7 +4,7 @@ use crate::error::{Error, Result, excerpt};
 
 /// A number type as VTK stores it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum NumberType {
+pub(crate) enum NumberType {
     I8,
     U8,
     I16,
@@ -19,14 +19,14 @@ pub enum NumberType {
 
 /// Which byte of a number comes first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ByteOrder {
+pub(crate) enum ByteOrder {
     Little,
     Big,
 }
 
 impl NumberType {
     /// Bytes per number.
-    pub fn size(self) -> usize {
+    pub(crate) fn size(self) -> usize {
         match self {
             Self::I8 | Self::U8 => 1,
             Self::I16 | Self::U16 => 2,
@@ -37,7 +37,7 @@ impl NumberType {
 
     /// The numbers in `bytes`; bytes beyond the last whole number are ignored. Integers beyond 2⁵³ are
     /// rounded, which no index or coordinate of a readable file needs.
-    pub fn numbers(self, bytes: &[u8], order: ByteOrder) -> Vec<f64> {
+    pub(crate) fn numbers(self, bytes: &[u8], order: ByteOrder) -> Vec<f64> {
         match self {
             Self::I8 => bytes.iter().map(|b| f64::from(b.cast_signed())).collect(),
             Self::U8 => bytes.iter().map(|b| f64::from(*b)).collect(),
@@ -71,7 +71,7 @@ fn each<const N: usize>(bytes: &[u8], order: ByteOrder, number: impl Fn([u8; N])
 ///
 /// # Errors
 /// Naming `subject` where a word is no number.
-pub fn numbers_of_text(subject: &str, text: &str, kind: NumberType) -> Result<Vec<f64>> {
+pub(crate) fn numbers_of_text(subject: &str, text: &str, kind: NumberType) -> Result<Vec<f64>> {
     text.split_ascii_whitespace().map(|word| number_of_word(subject, word, kind)).collect()
 }
 
@@ -80,7 +80,7 @@ pub fn numbers_of_text(subject: &str, text: &str, kind: NumberType) -> Result<Ve
 ///
 /// # Errors
 /// Naming `subject` where it is invalid.
-pub fn number_of_word(subject: &str, word: &str, kind: NumberType) -> Result<f64> {
+pub(crate) fn number_of_word(subject: &str, word: &str, kind: NumberType) -> Result<f64> {
     let number = match kind {
         NumberType::F32 => word.parse::<f32>().map(f64::from),
         _ => word.parse::<f64>(),
@@ -92,7 +92,7 @@ pub fn number_of_word(subject: &str, word: &str, kind: NumberType) -> Result<f64
 ///
 /// # Errors
 /// Naming `subject` where it is negative, fractional or too large.
-pub fn index(subject: &str, number: f64, limit: usize) -> Result<usize> {
+pub(crate) fn index(subject: &str, number: f64, limit: usize) -> Result<usize> {
     if number >= 0.0 && number < limit as f64 && number.fract() == 0.0 {
         Ok(number as usize)
     } else {

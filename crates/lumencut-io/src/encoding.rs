@@ -6,7 +6,7 @@ use crate::error::{Error, Result};
 
 /// How the whole file writes its binary data.
 #[derive(Clone, Copy, Debug)]
-pub struct Layout {
+pub(crate) struct Layout {
     pub order: ByteOrder,
     /// Bytes of a header number: 4 or 8.
     pub header_size: usize,
@@ -14,7 +14,7 @@ pub struct Layout {
 }
 
 /// Bytes in the file, read from front to back.
-pub enum Bytes<'a> {
+pub(crate) enum Bytes<'a> {
     Raw(&'a [u8]),
     /// Base64 text and the bytes decoded ahead of the reader. Writers may end the header with padding of its
     /// own; groups of four characters are decoded one by one, so padding may stand anywhere between groups.
@@ -25,11 +25,11 @@ pub enum Bytes<'a> {
 }
 
 impl<'a> Bytes<'a> {
-    pub fn raw(bytes: &'a [u8]) -> Self {
+    pub(crate) fn raw(bytes: &'a [u8]) -> Self {
         Self::Raw(bytes)
     }
 
-    pub fn base64(text: &'a [u8]) -> Self {
+    pub(crate) fn base64(text: &'a [u8]) -> Self {
         Self::Base64 { text, ahead: Vec::new() }
     }
 
@@ -37,7 +37,7 @@ impl<'a> Bytes<'a> {
     ///
     /// # Errors
     /// Naming `subject` where fewer are left, or the text is no base64.
-    pub fn take(&mut self, subject: &str, count: u64) -> Result<Vec<u8>> {
+    pub(crate) fn take(&mut self, subject: &str, count: u64) -> Result<Vec<u8>> {
         let short = |left: usize| {
             Error::truncated(subject, format!("at most {left} bytes"), format!("{count} bytes of data"))
         };
@@ -103,7 +103,7 @@ fn decode_group(subject: &str, group: [u8; 4], out: &mut Vec<u8>) -> Result<()> 
 ///
 /// # Errors
 /// Naming `subject` where the data ends early, is damaged, or unpacks to more than the budget allows.
-pub fn content(subject: &str, mut bytes: Bytes, layout: Layout, budget: &mut Budget) -> Result<Vec<u8>> {
+pub(crate) fn content(subject: &str, mut bytes: Bytes, layout: Layout, budget: &mut Budget) -> Result<Vec<u8>> {
     let Some(compressor) = layout.compressor else {
         let size = header_number(subject, &mut bytes, layout)?;
         budget.take(subject, size)?;

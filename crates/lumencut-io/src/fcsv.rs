@@ -14,7 +14,7 @@ const COLUMNS: &str = "id,x,y,z,ow,ox,oy,oz,vis,sel,lock,label,desc,associatedNo
 ///
 /// # Errors
 /// Naming the line of the file where a row is invalid, and for coordinates in voxels.
-pub fn read(bytes: &[u8]) -> Result<Centerlines> {
+pub(crate) fn read(bytes: &[u8]) -> Result<Centerlines> {
     let mut out = Centerlines::of("3D Slicer fiducials");
     out.unit = Some(Unit::Millimetre);
     let mut columns = Columns::of(COLUMNS)?;

@@ -22,7 +22,7 @@ const MOST_PARENTS: usize = 64;
 ///
 /// # Errors
 /// Where a field or point is damaged or cut off, the tubes are not in space, or there is none.
-pub fn read(bytes: &[u8]) -> Result<Centerlines> {
+pub(crate) fn read(bytes: &[u8]) -> Result<Centerlines> {
     let mut out = Centerlines::of("ITK tube");
     (out.space, out.unit) = (Some(Space::Lps), Some(Unit::Millimetre));
     let objects = objects(bytes, &mut out)?;

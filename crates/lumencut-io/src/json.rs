@@ -10,46 +10,46 @@ use crate::error::Result;
 
 /// A value of a sound JSON text.
 #[derive(Clone, Copy)]
-pub struct Json<'a>(&'a RawValue);
+pub(crate) struct Json<'a>(&'a RawValue);
 
 impl<'a> Json<'a> {
     /// The value that a whole file is.
     ///
     /// # Errors
     /// Where the file is no JSON.
-    pub fn of(bytes: &'a [u8]) -> serde_json::Result<Self> {
+    pub(crate) fn of(bytes: &'a [u8]) -> serde_json::Result<Self> {
         serde_json::from_slice(bytes).map(Self)
     }
 
     /// The text that stands in the file.
-    pub fn raw(self) -> &'a str {
+    pub(crate) fn raw(self) -> &'a str {
         self.0.get()
     }
 
     /// The text of a string.
-    pub fn text(self) -> Option<String> {
+    pub(crate) fn text(self) -> Option<String> {
         serde_json::from_str(self.raw()).ok()
     }
 
-    pub fn number(self) -> Option<f64> {
+    pub(crate) fn number(self) -> Option<f64> {
         serde_json::from_str(self.raw()).ok()
     }
 
     /// The numbers of a list of just three.
-    pub fn three_numbers(self) -> Option<[f64; 3]> {
+    pub(crate) fn three_numbers(self) -> Option<[f64; 3]> {
         serde_json::from_str(self.raw()).ok()
     }
 
     /// The fields of an object by their names, of each the last; `None` for those that are null or missing, and
     /// of values that are no objects.
-    pub fn fields<const N: usize>(self, names: [&str; N]) -> [Option<Self>; N] {
+    pub(crate) fn fields<const N: usize>(self, names: [&str; N]) -> [Option<Self>; N] {
         let fields = serde_json::Deserializer::from_str(self.raw()).deserialize_map(Fields(names));
         fields.unwrap_or([None; N]).map(|field| field.filter(|value| value.raw() != "null"))
     }
 
     /// Calls `take` with every element of a list and its index up to the first error; gives the number of
     /// elements, `None` for values that are no lists.
-    pub fn each(self, take: impl FnMut(usize, Self) -> Result<()>) -> Option<Result<usize>> {
+    pub(crate) fn each(self, take: impl FnMut(usize, Self) -> Result<()>) -> Option<Result<usize>> {
         serde_json::Deserializer::from_str(self.raw()).deserialize_seq(Each(take)).ok()
     }
 }

@@ -7,7 +7,7 @@ use crate::{npy, rotterdam, swc, xml};
 
 /// A format with a room of its own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub(crate) enum Kind {
     VtkXml,
     VtkLegacy,
     Markups,
@@ -27,7 +27,7 @@ const BEGINNING: usize = 4096;
 ///
 /// # Errors
 /// For formats that are not read, by name where they are known.
-pub fn of(content: &[u8], file_name: &str) -> Result<Kind> {
+pub(crate) fn of(content: &[u8], file_name: &str) -> Result<Kind> {
     let name = file_name.to_ascii_lowercase();
     let begins = content.trim_ascii_start();
     packed(content, &name)?;

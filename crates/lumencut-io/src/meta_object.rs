@@ -28,7 +28,7 @@ const KNOWN: [&str; 18] = [
 ];
 
 /// One object of a scene: its type and its fields.
-pub struct MetaObject {
+pub(crate) struct MetaObject {
     kind: String,
     fields: Vec<(&'static str, String)>,
     /// The points of a tube, in units of the object.
@@ -36,22 +36,22 @@ pub struct MetaObject {
 }
 
 /// Whether `name` is one of `wanted`, in capitals or not.
-pub fn one_of(name: &str, wanted: &[&str]) -> bool {
+pub(crate) fn one_of(name: &str, wanted: &[&str]) -> bool {
     wanted.iter().any(|wanted| name.eq_ignore_ascii_case(wanted))
 }
 
 impl MetaObject {
-    pub fn new(kind: &str) -> Self {
+    pub(crate) fn new(kind: &str) -> Self {
         Self { kind: kind.to_owned(), fields: Vec::new(), line: None }
     }
 
-    pub fn is_tube(&self) -> bool {
+    pub(crate) fn is_tube(&self) -> bool {
         one_of(&self.kind, &["Tube", "VesselTube", "DTITube"])
     }
 
     /// # Errors
     /// For a tube whose points were not met.
-    pub fn check_points(&self) -> Result<()> {
+    pub(crate) fn check_points(&self) -> Result<()> {
         if self.is_tube() && self.line.is_none() {
             return Err(Error::truncated(self.title(), "no Points", "the points of the tube"));
         }
@@ -59,27 +59,27 @@ impl MetaObject {
     }
 
     /// Keeps a field, of several with one name the first.
-    pub fn set(&mut self, key: &str, value: &str) {
+    pub(crate) fn set(&mut self, key: &str, value: &str) {
         if let Some(key) = KNOWN.iter().find(|known| **known == key).filter(|key| self.get(key).is_none()) {
             self.fields.push((key, value.to_owned()));
         }
     }
 
-    pub fn get(&self, key: &str) -> Option<&str> {
+    pub(crate) fn get(&self, key: &str) -> Option<&str> {
         self.fields.iter().find(|(known, _)| *known == key).map(|(_, value)| value.as_str())
     }
 
-    pub fn is_true(&self, key: &str) -> bool {
+    pub(crate) fn is_true(&self, key: &str) -> bool {
         self.get(key).is_some_and(|value| one_of(value, &["True", "T", "1"]))
     }
 
     /// The id of this object or its parent; `None` where it has none.
-    pub fn id(&self, key: &str) -> Option<i64> {
+    pub(crate) fn id(&self, key: &str) -> Option<i64> {
         self.get(key)?.parse().ok().filter(|id| *id >= 0)
     }
 
     /// What errors and notes call this object.
-    pub fn title(&self) -> String {
+    pub(crate) fn title(&self) -> String {
         format!("{} {}", self.kind, self.get("ID").unwrap_or("without ID"))
     }
 
@@ -87,7 +87,7 @@ impl MetaObject {
     ///
     /// # Errors
     /// Where it is not above 0.
-    pub fn spacing(&self) -> Result<DVec3> {
+    pub(crate) fn spacing(&self) -> Result<DVec3> {
         let Some(spacing) = self.numbers::<3>(&["ElementSpacing"])? else { return Ok(DVec3::ONE) };
         if spacing.iter().all(|size| *size > 0.0) {
             return Ok(DVec3::from(spacing));
@@ -100,7 +100,7 @@ impl MetaObject {
     ///
     /// # Errors
     /// Where the fields are no numbers.
-    pub fn parent_from_object(&self) -> Result<DAffine3> {
+    pub(crate) fn parent_from_object(&self) -> Result<DAffine3> {
         let matrix = self.numbers::<9>(&["TransformMatrix", "Rotation", "Orientation"])?;
         let matrix = matrix.map_or(DMat3::IDENTITY, |rows| DMat3::from_cols_array(&rows).transpose());
         let offset = self.numbers::<3>(&["Offset", "Position", "Origin"])?;

@@ -17,7 +17,7 @@ const MOST_NAMED: usize = 8;
 ///
 /// # Errors
 /// Where the JSON is damaged, a point or unit is invalid, or no markup is a curve or line.
-pub fn read(bytes: &[u8]) -> Result<Centerlines> {
+pub(crate) fn read(bytes: &[u8]) -> Result<Centerlines> {
     let root = Json::of(bytes).map_err(|error| {
         Error::truncated("", format!("damaged JSON ({error})"), "a 3D Slicer markups file")
     })?;

@@ -7,7 +7,7 @@ use crate::data_array::{ByteOrder, NumberType};
 use crate::error::{Error, Result, excerpt};
 
 /// How every `.npy` file begins.
-pub const MAGIC: &[u8] = b"\x93NUMPY";
+pub(crate) const MAGIC: &[u8] = b"\x93NUMPY";
 
 /// The longest header (bytes) that is read; NumPy itself draws the line at 10 000 characters.
 const LONGEST_HEADER: usize = 1 << 16;
@@ -17,7 +17,7 @@ const LONGEST_HEADER: usize = 1 << 16;
 ///
 /// # Errors
 /// Where the header is damaged or states another shape or type, or the data ends early.
-pub fn read(bytes: &[u8]) -> Result<Centerlines> {
+pub(crate) fn read(bytes: &[u8]) -> Result<Centerlines> {
     let (header, data) = split(bytes)?;
     let (kind, order) = number_type(header)?;
     let (rows, columns) = shape(header)?;

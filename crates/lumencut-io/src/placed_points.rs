@@ -8,7 +8,7 @@ const FEWEST: usize = 2;
 
 /// What a column of a table says of its points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum PlacedBy {
+pub(crate) enum PlacedBy {
     /// Whether they are defined, 0 or 1.
     Flag,
     /// Their `positionStatus`.
@@ -17,7 +17,7 @@ pub enum PlacedBy {
 
 impl PlacedBy {
     /// The name of such a column.
-    pub const fn name(self) -> &'static str {
+    pub(crate) const fn name(self) -> &'static str {
         match self {
             Self::Flag => "defined",
             Self::Status => "positionStatus",
@@ -28,7 +28,7 @@ impl PlacedBy {
     ///
     /// # Errors
     /// For a word that says neither.
-    pub fn is_placed(self, field: &str) -> Result<bool> {
+    pub(crate) fn is_placed(self, field: &str) -> Result<bool> {
         match self {
             Self::Flag => is_defined(field),
             Self::Status => has_place(field),
@@ -51,7 +51,7 @@ fn is_defined(flag: &str) -> Result<bool> {
 ///
 /// # Errors
 /// For another word or number.
-pub fn has_place(status: &str) -> Result<bool> {
+pub(crate) fn has_place(status: &str) -> Result<bool> {
     match status.to_ascii_lowercase().as_str() {
         "" | "defined" | "2" => Ok(true),
         "undefined" | "preview" | "missing" | "0" | "1" | "3" => Ok(false),
@@ -63,7 +63,7 @@ pub fn has_place(status: &str) -> Result<bool> {
 ///
 /// # Errors
 /// Where too few are left for a line.
-pub fn note_left_out(out: &mut Centerlines, count: usize, points: &str, kept: &str) -> Result<()> {
+pub(crate) fn note_left_out(out: &mut Centerlines, count: usize, points: &str, kept: &str) -> Result<()> {
     if count == 0 {
         return Ok(());
     }

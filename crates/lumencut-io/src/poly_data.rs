@@ -9,7 +9,7 @@ use crate::space::Space;
 
 /// One array of point, cell or field data.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Array {
+pub(crate) struct Array {
     pub name: String,
     /// Numbers per point or cell.
     pub components: usize,
@@ -18,7 +18,7 @@ pub struct Array {
 
 /// The part of a poly data that centerlines are made of.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct PolyData {
+pub(crate) struct PolyData {
     /// x, y, z of every point.
     pub points: Vec<f64>,
     /// The point ids of all lines, one line after the other.
@@ -36,28 +36,28 @@ pub struct PolyData {
 }
 
 /// The string array of cells that names them.
-pub const NAMES: &str = "Name";
+pub(crate) const NAMES: &str = "Name";
 /// The array of cells that is 0 where a cell has no name; the name is empty there.
-pub const HAS_NAME: &str = "HasName";
+pub(crate) const HAS_NAME: &str = "HasName";
 /// The array of cells that is 0 where the radii, which are 0 there, are none.
-pub const HAS_RADIUS: &str = "HasRadius";
+pub(crate) const HAS_RADIUS: &str = "HasRadius";
 /// The arrays of points that hold radii, by how plainly their name says so.
-pub const RADIUS_NAMES: [&str; 4] = ["MaximumInscribedSphereRadius", "Radius", "Radii", "VesselRadius"];
+pub(crate) const RADIUS_NAMES: [&str; 4] = ["MaximumInscribedSphereRadius", "Radius", "Radii", "VesselRadius"];
 const GROUP_NAME: &str = "GroupIds";
 
 /// Whether the array of this name is read from point or cell data.
-pub fn wanted(name: &str) -> bool {
+pub(crate) fn wanted(name: &str) -> bool {
     name == GROUP_NAME || [HAS_NAME, HAS_RADIUS].contains(&name) || names_radius(name) || names_diameter(name)
 }
 
 /// Whether a name holds the word radius, and names neither a curvature nor a gradient.
-pub fn names_radius(name: &str) -> bool {
+pub(crate) fn names_radius(name: &str) -> bool {
     let name = name.to_ascii_lowercase();
     ["radius", "radii"].iter().any(|word| name.contains(word)) && !name.contains("curvature")
 }
 
 /// The space that the text `LPS` or `RAS` names.
-pub fn space_of(text: &str) -> Option<Space> {
+pub(crate) fn space_of(text: &str) -> Option<Space> {
     match text.trim().trim_matches('\0').to_ascii_uppercase().as_str() {
         "LPS" => Some(Space::Lps),
         "RAS" => Some(Space::Ras),
@@ -74,7 +74,7 @@ impl PolyData {
     ///
     /// # Errors
     /// Where indices, counts or arrays do not fit each other, or points have no lines.
-    pub fn into_centerlines(self, out: &mut Centerlines) -> Result<()> {
+    pub(crate) fn into_centerlines(self, out: &mut Centerlines) -> Result<()> {
         let (points, rest) = self.points.as_chunks::<3>();
         if !rest.is_empty() {
             return Err(Error::new("points", format!("{} coordinates", self.points.len()), "3 per point"));

@@ -12,7 +12,7 @@ const COLUMNS: [usize; 2] = [4, 5];
 ///
 /// # Errors
 /// Naming the line of the file where a row is not 4 or 5 numbers, and where the first only counts the rows.
-pub fn read(bytes: &[u8]) -> Result<Centerlines> {
+pub(crate) fn read(bytes: &[u8]) -> Result<Centerlines> {
     let (mut points, mut radius) = (Vec::new(), Vec::new());
     for (number, row) in text::data_lines(bytes) {
         let fields = text::fields(&row, Separator::Blanks);
@@ -34,7 +34,7 @@ pub fn read(bytes: &[u8]) -> Result<Centerlines> {
 
 /// Whether a file that begins with this row is a reference: `reference.txt` in the evaluation's own layout,
 /// or five columns without a header under any name.
-pub fn is_row(row: &str, file_name: &str) -> bool {
+pub(crate) fn is_row(row: &str, file_name: &str) -> bool {
     let fields = text::fields(row, Separator::Blanks);
     let named = file_name.ends_with("reference.txt");
     COLUMNS.contains(&fields.len())

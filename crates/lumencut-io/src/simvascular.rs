@@ -18,7 +18,7 @@ const EXPECTED: &str = "a SimVascular path file";
 ///
 /// # Errors
 /// Where the XML is damaged or cut off, a point is invalid, or there is no path.
-pub fn read(bytes: &[u8]) -> Result<Centerlines> {
+pub(crate) fn read(bytes: &[u8]) -> Result<Centerlines> {
     let text = String::from_utf8_lossy(bytes);
     let mut reader = Reader::from_str(&text);
     let mut walk = Walk::default();

@@ -14,7 +14,7 @@ const COLUMNS: &str = "7 numbers: id type x y z radius parent";
 /// # Errors
 /// Naming the line of the file where a node is invalid, repeats an id, has a parent that is not there or leads
 /// back to itself.
-pub fn read(bytes: &[u8]) -> Result<Centerlines> {
+pub(crate) fn read(bytes: &[u8]) -> Result<Centerlines> {
     let nodes =
         text::data_lines(bytes).map(|(number, line)| node(number, &line)).collect::<Result<Vec<_>>>()?;
     if nodes.is_empty() {
@@ -42,7 +42,7 @@ fn unused_scale(bytes: &[u8]) -> Option<String> {
 }
 
 /// Whether a line of text is a node.
-pub fn is_node(line: &str) -> bool {
+pub(crate) fn is_node(line: &str) -> bool {
     let fields = text::fields(line, Separator::Blanks);
     fields.len() == 7 && whole(0, fields[1]).is_ok() && node(0, line).is_ok()
 }

@@ -17,7 +17,7 @@ use crate::unit::Unit;
 ///
 /// # Errors
 /// Naming the line of the file where a row is damaged, or it is not clear what the columns hold.
-pub fn read(bytes: &[u8]) -> Result<Centerlines> {
+pub(crate) fn read(bytes: &[u8]) -> Result<Centerlines> {
     let Some((first, row)) = text::data_lines(bytes).find(|(_, row)| !names_separator(row)) else {
         return Err(Error::new("", "no row", "a table with a point per row"));
     };
@@ -99,7 +99,7 @@ fn unit_in_comments(bytes: &[u8], first: usize, columns: &mut Columns) {
 }
 
 /// Whether a line of text can begin a table: a row of three or more numbers, or a header with coordinates.
-pub fn is_first_row(line: &str) -> bool {
+pub(crate) fn is_first_row(line: &str) -> bool {
     let separator = separator_of(line);
     let fields = fields_of(line, separator);
     let numbers = fields.len() >= 3 && all_numbers(&fields, separator);
@@ -172,7 +172,7 @@ fn header_in_comment(bytes: &[u8], first: usize, count: usize) -> Result<Option<
 ///
 /// # Errors
 /// Where a radius follows such an x.
-pub fn refuse_counter(lines: &[Line]) -> Result<()> {
+pub(crate) fn refuse_counter(lines: &[Line]) -> Result<()> {
     let mut x = lines.iter().flat_map(|line| &line.points).map(|p| p.x).enumerate();
     let begins = x.next().map(|(_, first)| first).filter(|first| *first == 0.0 || *first == 1.0);
     let counts = begins.is_some_and(|first| x.all(|(i, x)| x == first + i as f64));

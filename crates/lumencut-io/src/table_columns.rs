@@ -8,7 +8,7 @@ use crate::unit::Unit;
 
 /// The columns that a line is made of.
 #[derive(Debug, PartialEq)]
-pub struct Columns {
+pub(crate) struct Columns {
     /// How many fields every row has.
     pub count: usize,
     pub xyz: [usize; 3],
@@ -94,7 +94,7 @@ impl Columns {
     ///
     /// # Errors
     /// Naming the line where it names no coordinates, or units that are none or differ.
-    pub fn of_header(line: usize, header: &str, fields: &[&str]) -> Result<Self> {
+    pub(crate) fn of_header(line: usize, header: &str, fields: &[&str]) -> Result<Self> {
         let at = |error: Error| error.in_file(&format!("line {line}"));
         let names: Vec<Name> = fields.iter().map(|field| Name::of(field)).collect();
         let Some((xyz, space)) = coordinates(&names) else {
@@ -129,7 +129,7 @@ impl Columns {
     ///
     /// # Errors
     /// Naming the line where there are fewer or more columns.
-    pub fn of_count(line: usize, count: usize) -> Result<Self> {
+    pub(crate) fn of_count(line: usize, count: usize) -> Result<Self> {
         if !matches!(count, 3 | 4) {
             let found = format!("{count} column(s) of numbers without a header");
             return Err(Error::new(format!("line {line}"), found, "3 columns x, y, z, or 4 with the radius")
@@ -176,7 +176,7 @@ impl Columns {
 }
 
 /// Whether the fields of a row name coordinates.
-pub fn name_coordinates(fields: &[&str]) -> bool {
+pub(crate) fn name_coordinates(fields: &[&str]) -> bool {
     coordinates(&fields.iter().map(|field| Name::of(field)).collect::<Vec<_>>()).is_some()
 }
 

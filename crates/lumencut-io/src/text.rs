@@ -14,13 +14,13 @@ const MOST_FIELDS: usize = 1024;
 
 /// What stands between the fields of a line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Separator {
+pub(crate) enum Separator {
     Character(char),
     Blanks,
 }
 
 /// The lines of a text with their numbers, from 1. They end in LF or CR LF, or in CR where there is no LF.
-pub fn lines(text: &[u8]) -> impl Iterator<Item = Numbered<'_>> {
+pub(crate) fn lines(text: &[u8]) -> impl Iterator<Item = Numbered<'_>> {
     let end = if text.contains(&b'\n') { b'\n' } else { b'\r' };
     text.split(move |b| *b == end)
         .enumerate()
@@ -28,7 +28,7 @@ pub fn lines(text: &[u8]) -> impl Iterator<Item = Numbered<'_>> {
 }
 
 /// The lines that are neither blank nor comments behind `#`.
-pub fn data_lines(text: &[u8]) -> impl Iterator<Item = Numbered<'_>> {
+pub(crate) fn data_lines(text: &[u8]) -> impl Iterator<Item = Numbered<'_>> {
     lines(text).filter(|(_, line)| !line.trim_start().is_empty() && !line.trim_start().starts_with('#'))
 }
 
@@ -36,7 +36,7 @@ pub fn data_lines(text: &[u8]) -> impl Iterator<Item = Numbered<'_>> {
 ///
 /// # Errors
 /// Naming the line where a quotation has no end.
-pub fn rows<'t>(
+pub(crate) fn rows<'t>(
     mut lines: impl Iterator<Item = Numbered<'t>>,
     separator: Separator,
 ) -> impl Iterator<Item = Result<Numbered<'t>>> {
@@ -89,7 +89,7 @@ impl At {
 
 /// The fields of a line without blanks and quotes around them; separators inside quotes are part of a field.
 /// Never many more than a table can have.
-pub fn fields(line: &str, separator: Separator) -> Vec<&str> {
+pub(crate) fn fields(line: &str, separator: Separator) -> Vec<&str> {
     match separator {
         Separator::Blanks => line.split_ascii_whitespace().take(MOST_FIELDS + 1).map(unquoted).collect(),
         Separator::Character(separator) => {
@@ -112,7 +112,7 @@ fn unquoted(field: &str) -> &str {
 ///
 /// # Errors
 /// Naming the line where it is invalid.
-pub fn number(line: usize, field: &str) -> Result<f64> {
+pub(crate) fn number(line: usize, field: &str) -> Result<f64> {
     let number = field.parse::<f64>().ok().filter(|number| number.is_finite());
     number.ok_or_else(|| Error::new(format!("line {line}"), excerpt(field), "a finite number"))
 }
@@ -121,6 +121,6 @@ pub fn number(line: usize, field: &str) -> Result<f64> {
 ///
 /// # Errors
 /// Naming the line where one is no finite number.
-pub fn point(line: usize, [x, y, z]: [&str; 3]) -> Result<DVec3> {
+pub(crate) fn point(line: usize, [x, y, z]: [&str; 3]) -> Result<DVec3> {
     Ok(DVec3::new(number(line, x)?, number(line, y)?, number(line, z)?))
 }

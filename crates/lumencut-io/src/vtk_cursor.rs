@@ -5,7 +5,7 @@ use crate::error::{Error, Result, excerpt};
 
 /// How a legacy file stores the values of an array.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ValueType {
+pub(crate) enum ValueType {
     Bits,
     Text,
     Number(NumberType),
@@ -16,7 +16,7 @@ impl ValueType {
     ///
     /// # Errors
     /// Naming `subject` for any other name.
-    pub fn of_name(subject: &str, name: &str) -> Result<Self> {
+    pub(crate) fn of_name(subject: &str, name: &str) -> Result<Self> {
         Ok(match name.to_ascii_lowercase().as_str() {
             "bit" => Self::Bits,
             "string" => Self::Text,
@@ -37,19 +37,19 @@ impl ValueType {
 }
 
 /// A place in the file.
-pub struct Cursor<'a> {
+pub(crate) struct Cursor<'a> {
     rest: &'a [u8],
     /// Whether numbers stand as big-endian bytes instead of text.
     pub binary: bool,
 }
 
 impl<'a> Cursor<'a> {
-    pub fn new(bytes: &'a [u8]) -> Self {
+    pub(crate) fn new(bytes: &'a [u8]) -> Self {
         Self { rest: bytes, binary: false }
     }
 
     /// The rest of the current line without its end; `None` at the end of the file.
-    pub fn line(&mut self) -> Option<String> {
+    pub(crate) fn line(&mut self) -> Option<String> {
         if self.rest.is_empty() {
             return None;
         }
@@ -60,7 +60,7 @@ impl<'a> Cursor<'a> {
     }
 
     /// The next word; `None` at the end of the file.
-    pub fn next_word(&mut self) -> Option<String> {
+    pub(crate) fn next_word(&mut self) -> Option<String> {
         self.rest = self.rest.trim_ascii_start();
         let end = self.rest.iter().position(u8::is_ascii_whitespace).unwrap_or(self.rest.len());
         let (word, rest) = self.rest.split_at(end);
@@ -72,7 +72,7 @@ impl<'a> Cursor<'a> {
     ///
     /// # Errors
     /// Naming `subject` at the end of the file.
-    pub fn word(&mut self, subject: &str) -> Result<String> {
+    pub(crate) fn word(&mut self, subject: &str) -> Result<String> {
         self.next_word().ok_or_else(|| Error::truncated(subject, "the end of the file", "one more word"))
     }
 
@@ -80,13 +80,13 @@ impl<'a> Cursor<'a> {
     ///
     /// # Errors
     /// Naming `subject` where it is invalid.
-    pub fn count(&mut self, subject: &str) -> Result<usize> {
+    pub(crate) fn count(&mut self, subject: &str) -> Result<usize> {
         let word = self.word(subject)?;
         word.parse().map_err(|_| Error::new(subject, excerpt(&word), "a whole number from 0"))
     }
 
     /// Whether the next word is `word`.
-    pub fn is_next(&self, word: &str) -> bool {
+    pub(crate) fn is_next(&self, word: &str) -> bool {
         let next = self.rest.trim_ascii_start();
         next.get(..word.len()).is_some_and(|begin| begin.eq_ignore_ascii_case(word.as_bytes()))
     }
@@ -95,7 +95,7 @@ impl<'a> Cursor<'a> {
     ///
     /// # Errors
     /// Naming `subject` where fewer are left or a word is no number.
-    pub fn values(&mut self, subject: &str, kind: ValueType, count: usize) -> Result<Vec<f64>> {
+    pub(crate) fn values(&mut self, subject: &str, kind: ValueType, count: usize) -> Result<Vec<f64>> {
         self.line();
         match kind {
             ValueType::Text => self.texts(subject, count),
@@ -127,7 +127,7 @@ impl<'a> Cursor<'a> {
     ///
     /// # Errors
     /// Naming `subject` where fewer are left.
-    pub fn bytes(&mut self, subject: &str, count: usize) -> Result<&'a [u8]> {
+    pub(crate) fn bytes(&mut self, subject: &str, count: usize) -> Result<&'a [u8]> {
         let (taken, rest) = self.rest.split_at_checked(count).ok_or_else(|| {
             let found = format!("{} bytes to the end of the file", self.rest.len());
             Error::truncated(subject, found, format!("{count} bytes"))
@@ -137,7 +137,7 @@ impl<'a> Cursor<'a> {
     }
 
     /// Goes on to where `word` stands next, or to the end.
-    pub fn skip_to(&mut self, word: &[u8]) {
+    pub(crate) fn skip_to(&mut self, word: &[u8]) {
         let at = self.rest.windows(word.len()).position(|window| window == word);
         self.rest = at.map_or(&[], |at| &self.rest[at..]);
     }

@@ -11,7 +11,7 @@ use crate::vtk_cursor::{Cursor, ValueType};
 ///
 /// # Errors
 /// Where a section is damaged, unknown or cut off, or the file holds another kind of data.
-pub fn read(bytes: &[u8]) -> Result<Centerlines> {
+pub(crate) fn read(bytes: &[u8]) -> Result<Centerlines> {
     let mut cursor = Cursor::new(bytes.trim_ascii_start());
     cursor.line();
     let title = cursor.line().unwrap_or_default();

@@ -14,7 +14,7 @@ use crate::xml::Attributes;
 ///
 /// # Errors
 /// Where the XML, an array or the poly data is damaged or of another kind.
-pub fn read(bytes: &[u8]) -> Result<Centerlines> {
+pub(crate) fn read(bytes: &[u8]) -> Result<Centerlines> {
     let (head, appended) = split(bytes)?;
     let text = String::from_utf8_lossy(head);
     let document = vtp_xml::document(&text)?;

@@ -9,7 +9,7 @@ use crate::xml::{self, Attributes};
 
 /// One `DataArray` or `Array`.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Declared {
+pub(crate) struct Declared {
     /// The element that it stands in, such as `Points` or `FieldData`.
     pub section: String,
     pub attributes: Attributes,
@@ -19,14 +19,14 @@ pub struct Declared {
 
 /// One `Piece` of a poly data.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Piece {
+pub(crate) struct Piece {
     pub attributes: Attributes,
     pub arrays: Vec<Declared>,
 }
 
 /// A VTK XML file without its appended data.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Document {
+pub(crate) struct Document {
     /// The attributes of `VTKFile`.
     pub file: Attributes,
     pub field_arrays: Vec<Declared>,
@@ -41,7 +41,7 @@ const EXPECTED: &str = "a VTK XML file";
 ///
 /// # Errors
 /// Where the text is no XML, nests without end or is no VTK XML file.
-pub fn document(text: &str) -> Result<Document> {
+pub(crate) fn document(text: &str) -> Result<Document> {
     let mut reader = Reader::from_str(text);
     let mut walk = Walk::default();
     loop {

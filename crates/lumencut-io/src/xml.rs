@@ -7,11 +7,11 @@ use crate::error::{Error, Result, excerpt};
 
 /// The attributes of an element.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Attributes(Vec<(String, String)>);
+pub(crate) struct Attributes(Vec<(String, String)>);
 
 impl Attributes {
     /// The value of the attribute `name`.
-    pub fn get(&self, name: &str) -> Option<&str> {
+    pub(crate) fn get(&self, name: &str) -> Option<&str> {
         self.0.iter().find(|(key, _)| key == name).map(|(_, value)| value.trim())
     }
 
@@ -19,7 +19,7 @@ impl Attributes {
     ///
     /// # Errors
     /// Where the value is no count.
-    pub fn count(&self, name: &str) -> Result<usize> {
+    pub(crate) fn count(&self, name: &str) -> Result<usize> {
         let text = self.get(name).unwrap_or("0");
         text.parse().map_err(|_| Error::new(name, excerpt(text), "a whole number from 0"))
     }
@@ -32,7 +32,7 @@ const DEEPEST: usize = 32;
 ///
 /// # Errors
 /// Naming what was `expected` where they are damaged.
-pub fn attributes(element: &BytesStart, expected: &str) -> Result<Attributes> {
+pub(crate) fn attributes(element: &BytesStart, expected: &str) -> Result<Attributes> {
     let wrong = |cause: String| Error::new("", format!("damaged XML attributes ({cause})"), expected);
     element
         .attributes()
@@ -51,7 +51,7 @@ pub fn attributes(element: &BytesStart, expected: &str) -> Result<Attributes> {
 ///
 /// # Errors
 /// Naming what was `expected` where they nest without end.
-pub fn name_at_depth(element: &BytesStart, depth: usize, expected: &str) -> Result<String> {
+pub(crate) fn name_at_depth(element: &BytesStart, depth: usize, expected: &str) -> Result<String> {
     if depth == DEEPEST {
         return Err(Error::new("", format!("elements nested deeper than {DEEPEST}"), expected));
     }
@@ -59,18 +59,18 @@ pub fn name_at_depth(element: &BytesStart, depth: usize, expected: &str) -> Resu
 }
 
 /// The error for XML that the parser refuses.
-pub fn damaged(reader: &Reader<&[u8]>, cause: &quick_xml::Error, expected: &str) -> Error {
+pub(crate) fn damaged(reader: &Reader<&[u8]>, cause: &quick_xml::Error, expected: &str) -> Error {
     let found = format!("damaged XML near byte {} ({cause})", reader.error_position());
     Error::truncated("", found, expected)
 }
 
 /// The error for a document type, which could define entities that grow without end.
-pub fn document_type(expected: &str) -> Error {
+pub(crate) fn document_type(expected: &str) -> Error {
     Error::new("", "a document type (<!DOCTYPE)", format!("{expected}, which has none"))
 }
 
 /// The name of the first element of `text`, behind declarations and comments.
-pub fn first_element(mut text: &[u8]) -> Option<&[u8]> {
+pub(crate) fn first_element(mut text: &[u8]) -> Option<&[u8]> {
     loop {
         text = text.trim_ascii_start().strip_prefix(b"<")?;
         let end: &[u8] = match text {

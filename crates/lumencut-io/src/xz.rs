@@ -11,7 +11,7 @@ const CODES: std::ops::Range<u8> = 0..40;
 
 /// The block with a dictionary no larger than its content of `size` bytes can use, and the memory (KiB) that
 /// reading it may take. A block of another shape than writers of VTK make comes back as it is.
-pub fn with_small_dictionary(block: &[u8], size: usize) -> (Cow<'_, [u8]>, u32) {
+pub(crate) fn with_small_dictionary(block: &[u8], size: usize) -> (Cow<'_, [u8]>, u32) {
     let code = CODES.into_iter().find(|code| dictionary(*code) >= size as u64).unwrap_or(CODES.end);
     let memory = READER_KIB.saturating_add(u32::try_from(dictionary(code) >> 10).unwrap_or(u32::MAX));
     let smaller = dictionary_place(block).filter(|place| block[place.code] > code).map(|place| {

@@ -22,7 +22,7 @@ const SHORTEST_STRETCH: f64 = 10.0;
 const MOST_COMPARISONS: usize = 1 << 26;
 
 /// What came of following.
-pub struct Followed {
+pub(super) struct Followed {
     /// How many ends of paths follow another path.
     pub ends: usize,
     /// Whether all was compared that there is to compare.
@@ -30,7 +30,7 @@ pub struct Followed {
 }
 
 /// Lets the ends of paths follow earlier paths.
-pub fn follow(points: &[DVec3], paths: &mut [Path], spacing: f64) -> Followed {
+pub(super) fn follow(points: &[DVec3], paths: &mut [Path], spacing: f64) -> Followed {
     let mut followed = 0;
     let left = Cell::new(MOST_COMPARISONS);
     // A path that follows another one leaves its own end behind, where a third path may begin.

@@ -45,7 +45,7 @@ impl Edge {
 }
 
 /// The chains of edges between junctions, as lines, in the order of the paths they come from.
-pub fn chains(points: &[DVec3], paths: &[Path]) -> Vec<Line> {
+pub(super) fn chains(points: &[DVec3], paths: &[Path]) -> Vec<Line> {
     let (mut graph, steps) = Graph::of(points.len(), paths);
     for (path, steps) in paths.iter().zip(&steps) {
         for (i, pair) in steps.windows(2).enumerate() {

@@ -4,21 +4,21 @@
 use std::hash::{BuildHasher, Hash, RandomState};
 
 /// The id of a place, a path, a step or an edge. [`MOST_POINTS`] keeps twice their number below the largest.
-pub type Id = u32;
+pub(super) type Id = u32;
 
 /// The most points of all lines that ids can tell apart.
-pub const MOST_POINTS: usize = 1 << 30;
+pub(super) const MOST_POINTS: usize = 1 << 30;
 
 const NONE: Id = Id::MAX;
 
 /// The id of the `i`th of at most [`MOST_POINTS`].
-pub fn id(i: usize) -> Id {
+pub(super) fn id(i: usize) -> Id {
     i as Id
 }
 
 /// Ids from 0, found by keys that stay with the caller: a hash table with linear probing.
 #[derive(Default)]
-pub struct Table {
+pub(super) struct Table {
     /// As many as a power of two, at most three quarters of them taken; none before the first key.
     slots: Vec<Slot>,
     count: usize,
@@ -33,13 +33,13 @@ struct Slot {
 
 impl Table {
     /// The ids whose key may be this one.
-    pub fn like(&self, key: &impl Hash) -> impl Iterator<Item = Id> {
+    pub(super) fn like(&self, key: &impl Hash) -> impl Iterator<Item = Id> {
         let hash = self.hash(key);
         self.from(hash).take_while(|slot| slot.id != NONE).filter(move |slot| slot.hash == hash).map(|s| s.id)
     }
 
     /// Gives this key the next id.
-    pub fn push(&mut self, key: &impl Hash) -> Id {
+    pub(super) fn push(&mut self, key: &impl Hash) -> Id {
         if 4 * self.count >= 3 * self.slots.len() {
             let empty = vec![Slot { hash: 0, id: NONE }; (2 * self.slots.len()).max(4)];
             let known = std::mem::replace(&mut self.slots, empty);
@@ -72,14 +72,14 @@ impl Table {
 }
 
 /// Makes room for one more element: for as many as there are, but for no more than the `most` to come.
-pub fn make_room<T>(all: &mut Vec<T>, most: usize) {
+pub(super) fn make_room<T>(all: &mut Vec<T>, most: usize) {
     if all.len() == all.capacity() {
         all.reserve_exact(all.len().max(16).min(most.max(1)));
     }
 }
 
 /// The edges at every place, one place's after the other's, each place's by their ids.
-pub struct Incidence {
+pub(super) struct Incidence {
     /// Where the edges of each place begin, and where the last one's end.
     begins: Vec<Id>,
     edges: Vec<Id>,
@@ -87,7 +87,7 @@ pub struct Incidence {
 
 impl Incidence {
     /// Of `edges` whose two places `ends` gives.
-    pub fn new(places: usize, edges: usize, ends: impl Fn(usize) -> [Id; 2]) -> Self {
+    pub(super) fn new(places: usize, edges: usize, ends: impl Fn(usize) -> [Id; 2]) -> Self {
         let mut begins = vec![0; places + 1];
         (0..edges).flat_map(&ends).for_each(|place| begins[place as usize] += 1);
         let mut sum = 0;
@@ -106,7 +106,7 @@ impl Incidence {
         Self { begins, edges: out }
     }
 
-    pub fn at(&self, place: usize) -> &[Id] {
+    pub(super) fn at(&self, place: usize) -> &[Id] {
         &self.edges[self.begins[place] as usize..self.begins[place + 1] as usize]
     }
 }

@@ -12,7 +12,7 @@ use super::ids::{Id, Incidence, id};
 ///
 /// Chains go the way of their segments where those follow each other throughout. Otherwise they run away from
 /// the open end with the largest radius, or the highest where no radius is known.
-pub fn join(points: &[DVec3], mut paths: Vec<Path>, notes: &mut Vec<String>) -> Vec<Path> {
+pub(super) fn join(points: &[DVec3], mut paths: Vec<Path>, notes: &mut Vec<String>) -> Vec<Path> {
     let is_segment = |path: &Path| path.nodes.len() == 2;
     let count = paths.iter().filter(|path| is_segment(path)).count();
     if count < 2 || count <= paths.len() / 2 {

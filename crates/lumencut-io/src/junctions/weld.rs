@@ -12,14 +12,14 @@ const PART_OF_SPACING: f64 = 1e-3;
 const PART_OF_COORDINATE: f64 = 1e-9;
 
 /// Whether the spacing is wide enough to tell places apart.
-pub fn resolves(lines: &[Line], spacing: f64) -> bool {
+pub(super) fn resolves(lines: &[Line], spacing: f64) -> bool {
     let largest = lines.iter().flat_map(|l| &l.points).map(|p| p.abs().max_element()).fold(0.0, f64::max);
     spacing > largest * PART_OF_COORDINATE
 }
 
 /// The places that the points of all lines are, and the lines as paths through them. A place has the
 /// coordinates of the first point that was found there. The spacing [`resolves`] the lines.
-pub fn weld(lines: Vec<Line>, spacing: f64) -> (Vec<DVec3>, Vec<Path>) {
+pub(super) fn weld(lines: Vec<Line>, spacing: f64) -> (Vec<DVec3>, Vec<Path>) {
     let distance = spacing * PART_OF_SPACING;
     let count = lines.iter().map(|line| line.points.len()).sum();
     let mut grid = Grid { distance, left: count, points: Vec::new(), cells: Table::default() };

@@ -19,7 +19,7 @@ pub fn write_mrk_json(vessels: &[Line]) -> Result<Vec<u8>> {
 }
 
 /// The text of the file; `beside` are further fields, each with a comma behind it, which 3D Slicer passes over.
-pub fn markups(vessels: &[Line], beside: &str) -> String {
+pub(crate) fn markups(vessels: &[Line], beside: &str) -> String {
     let curves: Vec<String> = vessels.iter().map(curve).collect();
     let head = format!("\"@schema\": \"{SCHEMA}\",\n\"{JOINED_MARK}\": true");
     format!("{{\n{head},\n{beside}\"markups\": [{}]\n}}\n", curves.join(", "))

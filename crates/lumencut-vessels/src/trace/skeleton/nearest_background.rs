@@ -10,14 +10,14 @@ const LEAF: usize = 8;
 
 /// The voxels of background that touch lumen by a face, an edge or a corner, as a balanced k-d tree: the middle of a range
 /// parts it along the axis along which it is longest.
-pub struct NearestBackground {
+pub(super) struct NearestBackground {
     points: Vec<DVec3>,
     axes: Vec<u8>,
 }
 
 impl NearestBackground {
     /// The tree around the cells of `lumen`.
-    pub fn new(foreground: &Foreground, lumen: &[u32]) -> Self {
+    pub(super) fn new(foreground: &Foreground, lumen: &[u32]) -> Self {
         let [i, j, k] = foreground.strides().map(|stride| stride as isize);
         let mut cells: Vec<usize> = Vec::new();
         for &cell in lumen {
@@ -54,7 +54,7 @@ impl NearestBackground {
     }
 
     /// The squared distance (mm²) from a point to the nearest voxel of background.
-    pub fn squared_distance(&self, point: DVec3) -> f64 {
+    pub(super) fn squared_distance(&self, point: DVec3) -> f64 {
         let mut best = f64::INFINITY;
         self.search(0, self.points.len(), point, &mut best);
         best
