@@ -55,7 +55,11 @@ pub(crate) fn mixed(ordered: &[Slice], keyword: Keyword) -> String {
 }
 
 /// Picks the slices of one phase, by the value of the first attribute that has it for some of them only.
-pub(crate) fn of_phase<'a>(slices: &[Slice<'a>], phase: &str, notes: &mut Vec<String>) -> Result<Vec<Slice<'a>>> {
+pub(crate) fn of_phase<'a>(
+    slices: &[Slice<'a>],
+    phase: &str,
+    notes: &mut Vec<String>,
+) -> Result<Vec<Slice<'a>>> {
     for keyword in PHASE_KEYWORDS {
         let is_of = |one: &&Slice| is_called(one.get(keyword), phase);
         let count = slices.iter().filter(is_of).count();

@@ -103,7 +103,12 @@ fn decode_group(subject: &str, group: [u8; 4], out: &mut Vec<u8>) -> Result<()> 
 ///
 /// # Errors
 /// Naming `subject` where the data ends early, is damaged, or unpacks to more than the budget allows.
-pub(crate) fn content(subject: &str, mut bytes: Bytes, layout: Layout, budget: &mut Budget) -> Result<Vec<u8>> {
+pub(crate) fn content(
+    subject: &str,
+    mut bytes: Bytes,
+    layout: Layout,
+    budget: &mut Budget,
+) -> Result<Vec<u8>> {
     let Some(compressor) = layout.compressor else {
         let size = header_number(subject, &mut bytes, layout)?;
         budget.take(subject, size)?;

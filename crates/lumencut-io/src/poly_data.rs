@@ -42,7 +42,8 @@ pub(crate) const HAS_NAME: &str = "HasName";
 /// The array of cells that is 0 where the radii, which are 0 there, are none.
 pub(crate) const HAS_RADIUS: &str = "HasRadius";
 /// The arrays of points that hold radii, by how plainly their name says so.
-pub(crate) const RADIUS_NAMES: [&str; 4] = ["MaximumInscribedSphereRadius", "Radius", "Radii", "VesselRadius"];
+pub(crate) const RADIUS_NAMES: [&str; 4] =
+    ["MaximumInscribedSphereRadius", "Radius", "Radii", "VesselRadius"];
 const GROUP_NAME: &str = "GroupIds";
 
 /// Whether the array of this name is read from point or cell data.
