@@ -1,54 +1,56 @@
-//! The lumen of a vessel measured: cross-sections, diameters with the blur of the scanner taken into account, stenoses,
-//! lengths and angles.
+//! Measures the lumen of a vessel: cross-sections, diameters corrected for blur, stenoses, lengths and
+//! angles.
+//!
+//! Described in `docs/method/measuring.md`.
 
-pub mod all_sections;
-pub mod along;
-pub mod believed;
-pub mod blooming;
+pub(crate) mod all_sections;
+pub(crate) mod along;
+pub(crate) mod believed;
+pub(crate) mod blooming;
 pub mod blur;
-pub mod branches;
-pub mod contour;
+pub(crate) mod branches;
+pub(crate) mod contour;
 pub mod cross_section;
 pub mod ellipse;
-pub mod fit;
-pub mod fitting;
+pub(crate) mod fit;
+pub(crate) mod fitting;
 pub mod flags;
-pub mod golden;
+pub(crate) mod golden;
 pub mod groups;
 pub mod hindrances;
-pub mod least_squares;
-pub mod levels;
-pub mod looked;
-pub mod measured_part;
+pub(crate) mod least_squares;
+pub(crate) mod levels;
+pub(crate) mod looked;
+pub(crate) mod measured_part;
 pub mod measuring;
-pub mod model;
-pub mod obstacles;
-pub mod parameters;
+pub(crate) mod model;
+pub(crate) mod obstacles;
+pub(crate) mod parameters;
 pub mod parts;
 pub mod place;
-pub mod point_spread;
-pub mod pooled;
+pub(crate) mod point_spread;
+pub(crate) mod pooled;
 pub mod profile;
 pub mod radii;
-pub mod rays;
+pub(crate) mod rays;
 pub mod request;
-pub mod restless;
-pub mod rough;
-pub mod scale;
-pub mod sections;
-pub mod settled;
-pub mod slab;
+pub(crate) mod restless;
+pub(crate) mod rough;
+pub(crate) mod scale;
+pub(crate) mod sections;
+pub(crate) mod settled;
+pub(crate) mod slab;
 pub mod stenosis;
 pub mod stretch;
 pub mod suggestions;
-pub mod sums;
-pub mod terms;
-pub mod texture;
+pub(crate) mod sums;
+pub(crate) mod terms;
+pub(crate) mod texture;
 pub mod told_by_tree;
 pub mod tree_walls;
-pub mod wall;
+pub(crate) mod wall;
 pub mod wall_level;
-pub mod wall_pool;
+pub(crate) mod wall_pool;
 pub mod watched;
 
 #[cfg(test)]

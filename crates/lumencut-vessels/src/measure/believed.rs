@@ -1,30 +1,30 @@
-//! Whether what lies within a contour is lumen: else it crosses a flap, or runs into another lumen or out of its own.
+//! Rejects contours whose interior is not lumen, for example because they cross a flap or leave the lumen.
 
 use super::place::Place;
 use super::rays::{RAYS, Rays, direction};
 use glam::DVec2;
 
-/// What is brighter than lumen by this share of its contrast is another lumen.
+/// Brighter than lumen by this share of its contrast means another lumen.
 const BRIGHTER: f64 = 0.75;
 
-/// A contour is not believed where more than this share of what it encloses is no lumen.
+/// Maximum share of the enclosed area that may lack lumen values.
 const MOST_OTHER: f64 = 0.12;
 
-/// How far within the contour the blur still mixes lumen with what is beside it, in widths of the blur.
+/// Within this many blur widths of the contour, blur mixes lumen and surroundings.
 const MIXED: f64 = 0.75;
 
-/// Every so many rays are looked along, at so many places each.
+/// Every n-th ray is checked, at this many points.
 const LOOKED: (usize, usize) = (2, 6);
 
-/// The shares that a lumen of a level has, where what is beside it has another one.
-pub fn lumen_shares(lumen: f64, beside: f64) -> [f64; 2] {
+/// Lowest and highest value (shares) of lumen, from its level and the level next to it.
+pub(crate) fn lumen_shares(lumen: f64, beside: f64) -> [f64; 2] {
     let contrast = lumen - beside;
     [beside + 0.5 * contrast, lumen + BRIGHTER * contrast]
 }
 
-/// Whether a contour encloses what has the shares of lumen: walls so far from a centre along the rays (mm), under a blur of this
-/// width (mm). Places that the blur mixes with what is beside the lumen tell nothing, and a lumen without others is believed.
-pub fn encloses_lumen(
+/// Whether the contour at `walls` (mm from `center`, per ray) encloses lumen, under a blur of `width` mm. A
+/// contour too narrow to check counts as lumen.
+pub(crate) fn encloses_lumen(
     rays: &Rays,
     place: &Place,
     center: DVec2,
@@ -41,10 +41,10 @@ pub fn encloses_lumen(
         for m in 0..LOOKED.1 {
             let away = reach * (m as f64 + 0.5) / LOOKED.1 as f64;
             let value = rays.at(place, center + direction(n) * away);
-            // Far from the centre each place stands for a larger area.
+            // Each point represents an area that grows with its distance.
             let area = away * reach;
             all += area;
-            // What lies outside of the volume has a flag of its own.
+            // NaN outside the volume fails both comparisons; a separate flag reports that.
             if value < darkest || value > brightest {
                 other += area;
             }

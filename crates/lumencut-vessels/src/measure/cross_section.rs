@@ -1,4 +1,4 @@
-//! The picture of a section: the volume in a plane across a vessel.
+//! The image of a section: the volume in a plane across a vessel.
 
 use glam::{DVec2, DVec3};
 
@@ -13,24 +13,24 @@ use lumencut_core::volume::Volume;
 
 const SIDE: Limits = Limits::new(1e-3, 1e3, "mm");
 
-/// The most pixels along a side.
+/// Maximum number of pixels along a side.
 const MOST_PIXELS: f64 = 4096.0;
 
-/// A section as an image of square pixels, its middle on the vessel.
+/// A section as an image of square pixels, centred on the vessel.
 #[derive(Clone, Debug)]
 pub struct CrossSection {
     /// The plane.
     pub place: Place,
     /// Pixels along each side.
     pub pixels: usize,
-    /// The side of a pixel (mm).
+    /// Side of a pixel (mm).
     pub pixel_spacing: f64,
-    /// The volume, row by row from the top; NaN outside.
+    /// Values, row by row from the top; NaN outside the volume.
     pub value: Vec<f32>,
 }
 
 impl CrossSection {
-    /// The section in the plane of a place, of a side of `size` mm.
+    /// Samples the plane of `place` over a square of `size` mm.
     ///
     /// # Errors
     /// [`ErrorKind::Settings`] for an invalid size or pixel spacing.
@@ -49,7 +49,7 @@ impl CrossSection {
         Ok(section)
     }
 
-    /// The place of each pixel (mm, LPS), row by row from the top.
+    /// Position of each pixel (mm, LPS), row by row from the top.
     pub fn positions(&self) -> Vec<DVec3> {
         let n = self.pixels;
         let away = |i: usize| (i as f64 + 0.5 - n as f64 / 2.0) * self.pixel_spacing;
@@ -57,13 +57,12 @@ impl CrossSection {
     }
 }
 
-/// Where the section of a vessel at an arc length (mm) lies. With the profile of the vessel it is the measured section that is
-/// nearest, in whose plane the contour lies, the first of two; without one it lies across the vessel by the rule of [`Track`],
-/// with the radius that its points have.
+/// Plane of a section at an arc length (mm). With `profile` it is the plane of the nearest measured section,
+/// in which its contour lies; without, the plane follows [`Track`].
 ///
 /// # Errors
-/// [`ErrorKind::Measuring`] for a place beyond the vessel, or the profile of another vessel; [`ErrorKind::VesselTree`] for a
-/// vessel without length.
+/// [`ErrorKind::Measuring`] for an arc length beyond the vessel or the profile of another vessel;
+/// [`ErrorKind::VesselTree`] for a vessel without length.
 pub fn section_place(vessel: &Vessel, at: f64, profile: Option<&Profile>) -> Result<Place> {
     let length = vessel.arc_length().last().copied().unwrap_or(0.0);
     if !(0.0..=length).contains(&at) {

@@ -1,8 +1,8 @@
-//! The level of the lumen along a vessel.
+//! The lumen level along a vessel.
 //!
-//! Where a lumen is narrower than two blurs its peak is lower than its level, and neither the level nor the width can be told
-//! from the section alone. What the level is there is told by wider sections around; where the whole vessel is narrow, by all
-//! of its sections together: the level with which they fit best.
+//! A lumen narrower than two blur widths peaks below its level, so level and width cannot be separated in one
+//! section. Wider sections nearby give the level; in a vessel that is narrow everywhere, all sections are
+//! fitted with a common level.
 
 use rayon::prelude::*;
 
@@ -14,26 +14,29 @@ use super::sections::{Bench, Known, noise};
 use lumencut_core::error::Result;
 use lumencut_core::stop::{Stop, go_on};
 
-/// A section tells the level where the standard deviation is at most this, as a share; at least this number of sections must.
+/// A section gives the level if its standard deviation (a share) is at most this, and at least this many
+/// sections must do so.
 const TELLS: (f64, usize) = (0.05, 3);
 
-/// The most sections that tell the level together.
+/// Maximum number of sections fitted with a common level.
 const TOGETHER: usize = 48;
 
-/// Where it is looked for, as a share; the first guess is about 1.
+/// Search range of the level, as a share; the first guess is about 1.
 const RANGE: [f64; 2] = [0.6, 4.0];
 
-/// How well a level that was found together is known, as a share of it.
+/// Relative standard deviation of a common level.
 const DEVIATION: f64 = 0.05;
 
-/// How often the range is narrowed.
+/// Rounds of the search.
 const ROUNDS: usize = 11;
 
-/// The level of the lumen at each section, and its standard deviation, as shares.
-///
-/// # Errors
-/// [`lumencut_core::error::ErrorKind::Interrupted`].
-pub fn lumen_levels(bench: &Bench, places: &[Place], fits: &[Option<Fit>], stop: Stop) -> Result<Vec<Level>> {
+/// Lumen level and its standard deviation at each section, as shares.
+pub(crate) fn lumen_levels(
+    bench: &Bench,
+    places: &[Place],
+    fits: &[Option<Fit>],
+    stop: Stop,
+) -> Result<Vec<Level>> {
     let at: Vec<f64> = places.iter().map(|place| place.at).collect();
     let told: Vec<Option<Level>> =
         fits.iter().map(|fit| fit.map(|fit| fit.lumen).filter(|level| level[1] <= TELLS.0)).collect();
@@ -44,7 +47,7 @@ pub fn lumen_levels(bench: &Bench, places: &[Place], fits: &[Option<Fit>], stop:
     Ok(vec![[level, DEVIATION * level]; places.len()])
 }
 
-/// The level with which sections fit best together.
+/// Common level with which the sections fit best.
 fn together(bench: &Bench, places: &[Place], fits: &[Option<Fit>], stop: Stop) -> Result<f64> {
     let noise = noise(fits);
     let fitted: Vec<(&Place, Fit)> =

@@ -1,4 +1,4 @@
-//! A vessel in a volume: its scale, its lumen by and large, the levels, and then each section.
+//! Measures a vessel: intensity scale, approximate lumen, levels, then each section.
 
 use std::sync::OnceLock;
 
@@ -37,53 +37,51 @@ use lumencut_core::math::statistics::median;
 use lumencut_core::stop::{Stop, go_on};
 use lumencut_core::vessel_tree::Vessel;
 
-/// Without any other knowledge the point spread is assumed to be this wide (sides of a voxel).
-pub const DEFAULT_FWHM: f64 = 1.2;
+/// Assumed FWHM of the point spread in voxel sides, if nothing else is known.
+pub(crate) const DEFAULT_FWHM: f64 = 1.2;
 
-/// Whether walls are told apart is said by this number of sections.
+/// Number of sections that decide whether walls are visible.
 const WALL_SECTIONS: usize = 48;
 
-/// The texture of the noise is told by this number of sections.
+/// Number of sections from which the noise texture is estimated.
 const TEXTURE: usize = 32;
 
-/// The sections that are fitted by themselves lie at least this share of the blur's width apart: those between see the same.
+/// Minimum distance of separately fitted sections in blur widths: sections in between see the same voxels.
 const FITTED: f64 = 0.7;
 
-/// How far from its vessel a lumen is looked for (mm), at least.
+/// Minimum search radius for the lumen around the centerline (mm).
 const SEARCH: f64 = 3.0;
 
-/// The widest lumen (mm from its middle to its wall).
+/// Maximum radius of a lumen (mm).
 const WIDEST: f64 = 45.0;
 
-/// The fits of sections by themselves under a point spread, and the wall that may be there where it is not told apart.
+/// Separate fits under a point spread, and the possible wall where none is visible.
 #[derive(Clone)]
 struct FirstFits {
     fwhm: f64,
     hidden: Option<KnownWall>,
     fits: Vec<Option<Fit>>,
-    /// The texture of the noise, from what they miss.
     texture: Texture,
 }
 
-/// A vessel before it is fitted.
-pub struct Looked {
+/// A vessel before its sections are fitted.
+pub(crate) struct Looked {
     part: MeasuredPart,
     scale: Scale,
     wall: Option<KnownWall>,
     wall_source: WallSource,
     places: Vec<Place>,
     rough: Vec<Option<Rough>>,
-    /// The fits under the point spread that is assumed before it is known, and under the one that is told or given.
+    /// Fits under the assumed point spread, and under the estimated or given one.
     first: [OnceLock<FirstFits>; 2],
 }
 
 impl Looked {
-    /// Looks at a vessel of a volume.
-    ///
     /// # Errors
-    /// [`ErrorKind::Measuring`] for a vessel outside the volume or without a lumen, [`ErrorKind::Settings`] for an invalid step or
-    /// wall, [`ErrorKind::VesselTree`] for a vessel without length, [`ErrorKind::Interrupted`].
-    pub fn new(voxels: &Voxels, vessel: &Vessel, request: &MeasureRequest) -> Result<Self> {
+    /// [`ErrorKind::Measuring`] for a vessel outside the volume or without a lumen, [`ErrorKind::Settings`]
+    /// for an invalid step or wall, [`ErrorKind::VesselTree`] for a vessel without length,
+    /// [`ErrorKind::Interrupted`].
+    pub(crate) fn new(voxels: &Voxels, vessel: &Vessel, request: &MeasureRequest) -> Result<Self> {
         let first = Track::new(vessel, None)?.places(request.step)?;
         let known = known_radius(vessel);
         let part = MeasuredPart::of(voxels, &first, known)?;
@@ -102,7 +100,7 @@ impl Looked {
         Ok(Self { part, scale, wall, wall_source, places, rough: tamed(&rough), first: Default::default() })
     }
 
-    /// The fits under a point spread (FWHM, mm) of the sections that are fitted by themselves, which are kept.
+    /// Separate fits under a point spread (FWHM, mm), cached.
     fn kept_fits(&self, voxels: &Voxels, fwhm: f64, stop: Stop) -> Result<FirstFits> {
         let kept = self.first.iter().filter_map(OnceLock::get).find(|first| first.fwhm == fwhm);
         if let Some(kept) = kept {
@@ -116,8 +114,8 @@ impl Looked {
         Ok(found)
     }
 
-    /// The fits of all sections by themselves under a point spread (FWHM, mm). Some of them say first whether walls are told
-    /// apart: where they are as bright as their surroundings, all are fitted without.
+    /// Separate fits of all sections under a point spread (FWHM, mm). A subset decides first whether walls
+    /// are visible; if they are as bright as their surroundings, all sections are fitted without a wall.
     fn first_fits(&self, voxels: &Voxels, fwhm: f64, stop: Stop) -> Result<FirstFits> {
         let mut bench = bench(voxels, self.scale, self.wall, fwhm);
         let Some(known) = self.wall else {
@@ -139,7 +137,6 @@ impl Looked {
         self.textured(&bench, None, merged.map(Option::flatten).collect(), stop)
     }
 
-    /// Fits with the texture of what they miss.
     fn textured(
         &self,
         bench: &Bench,
@@ -151,12 +148,11 @@ impl Looked {
         Ok(FirstFits { fwhm: bench.fwhm, hidden, fits, texture })
     }
 
-    /// What sections are looked at with under a point spread (FWHM, mm): without walls where they are hidden.
     fn bench<'a, 'v>(&self, voxels: &'a Voxels<'v>, fwhm: f64, hidden: Option<KnownWall>) -> Bench<'a, 'v> {
         bench(voxels, self.scale, self.wall.filter(|_| hidden.is_none()), fwhm)
     }
 
-    /// The sections that are fitted by themselves under a point spread (FWHM, mm): every so many of all.
+    /// The sections that are fitted separately under a point spread (FWHM, mm), and their interval.
     fn fitted(&self, voxels: &Voxels, fwhm: f64) -> (usize, Self) {
         let blur = Blur::new(fwhm, voxels.world_from_index.matrix3);
         let width = self.places.iter().map(|place| blur.width(place)).fold(f64::INFINITY, f64::min);
@@ -165,7 +161,7 @@ impl Looked {
         (every, self.part(|n| n % every == 0))
     }
 
-    /// The same vessel with some of its sections, by their numbers.
+    /// The vessel with a subset of its sections.
     fn part(&self, is_one: impl Fn(usize) -> bool) -> Self {
         let kept = || (0..self.places.len()).filter(|n| is_one(*n));
         Self {
@@ -176,7 +172,7 @@ impl Looked {
         }
     }
 
-    /// The wall that may be there where it is not told apart, as it is as bright as its surroundings.
+    /// The possible wall, if it is as bright as its surroundings; None if walls are visible.
     fn hidden_wall(
         &self,
         bench: &Bench,
@@ -190,28 +186,21 @@ impl Looked {
         Ok(hidden.filter(|_| !is_apart(known, &told, fits)))
     }
 
-    /// Where the sections are (mm).
     fn arc_lengths(&self) -> Vec<f64> {
         self.places.iter().map(|place| place.at).collect()
     }
 
-    /// The point spread that the vessel tells.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Interrupted`].
-    pub fn point_spread(&self, voxels: &Voxels, stop: Stop) -> Result<Told> {
+    /// Estimates the point spread on this vessel.
+    pub(crate) fn point_spread(&self, voxels: &Voxels, stop: Stop) -> Result<Told> {
         let (_, fitted) = self.fitted(voxels, assumed(voxels));
         let FirstFits { hidden, fits, .. } = self.kept_fits(voxels, assumed(voxels), stop)?;
         let bench = self.bench(voxels, assumed(voxels), hidden);
         estimated(&bench, voxels.world_from_index.matrix3, &fitted.places, &fits, stop)
     }
 
-    /// What the vessel tells of the level of its wall under a point spread (FWHM, mm), in the volume's unit, without what is expected
-    /// beforehand. None where walls are not told apart.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Interrupted`].
-    pub fn wall_level(&self, voxels: &Voxels, fwhm: f64, stop: Stop) -> Result<Option<Level>> {
+    /// Level of the wall (in the volume's unit) from this vessel's sections alone, without the prior. None if
+    /// walls are not visible.
+    pub(crate) fn wall_level(&self, voxels: &Voxels, fwhm: f64, stop: Stop) -> Result<Option<Level>> {
         let Some(known) = self.wall else { return Ok(None) };
         let FirstFits { hidden, fits, texture, .. } = self.kept_fits(voxels, fwhm, stop)?;
         if hidden.is_some() {
@@ -223,11 +212,11 @@ impl Looked {
         Ok(told.map(|[mean, deviation]| [self.scale.value(mean), deviation * self.scale.contrast.abs()]))
     }
 
-    /// The profile of the vessel that was looked at, with what its tree told.
+    /// Measures the profile with the findings of the tree.
     ///
     /// # Errors
     /// [`ErrorKind::Measuring`] for a vessel without a lumen, [`ErrorKind::Interrupted`].
-    pub fn profile(
+    pub(crate) fn profile(
         &self,
         voxels: &Voxels,
         vessel: &Vessel,
@@ -279,13 +268,13 @@ impl Looked {
         Ok(Profile { without_wall: self.part.left_out(&self.places), ..profile })
     }
 
-    /// The wall that other vessels let expect, where they told anything of it.
+    /// Wall expected from other vessels, if any.
     fn wall_by_others(&self, told: &ToldByTree, tree: &[Vessel], vessel: &Vessel) -> Option<PooledWall> {
         let by_others = wall_beside(&told.walls, tree, vessel, self.wall_source.expected()?)?;
         is_below_lumen(&by_others, &self.scale).then_some(by_others)
     }
 
-    /// What the sections tell together, from their fits by themselves, and what other vessels told of their wall.
+    /// Pools the separate fits with the wall level from other vessels.
     fn all_sections(
         &self,
         bench: &Bench,
@@ -307,13 +296,13 @@ impl Looked {
         Ok(AllSections { fits, noise, lumen, walls, texture })
     }
 
-    /// By how much what walls tell varies more than with independent noise.
+    /// Factor by which correlated noise raises the variance of wall estimates.
     fn inflation(&self, bench: &Bench, texture: &Texture) -> f64 {
         let sides = bench.rays.voxels.world_from_index.matrix3;
         self.places.first().map_or(1.0, |place| texture.inflation(sides, bench.blur.width(place)))
     }
 
-    /// The texture of the noise, from what fits miss.
+    /// Noise texture from the residuals of the fits.
     fn texture(&self, bench: &Bench, fits: &[Option<Fit>], noise: f64, stop: Stop) -> Result<Texture> {
         let every = fits.len().div_ceil(TEXTURE).max(1);
         let some: Vec<usize> = (0..fits.len()).step_by(every).collect();
@@ -328,7 +317,6 @@ impl Looked {
         Ok(all.map_or_else(Texture::white, |all| Texture::of(&all)))
     }
 
-    /// The flag of a section within the lumen of another vessel.
     fn branch(&self, n: usize, fit: Option<&Fit>, others: &[Lumen]) -> u32 {
         let Some(fit) = fit else { return 0 };
         let place = &self.places[n];
@@ -342,8 +330,8 @@ fn bench<'a, 'v>(voxels: &'a Voxels<'v>, scale: Scale, wall: Option<KnownWall>, 
     Bench { rays: Rays { voxels, scale }, blur, fwhm, wall, doubt: None }
 }
 
-/// The point spread where nothing is known of it (FWHM, mm): by the middle one of the three sides of a voxel.
-pub fn assumed(voxels: &Voxels) -> f64 {
+/// Assumed point spread (FWHM, mm), from the middle voxel side.
+pub(crate) fn assumed(voxels: &Voxels) -> f64 {
     let sides = voxels.world_from_index.matrix3;
     let mut lengths = [sides.x_axis, sides.y_axis, sides.z_axis].map(DVec3::length);
     DEFAULT_FWHM * median(&mut lengths).unwrap_or_default()
@@ -358,9 +346,9 @@ fn no_lumen(scale: &Scale) -> Error {
     Error::new(ErrorKind::Measuring, "lumen of the vessel", found, expected).mend(mend)
 }
 
-/// Rough lumens that are far wider than those around them are given their radius: rays leave the lumen where a branch begins.
+/// Limits estimates much wider than their neighbours, because rays escape where a branch begins.
 fn tamed(rough: &[Option<Rough>]) -> Vec<Option<Rough>> {
-    /// Sections to both sides, and how much wider than them is far wider.
+    /// Neighbours on each side, and the maximum ratio to their median.
     const AROUND: (usize, f64) = (6, 1.5);
     (0..rough.len())
         .map(|n| {

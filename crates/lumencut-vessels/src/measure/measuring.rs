@@ -1,4 +1,4 @@
-//! How a vessel is measured: with what its tree tells of the point spread and of walls, or the vessel itself.
+//! Entry points of measuring: a vessel alone, or with the point spread and walls found on its tree.
 
 use std::cmp::Ordering;
 use std::sync::OnceLock;
@@ -20,20 +20,21 @@ use lumencut_core::stop::{Stop, go_on};
 use lumencut_core::vessel_tree::Vessel;
 use lumencut_core::volume::Volume;
 
-/// The distance of sections unless somebody asks for another one (mm), at most.
+/// Default distance of sections (mm), at most.
 pub const STEP: f64 = 0.5;
 
-/// The standard deviation of a point spread that is assumed, as a share of it.
+/// Relative standard deviation of an assumed point spread.
 const ASSUMED: f64 = 0.2;
 
-/// The point spread and the level of walls are told by at most this number of vessels of a tree, the widest ones.
+/// Maximum number of vessels, the widest ones, that estimate point spread and wall level.
 const MOST_ASKED: usize = 8;
 
-/// The profile of a vessel.
+/// Measures the profile of a vessel.
 ///
 /// # Errors
-/// [`ErrorKind::Measuring`] for a vessel outside the volume or without a lumen, [`ErrorKind::Settings`] for a step or a width of
-/// the point spread that is invalid, [`ErrorKind::VesselTree`] for a vessel without length, [`ErrorKind::Interrupted`].
+/// [`ErrorKind::Measuring`] for a vessel outside the volume or without a lumen, [`ErrorKind::Settings`] for
+/// an invalid step or point spread, [`ErrorKind::VesselTree`] for a vessel without length,
+/// [`ErrorKind::Interrupted`].
 pub fn measure(volume: &Volume, vessel: &Vessel, request: &MeasureRequest) -> Result<Profile> {
     request.check()?;
     let voxels = Voxels::new(volume);
@@ -46,13 +47,12 @@ pub fn measure(volume: &Volume, vessel: &Vessel, request: &MeasureRequest) -> Re
             };
             ToldByTree { spread, walls: Vec::new() }
         }
-        // As it is given, or as the tree tells it for all that is measured in its scan.
         _ => told_by_tree(volume, request)?,
     };
     looked.profile(&voxels, vessel, request, found)
 }
 
-/// The profile of a vessel with what [`told_by_tree`] found for its tree: the same as that of [`measure`], which finds it anew.
+/// As [`measure`], with the result of [`told_by_tree`] instead of computing it again.
 ///
 /// # Errors
 /// As [`measure`].
@@ -66,8 +66,7 @@ pub fn measure_under(
     Looked::new(&voxels, vessel, request)?.profile(&voxels, vessel, request, told)
 }
 
-/// What a tree tells of all that is measured along it, its vessels and paths through several of them: the point spread of the scan,
-/// as it is given or as the widest vessels tell it, and what these tell of the level of walls.
+/// Estimates the point spread (unless given) and the wall levels on the widest vessels of a tree.
 ///
 /// # Errors
 /// [`ErrorKind::Settings`] for an invalid width, [`ErrorKind::Interrupted`].
@@ -75,7 +74,7 @@ pub fn told_by_tree(volume: &Volume, request: &MeasureRequest) -> Result<ToldByT
     TreeMeasuring::new(volume, request)?.told(request.stop)
 }
 
-/// The vessels of a tree in a volume. Those that told something are not looked at again where they are measured.
+/// The vessels of a tree in a volume, with their intermediate results cached.
 pub struct TreeMeasuring<'a, 'v> {
     voxels: Voxels<'v>,
     request: MeasureRequest<'a>,
@@ -83,17 +82,15 @@ pub struct TreeMeasuring<'a, 'v> {
 }
 
 impl<'a, 'v> TreeMeasuring<'a, 'v> {
-    /// The vessels of the tree that is asked for.
-    ///
     /// # Errors
-    /// [`ErrorKind::Settings`] for a point spread or a wall that is invalid.
+    /// [`ErrorKind::Settings`] for an invalid point spread or wall.
     pub fn new(volume: &Volume<'v>, request: &MeasureRequest<'a>) -> Result<Self> {
         request.check()?;
         let looked = request.tree.iter().map(|_| OnceLock::new()).collect();
         Ok(Self { voxels: Voxels::new(volume), request: *request, looked })
     }
 
-    /// What the tree tells, as [`told_by_tree`]; `stop` is asked whether to stop.
+    /// See [`told_by_tree`].
     ///
     /// # Errors
     /// [`ErrorKind::Interrupted`].
@@ -107,7 +104,7 @@ impl<'a, 'v> TreeMeasuring<'a, 'v> {
         Ok(ToldByTree { spread, walls })
     }
 
-    /// The profile of a vessel of the tree, by its number, with what the tree told; `stop` is asked whether to stop.
+    /// Measures vessel number `n` of the tree.
     ///
     /// # Errors
     /// As [`measure`].
@@ -116,7 +113,7 @@ impl<'a, 'v> TreeMeasuring<'a, 'v> {
         self.looked(n, &request)?.profile(&self.voxels, &request.tree[n], &request, told)
     }
 
-    /// The numbers of the vessels that are asked, from the widest on, whatever their order in the tree.
+    /// Numbers of the widest vessels, independent of their order in the tree.
     fn asked(&self) -> Vec<usize> {
         let tree = self.request.tree;
         let mut order: Vec<usize> = (0..tree.len()).collect();
@@ -125,7 +122,7 @@ impl<'a, 'v> TreeMeasuring<'a, 'v> {
         order
     }
 
-    /// What the widest vessels tell of the level of their walls under a point spread (FWHM, mm). One vessel alone tells nobody.
+    /// Wall levels of the widest vessels under a point spread (FWHM, mm). Needs at least two vessels.
     fn told_walls(&self, fwhm: f64, request: &MeasureRequest) -> Result<Vec<ToldWall>> {
         if request.tree.len() < 2 || request.wall == WallRequest::Off {
             return Ok(Vec::new());
@@ -139,7 +136,6 @@ impl<'a, 'v> TreeMeasuring<'a, 'v> {
         Ok(found.into_iter().flatten().collect())
     }
 
-    /// The point spread that the widest vessels tell.
     fn told_spread(&self, request: &MeasureRequest) -> Result<PointSpread> {
         let mut why = NARROW;
         for n in self.asked() {
@@ -157,7 +153,7 @@ impl<'a, 'v> TreeMeasuring<'a, 'v> {
         Ok(default(&self.voxels, why))
     }
 
-    /// A vessel that was looked at, or none where it cannot be measured: it tells nothing.
+    /// None if the vessel cannot be measured.
     fn looked_or_none(&self, n: usize, request: &MeasureRequest) -> Result<Option<&Looked>> {
         match self.looked(n, request) {
             Ok(looked) => Ok(Some(looked)),
@@ -175,7 +171,7 @@ impl<'a, 'v> TreeMeasuring<'a, 'v> {
     }
 }
 
-/// Which of two vessels comes first: the wider one, else the longer one, else the one whose points are first.
+/// Order of vessels: wider, then longer, then by coordinates.
 fn wider(one: &Vessel, other: &Vessel) -> Ordering {
     let radius = |vessel: &Vessel| known_radius(vessel).unwrap_or(0.0);
     let length = |vessel: &Vessel| vessel.arc_length().last().copied().unwrap_or(0.0);

@@ -1,4 +1,4 @@
-//! Where a vessel is cut across: places along it, in the frame that does not turn about it.
+//! Section planes along a vessel, in a frame that does not turn about it.
 
 use glam::{DVec2, DVec3};
 
@@ -9,36 +9,36 @@ use lumencut_core::math::frames::{Frames, MovingFrame};
 use lumencut_core::math::statistics::median;
 use lumencut_core::vessel_tree::Vessel;
 
-/// Directions of a vessel are smoothed over half of its radius, from the first to the second of these (mm).
+/// Directions are smoothed over half of the radius, clamped to this range (mm).
 const SMOOTHING: [f64; 2] = [1.0, 8.0];
 
-/// The most sections of a vessel.
+/// Maximum number of sections of a vessel.
 const MOST_SECTIONS: u32 = 20_000;
 
-/// A vessel runs along an axis from this cosine on.
+/// Cosine from which a vessel counts as parallel to an axis.
 const ALONG: f64 = 0.9;
 
-/// A place along a vessel and the plane across it.
+/// A point of a vessel and the plane across it.
 #[derive(Clone, Copy, Debug)]
 pub struct Place {
-    /// Arc length on the vessel (mm).
+    /// Arc length (mm).
     pub at: f64,
-    /// The point of the vessel (mm, LPS).
+    /// Point of the vessel (mm, LPS).
     pub origin: DVec3,
-    /// Two unit vectors in the plane: to the right and downwards in a picture of it. A vessel that begins towards the head is
-    /// seen along its way, others against it: so the patient's left is on the right where a section is axial.
+    /// In-plane unit vectors: right and down in the image. The view follows a vessel that starts towards the
+    /// head and opposes others, so the patient's left is on the right in axial sections.
     pub axes: [DVec3; 2],
-    /// The unit vector along the vessel.
+    /// Unit vector along the vessel.
     pub normal: DVec3,
 }
 
 impl Place {
-    /// The point of the plane (mm, LPS) with these coordinates (mm).
+    /// Point (mm, LPS) of in-plane coordinates (mm).
     pub fn point(&self, place: DVec2) -> DVec3 {
         self.origin + self.axes[0] * place.x + self.axes[1] * place.y
     }
 
-    /// The coordinates of a vector in the plane and along the vessel (mm).
+    /// In-plane coordinates of a vector, and its component along the vessel (mm).
     pub fn coordinates(&self, vector: DVec3) -> [f64; 3] {
         [vector.dot(self.axes[0]), vector.dot(self.axes[1]), vector.dot(self.normal)]
     }
@@ -48,16 +48,15 @@ impl Place {
 #[derive(Clone, Debug)]
 pub struct Track {
     path: CenterlinePath,
-    /// The same points, quieter: what directions are taken from.
+    /// The smoothed line that gives the directions.
     quiet: CenterlinePath,
     frames: Frames,
-    /// Whether sections are seen along the way of the vessel.
     is_seen_along: bool,
 }
 
 impl Track {
-    /// The track of a vessel of about this radius (mm), whose directions are smoothed by a Gaussian: its standard deviation is
-    /// half of the radius, at least 1 and at most 8 mm, and 1 mm where the radius is not known. All sections follow this rule.
+    /// Smooths directions by a Gaussian whose standard deviation is half of `radius` (mm), from 1 to 8 mm; 1
+    /// mm if the radius is unknown.
     ///
     /// # Errors
     /// [`ErrorKind::VesselTree`] for a vessel without length.
@@ -67,35 +66,34 @@ impl Track {
         let distinct = Vessel::new(path.points().to_vec(), None)?;
         let quiet = CenterlinePath::new(&distinct, smoothing)?;
         let begins = quiet.direction()[0];
-        // Downwards is the patient's back, or the feet where the vessel runs to the back.
+        // Down is the patient's back, or the feet if the vessel runs to the back.
         let down = if begins.y.abs() > ALONG { DVec3::NEG_Z } else { DVec3::Y };
         let frames = Frames::new(&quiet, MovingFrame::looking(begins, down));
         Ok(Self { path, quiet, frames, is_seen_along: begins.z >= 0.0 })
     }
 
-    /// The length of the vessel (mm).
-    pub fn length(&self) -> f64 {
+    pub(crate) fn length(&self) -> f64 {
         self.path.length()
     }
 
-    /// The place at an arc length (mm).
+    /// The plane at an arc length (mm).
     pub fn at(&self, at: f64) -> Place {
         let frame = self.frames.at(self.along_quiet(at));
         let right = if self.is_seen_along { -frame.across } else { frame.across };
         Place { at, origin: self.path.at(at), axes: [right, frame.ahead], normal: frame.tangent }
     }
 
-    /// Places from the beginning to the end, at most `step` mm apart.
+    /// Planes from start to end, at most `step` mm apart.
     ///
     /// # Errors
-    /// [`ErrorKind::Settings`] for an invalid step, or one that makes more than 20,000 places.
+    /// [`ErrorKind::Settings`] for an invalid step, or one that needs more than 20,000 sections.
     pub fn places(&self, step: f64) -> Result<Vec<Place>> {
         if !(step > 0.0 && step.is_finite()) {
             let expected = "a number above 0 mm";
             return Err(Error::new(ErrorKind::Settings, "step", format!("{step} mm"), expected));
         }
         let count = (self.length() / step).ceil();
-        // There is a section at both ends.
+        // Both ends have a section.
         if count >= f64::from(MOST_SECTIONS) {
             return Err(too_many(self.length(), step, count + 1.0));
         }
@@ -103,7 +101,7 @@ impl Track {
         Ok((0..=count as usize).map(|n| self.at(self.length() * n as f64 / count)).collect())
     }
 
-    /// An arc length on the vessel as one on its quiet line.
+    /// Maps an arc length on the vessel to its smoothed line.
     fn along_quiet(&self, at: f64) -> f64 {
         let [own, quiet] = [self.path.arc_length(), self.quiet.arc_length()];
         LinePlace::at(&own[..own.len().min(quiet.len())], at).value(quiet)
@@ -118,7 +116,7 @@ fn too_many(length: f64, step: f64, count: f64) -> Error {
         .mend(format!("give a step of {least} mm or more"))
 }
 
-/// About the radius of a vessel (mm), where its points have any.
+/// Median radius of the points of a vessel (mm), if any have one.
 pub fn known_radius(vessel: &Vessel) -> Option<f64> {
     let mut radii: Vec<f64> = vessel.radius()?.iter().copied().filter(|radius| *radius > 0.0).collect();
     median(&mut radii)

@@ -15,29 +15,28 @@ use lumencut_core::progress::Progress;
 use lumencut_core::vessel_tree::Vessel;
 use lumencut_core::volume::Volume;
 
-/// Between measured sections no farther apart than this (mm) radii are interpolated.
+/// Maximum gap (mm) over which radii are interpolated.
 const GAP: f64 = 10.0;
 
-/// A section whose diameter is unsure by this share of it or more tells none.
+/// Sections with this relative standard deviation or more are skipped.
 const UNSURE: f64 = 0.25;
 
 /// The radii of one vessel.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Radii {
-    /// A radius for each point (mm); None where nothing was measured and none was known.
+    /// Radius per point (mm); None if nothing was measured or known.
     pub radius: Option<Vec<f64>>,
-    /// How many points have the radius of a section that was measured, or of two that it lies between.
+    /// Number of points whose radius was measured, or interpolated between two measured sections.
     pub measured: usize,
-    /// How many points kept the radius that they had, or were given that of the nearest measured section.
+    /// Number of points that kept their radius or took that of the nearest measured section.
     pub kept: usize,
 }
 
-/// The measured radii of all vessels of a tree, and how far that is. The widest vessels tell the level of
-/// walls for all, and the point spread where it is not given.
+/// Measures the radii of all vessels of a tree and reports progress. A vessel that cannot be measured keeps
+/// its radii.
 ///
 /// # Errors
-/// [`ErrorKind::Settings`] for an invalid step, wall or point spread, [`ErrorKind::Interrupted`]. A vessel that cannot be measured
-/// keeps its radii.
+/// [`ErrorKind::Settings`] for an invalid step, wall or point spread, [`ErrorKind::Interrupted`].
 pub fn measured_radii(
     volume: &Volume,
     request: &MeasureRequest,
@@ -62,7 +61,6 @@ pub fn measured_radii(
     })
 }
 
-/// The radii at the points of a vessel, of circles with the measured areas.
 fn of_profile(vessel: &Vessel, profile: &Profile) -> Radii {
     let is_told = |n: &usize| {
         let diameter = 2.0 * (profile.area[*n] / PI).sqrt();
@@ -85,7 +83,7 @@ fn of_profile(vessel: &Vessel, profile: &Profile) -> Radii {
     Radii { radius: radius.into_iter().collect(), measured, kept }
 }
 
-/// The radius at an arc length between two sections that are not far apart.
+/// Radius interpolated between two sections that are close enough.
 fn between(told: &[(f64, f64)], at: f64) -> Option<f64> {
     let after = told.partition_point(|(there, _)| *there < at);
     let next = told.get(after);

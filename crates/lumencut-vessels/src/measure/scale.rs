@@ -1,4 +1,4 @@
-//! What a vessel's lumen and its surroundings look like, by and large.
+//! The intensity scale of a vessel: levels of the lumen and of the surroundings.
 
 use glam::DVec2;
 
@@ -7,50 +7,49 @@ use crate::voxels::Voxels;
 use lumencut_core::error::{Error, ErrorKind, Result};
 use lumencut_core::math::statistics::median;
 
-/// Directions that are looked into at each place.
+/// Directions sampled at each section.
 const DIRECTIONS: usize = 16;
 
-/// The largest number of places that are looked at.
+/// Maximum number of sections.
 const MOST_PLACES: usize = 150;
 
-/// How far around a vessel whose radius is not known (mm).
+/// Search radius for a vessel of unknown radius (mm).
 const REACH: f64 = 30.0;
 
-/// The wall is the first place where values change by this share of what they change by anywhere.
+/// The wall is the first slope of at least this share of the steepest one.
 const STEEP: f64 = 0.4;
 
-/// What lies outside of the wall is looked for so far beyond it (mm).
+/// The surroundings are searched up to this distance beyond the wall (mm).
 const BEYOND: f64 = 1.5;
 
-/// A rim is at most so wide (mm), and beyond it values are below that of the lumen by this share of what they are above it.
+/// Maximum width of a rim (mm), and how far values beyond it must fall below the lumen, as a share of its
+/// excess.
 const RIM: f64 = 4.0;
 const RIM_SHARE: f64 = 0.1;
 
-/// Values of a volume as shares: 0 outside of the vessel, 1 in its lumen.
+/// Maps values of a volume to shares: 0 outside the vessel, 1 in its lumen.
 #[derive(Clone, Copy, Debug)]
 pub struct Scale {
-    /// What the volume shows outside of the vessel.
+    /// Level outside the vessel.
     pub outside: f64,
-    /// What it shows in the lumen, less what it shows outside; negative for dark lumens.
+    /// Lumen level minus outside level; negative for dark lumens.
     pub contrast: f64,
 }
 
 impl Scale {
-    /// A value of the volume as a share.
     pub fn share(&self, value: f64) -> f64 {
         (value - self.outside) / self.contrast
     }
 
-    /// A share as a value of the volume.
     pub fn value(&self, share: f64) -> f64 {
         self.outside + share * self.contrast
     }
 
-    /// The scale of a vessel, from the medians of rings around all of its places. `radius` is about that of the vessel (mm),
-    /// where known.
+    /// Scale from the medians of rings around all sections. `radius` is the approximate radius (mm), if
+    /// known.
     ///
     /// # Errors
-    /// [`ErrorKind::Measuring`] where the lumen differs in nothing from what is around it.
+    /// [`ErrorKind::Measuring`] if lumen and surroundings look alike.
     pub fn of(voxels: &Voxels, places: &[Place], radius: Option<f64>) -> Result<Self> {
         let step = 0.5 * voxels.sampling_side;
         let reach = radius.map_or(REACH, |radius| 2.5 * radius + 3.0);
@@ -65,7 +64,7 @@ impl Scale {
             ));
         };
         let rings: Vec<f64> = rings.into_iter().flatten().collect();
-        // A slope over two rings, which is a voxel.
+        // Slope over two rings, which is one voxel.
         let slopes: Vec<f64> = rings.windows(3).map(|three| three[2] - three[0]).collect();
         let steepest = slopes.iter().map(|slope| slope.abs()).fold(0.0, f64::max);
         let none = || {
@@ -74,14 +73,13 @@ impl Scale {
             Error::new(ErrorKind::Measuring, "lumen of the vessel", found, expected)
         };
         let mut wall = slopes.iter().position(|slope| slope.abs() >= STEEP * steepest).ok_or_else(none)?;
-        // On to the steepest place of this wall.
         while wall + 1 < slopes.len() && slopes[wall + 1].abs() > slopes[wall].abs() {
             wall += 1;
         }
         let within = |mm: f64| wall + 1..rings.len().min(wall + 2 + (mm / step).ceil() as usize);
         let lowest = |mm: f64| rings[within(mm)].iter().copied().fold(f64::MAX, f64::min);
         let highest = rings[within(BEYOND)].iter().copied().fold(f64::MIN, f64::max);
-        // What is brighter than the lumen around it is a rim, such as a stent, where it is darker beyond.
+        // A bright ring that is darker beyond is a rim, such as a stent.
         let is_rim = slopes[wall] > 0.0 && lowest(RIM) < lumen - RIM_SHARE * (highest - lumen);
         let outside = if slopes[wall] < 0.0 {
             lowest(BEYOND)
@@ -97,20 +95,20 @@ impl Scale {
     }
 }
 
-/// A value of the volume as messages have it: no reader needs more than three digits of it.
-pub fn in_words(value: f64) -> String {
+/// A value with three significant digits, for messages.
+pub(crate) fn in_words(value: f64) -> String {
     let decimals = (2.0 - value.abs().log10().floor()).clamp(0.0, 6.0);
     format!("{value:.*}", if value == 0.0 { 0 } else { decimals as usize })
 }
 
-/// How far the values on a vessel lie from its lumen by and large, as the standard deviation of a normal distribution.
+/// Robust standard deviation of the values on the centerline.
 fn scatter(voxels: &Voxels, places: &[Place], lumen: f64) -> f64 {
     let values = places.iter().map(|place| f64::from(voxels.at(place.origin)));
     let mut off: Vec<f64> = values.filter(|value| value.is_finite()).map(|v| (v - lumen).abs()).collect();
     1.4826 * median(&mut off).unwrap_or(f64::INFINITY)
 }
 
-/// The median at each distance from the vessel, of all places and directions, as far as there are values.
+/// Median at each distance from the vessel, over all sections and directions.
 fn rings(voxels: &Voxels, places: &[Place], step: f64, count: usize) -> Vec<Option<f64>> {
     let every = places.len().div_ceil(MOST_PLACES);
     (0..=count)

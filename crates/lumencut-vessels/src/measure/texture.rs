@@ -1,39 +1,38 @@
-//! The noise of a scan: how alike it is in voxels near each other.
+//! The spatial correlation of image noise.
 //!
-//! Every kernel of a CT correlates the noise of neighbours. A mean of correlated values is less sure than one of independent
-//! values: what a diameter is unsure by is the sum over all pairs of samples, by how much each of them moves it.
+//! CT kernels correlate the noise of neighbouring voxels, so a mean is less certain than with independent
+//! noise.
 
 use glam::{DMat3, DVec3};
 
 use super::slab::Samples;
 use lumencut_core::math::lanes::{FAN, Isa, Kernel, dispatch};
 
-/// Noise is taken as independent from this number of voxels on.
+/// Distance (voxels) from which noise counts as independent.
 const FAR: usize = 5;
 
-/// A correlation is told by at least this number of pairs, and counts from this number of its standard deviations on.
+/// Minimum number of pairs, and minimum significance in standard deviations, of a correlation.
 const LEAST: (f64, f64) = (100.0, 2.0);
 
-/// What misses by more than this multiple of the typical value is not noise.
+/// Residuals above this multiple of the typical value are not noise.
 const LARGEST: f32 = 4.0;
 
-/// The autocorrelation of the noise by the distances of two voxels along the axes of the grid, whatever their signs.
+/// Autocorrelation of the noise by the absolute offsets along the grid axes.
 #[derive(Clone, Debug)]
 pub struct Texture {
     correlation: [[[f32; FAR]; FAR]; FAR],
 }
 
-/// The products of what pairs of samples miss, by their distances.
+/// Products of residual pairs by offset.
 #[derive(Clone, Debug)]
 pub struct Pairs {
     products: [[[f64; FAR]; FAR]; FAR],
     count: [[[f64; FAR]; FAR]; FAR],
-    /// The sum of the products of those that are far apart, and their number.
+    /// Sum and number of the products of distant pairs.
     far: [f64; 2],
 }
 
 impl Pairs {
-    /// The pairs of a section whose samples miss by this much, with a noise of about `noise`.
     pub fn new(samples: &Samples, missing: &[[f32; FAN]], noise: f32) -> Self {
         let mut all = Self { products: Default::default(), count: Default::default(), far: [0.0; 2] };
         let mut each = Vec::with_capacity(samples.count);
@@ -56,13 +55,12 @@ impl Pairs {
             all.count[i][j][k] += 1.0;
             near = [near[0] + miss * beside, near[1] + 1.0];
         });
-        // All pairs of two are half of what the square of the sum has beyond the squares; those that are not near are far.
+        // All pairs are half of (squared sum - sum of squares); the rest after the near ones is far.
         let number = each.len() as f64;
         all.far = [(sum * sum - squares) / 2.0 - near[0], number * (number - 1.0) / 2.0 - near[1]];
         all
     }
 
-    /// With the pairs of another section.
     #[must_use]
     pub fn with(mut self, other: &Self) -> Self {
         self.far = [self.far[0] + other.far[0], self.far[1] + other.far[1]];
@@ -78,9 +76,8 @@ impl Pairs {
     }
 }
 
-/// Visits every two of some samples in voxels that are not far apart, each pair once: how far they are apart along each axis, and
-/// what belongs to either. Along the axis on which they lie farthest apart the samples are put in order, so that most of those
-/// that are far apart are never looked at.
+/// Visits each pair of near voxels once, with their offset. Sorting along the longest axis skips most distant
+/// pairs.
 fn for_near_pairs<T: Copy>(samples: &mut [([i16; 3], T)], mut visit: impl FnMut([usize; 3], T, T)) {
     let axis = put_in_order(samples);
     for (n, (voxel, value)) in samples.iter().enumerate() {
@@ -94,7 +91,7 @@ fn for_near_pairs<T: Copy>(samples: &mut [([i16; 3], T)], mut visit: impl FnMut(
     }
 }
 
-/// Puts samples in order along the axis on which they lie farthest apart, which is told.
+/// Sorts samples along the axis of largest extent and returns that axis.
 fn put_in_order<T: Copy>(samples: &mut [([i16; 3], T)]) -> usize {
     let extent = |axis: usize| {
         let along = || samples.iter().map(move |(voxel, _)| voxel[axis]);
@@ -105,22 +102,22 @@ fn put_in_order<T: Copy>(samples: &mut [([i16; 3], T)]) -> usize {
     axis
 }
 
-/// How far two voxels are apart along each axis; None where that is far.
+/// Absolute offset of two voxels; None if far.
 #[inline(always)]
 fn apart(a: [i16; 3], b: [i16; 3]) -> Option<[usize; 3]> {
     let apart: [usize; 3] = std::array::from_fn(|n| usize::from(a[n].abs_diff(b[n])));
     (apart[0] < FAR && apart[1] < FAR && apart[2] < FAR).then_some(apart)
 }
 
-/// The cells of a texture in one row, filled up to a power of two.
+/// Cells of the correlation in one row, padded to a power of two.
 const CELLS: usize = 128;
 
-/// Where pairs find that they are far apart: behind the cells of the texture.
+/// Cell of far pairs, whose value is 0.
 const FAR_CELL: i32 = (FAR * FAR * FAR) as i32;
 
-/// The sum over all near pairs of the product of their weights and of how alike their noise is, as a kernel.
+/// Kernel of the noise variance: Σᵢⱼ wᵢ wⱼ ρ(i - j) over near pairs.
 struct NearProducts {
-    /// The samples in order along the first of their axes, and sixteen that are far from all of them.
+    /// Sorted along the first axis, then sixteen far ones as padding.
     voxel: [Vec<i32>; 3],
     weight: Vec<f32>,
     correlation: [f32; CELLS],
@@ -187,24 +184,22 @@ impl Kernel for NearProducts {
     }
 }
 
-/// The variance of the sum of independent noise of variance 1, each sample weighed by `weights`.
-pub fn independent_variance(weights: &[[f32; FAN]]) -> f64 {
+pub(crate) fn independent_variance(weights: &[[f32; FAN]]) -> f64 {
     weights.iter().flatten().map(|weight| f64::from(weight * weight)).sum()
 }
 
 impl Texture {
-    /// Noise that is independent in all voxels.
+    /// Independent noise.
     pub fn white() -> Self {
         let mut correlation = [[[0.0; FAR]; FAR]; FAR];
         correlation[0][0][0] = 1.0;
         Self { correlation }
     }
 
-    /// The texture that pairs tell.
     pub fn of(pairs: &Pairs) -> Self {
         let mut all = Self::white();
-        // The fit takes the slowest part of the noise for the section, so that what is left is too low by this everywhere. Far apart
-        // noise is independent: what is seen there is that alone.
+        // The fit absorbs the slowest noise of a section, which lowers all correlations equally. Far pairs
+        // are independent, so they show that offset.
         let taken = -(pairs.far[0] / pairs.far[1].max(1.0)).min(0.0);
         let variance = pairs.products[0][0][0] / pairs.count[0][0][0].max(1.0) + taken;
         for i in 0..FAR {
@@ -224,8 +219,7 @@ impl Texture {
         all
     }
 
-    /// By how much the variance of what walls tell is larger than with independent noise: a wall is seen over the width of the
-    /// blur (mm) in voxels with these sides.
+    /// Factor by which correlation raises the variance of wall estimates over the width of the blur (mm).
     pub fn inflation(&self, sides: DMat3, width: f64) -> f64 {
         const SIGNS: [f64; 2] = [1.0, -1.0];
         let mut sum = 0.0;
@@ -233,7 +227,7 @@ impl Texture {
             for j in 0..FAR {
                 for k in 0..FAR {
                     let steps = [i, j, k];
-                    // Each distance stands for both signs along each axis; along an axis without distance there is one.
+                    // Each offset stands for both signs of every nonzero component.
                     let count = steps.iter().filter(|n| **n > 0).count();
                     let far = |signs: [f64; 3]| {
                         (0..3)
@@ -253,8 +247,7 @@ impl Texture {
         sum.max(1.0)
     }
 
-    /// The variance of the sum of noise of variance 1, each sample weighed by `weights`; at least that of independent noise
-    /// times a tenth.
+    /// Variance of a weighted sum of noise of variance 1; at least a tenth of the independent one.
     pub fn variance(&self, samples: &Samples, weights: &[[f32; FAN]]) -> f64 {
         let mut each: Vec<([i16; 3], f32)> = weights
             .iter()

@@ -1,13 +1,13 @@
-//! What a tree tells of all that is measured along it.
+//! What a tree says about everything measured along it.
 
 use super::profile::PointSpread;
 use super::tree_walls::ToldWall;
 
-/// What a tree tells of all that is measured along it.
+/// Findings of a tree that apply to all its vessels.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ToldByTree {
-    /// The point spread of its scan.
+    /// Point spread of the scan.
     pub spread: PointSpread,
-    /// What its vessels tell of the level of their walls, those that tell something.
+    /// Wall levels of the vessels that show them.
     pub walls: Vec<ToldWall>,
 }

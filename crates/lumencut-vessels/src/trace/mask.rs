@@ -1,8 +1,8 @@
 //! Centerlines of a mask: from its voxels to vessels that meet in common points.
 
 pub mod grey_values;
-pub mod labels;
-pub mod mask_gaps;
+pub(crate) mod labels;
+pub(crate) mod mask_gaps;
 
 use crate::trace::mask::labels::parted;
 use crate::trace::mask::mask_gaps::{Gap, bridge, gaps};

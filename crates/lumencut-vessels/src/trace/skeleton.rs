@@ -1,19 +1,19 @@
 //! From the voxels of lumen to vessels that meet in common points: thinned to lines, which move to the middle.
 
-pub mod centering;
+pub(crate) mod centering;
 pub mod distance_transform;
 pub mod foreground;
-pub mod graph;
-pub mod label_value;
-pub mod mask_lumen;
+pub(crate) mod graph;
+pub(crate) mod label_value;
+pub(crate) mod mask_lumen;
 pub mod mask_refinement;
 pub mod mask_vessels;
 mod nearest_background;
-pub mod pruning;
-pub mod runs;
-pub mod simple_point;
-pub mod thinning;
-pub mod through_lines;
+pub(crate) mod pruning;
+pub(crate) mod runs;
+pub(crate) mod simple_point;
+pub(crate) mod thinning;
+pub(crate) mod through_lines;
 
 use glam::DVec3;
 use rayon::prelude::*;

@@ -6,7 +6,7 @@ use lumencut_core::volume::{Volume, Voxels as Stored};
 
 const SIDE: usize = 41;
 
-/// Whether a circle of 8 mm around the middle of a slice of voxels of 0.5 mm is believed, by the shares at places (mm) from there.
+/// Whether a circle of 8 mm passes, in a slice of 0.5 mm voxels with these shares.
 fn is_believed(share: impl Fn(DVec2) -> f32) -> bool {
     let at = |n: usize| (n as f64 - 20.0) * 0.5;
     let slice: Vec<f32> = (0..SIDE * SIDE).map(|n| share(DVec2::new(at(n % SIDE), at(n / SIDE)))).collect();
@@ -24,7 +24,7 @@ fn is_believed(share: impl Fn(DVec2) -> f32) -> bool {
 fn a_lumen_is_believed_however_its_medium_mixes() {
     assert!(is_believed(|_| 1.0));
     assert!(is_believed(|place| 1.0 + 0.05 * place.x as f32));
-    // Beyond the contour lies whatever does.
+    // Values beyond the contour do not matter.
     assert!(is_believed(|place| if place.length() < 7.5 { 1.0 } else { 0.0 }));
 }
 

@@ -11,7 +11,7 @@ use lumencut_core::error::{Error, ErrorKind, Mend};
 use lumencut_core::math::arc_length::arc_lengths;
 
 /// A stretch without lumen that is passed (mm): where the vessel goes on in the same direction, and elsewhere.
-pub const LONGEST_GAP: f64 = 5.0;
+pub(crate) const LONGEST_GAP: f64 = 5.0;
 const LONGEST_TURN: f64 = 1.2;
 
 /// The thickest wall between two vessels that a way might cross unseen (mm).
@@ -30,7 +30,7 @@ const CROSSING: Turn = Turn { beside: [3.0, 8.0], least: 0.7 };
 
 /// A stretch of a way that shows no lumen.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Gap {
+pub(crate) struct Gap {
     /// Its points of the way.
     pub points: Range<usize>,
     /// Its length (mm).
@@ -45,7 +45,7 @@ pub struct Gap {
 
 impl Gap {
     /// Whether the straight line over the gap passes a stopper.
-    pub fn passes(&self, way: &[DVec3], stopper: &Stopper) -> bool {
+    pub(crate) fn passes(&self, way: &[DVec3], stopper: &Stopper) -> bool {
         let (from, to) = (way[self.points.start.saturating_sub(1)], way[self.points.end.min(way.len() - 1)]);
         let across = to - from;
         let share =
@@ -55,7 +55,7 @@ impl Gap {
 }
 
 /// A way, to look for gaps in it.
-pub struct Line<'a, 'v> {
+pub(crate) struct Line<'a, 'v> {
     voxels: &'a Voxels<'v>,
     model: &'a LumenModel,
     way: &'a [DVec3],
@@ -64,18 +64,18 @@ pub struct Line<'a, 'v> {
 
 impl<'a, 'v> Line<'a, 'v> {
     /// A way through a volume.
-    pub fn new(voxels: &'a Voxels<'v>, model: &'a LumenModel, way: &'a [DVec3]) -> Self {
+    pub(crate) fn new(voxels: &'a Voxels<'v>, model: &'a LumenModel, way: &'a [DVec3]) -> Self {
         Self { voxels, model, way, lengths: arc_lengths(way) }
     }
 
     /// The gaps; `weak` says which points show no lumen.
-    pub fn gaps(&self, weak: &[bool]) -> Vec<Gap> {
+    pub(crate) fn gaps(&self, weak: &[bool]) -> Vec<Gap> {
         stretches(weak).into_iter().map(|points| self.gap(points)).collect()
     }
 
     /// Where a centerline crosses from one vessel to another through the wall between them: it turns on both sides of a
     /// short stretch that looks less like lumen than what is just before and after.
-    pub fn crossing(&self) -> Option<Gap> {
+    pub(crate) fn crossing(&self) -> Option<Gap> {
         // Walls are darker than lumen; calcium and stents in them are brighter and say nothing of a crossing.
         let value = |place: &DVec3| self.voxels.at(*place).min(self.model.high as f32);
         let shares: Vec<f32> = self.way.iter().map(|place| self.model.membership(value(place))).collect();
@@ -144,7 +144,7 @@ fn stretches(marked: &[bool]) -> Vec<Range<usize>> {
 }
 
 /// The error for a gap that is too long.
-pub fn no_lumen(between: [DVec3; 2], gap: &Gap, model: &LumenModel) -> Error {
+pub(crate) fn no_lumen(between: [DVec3; 2], gap: &Gap, model: &LumenModel) -> Error {
     let found = format!(
         "{:.1} mm between them that do not look like lumen, least at {}, where the volume has {:.0}",
         gap.length,
@@ -158,7 +158,7 @@ pub fn no_lumen(between: [DVec3; 2], gap: &Gap, model: &LumenModel) -> Error {
 }
 
 /// The error for two points between which nothing was found at all.
-pub fn no_way(between: [DVec3; 2], model: &LumenModel) -> Error {
+pub(crate) fn no_way(between: [DVec3; 2], model: &LumenModel) -> Error {
     let found = "no way between them that leaves out what is forbidden and stays within reach";
     Error::new(ErrorKind::Tracing, subject(between), found, expected(model))
         .mend("add points along the vessel, or take stoppers away")

@@ -32,7 +32,7 @@ struct Junction {
 ///
 /// # Errors
 /// [`ErrorKind::Tracing`] for a vessel that runs within an earlier one from end to end.
-pub fn joined(beside: &[Centerline], lines: Vec<Traced>) -> Result<Vec<Traced>> {
+pub(crate) fn joined(beside: &[Centerline], lines: Vec<Traced>) -> Result<Vec<Traced>> {
     let mut whole: Vec<Traced> = Vec::with_capacity(lines.len());
     for (n, line) in lines.into_iter().enumerate() {
         let earlier: Vec<&Centerline> =

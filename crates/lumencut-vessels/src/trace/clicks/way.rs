@@ -8,7 +8,7 @@ use crate::voxels::Voxels;
 
 /// The way between two clicks through voxels.
 #[derive(Clone, Debug)]
-pub struct Way {
+pub(crate) struct Way {
     /// The middles of its voxels (mm, LPS).
     pub points: Vec<DVec3>,
     /// Its stretches without lumen.
@@ -17,7 +17,7 @@ pub struct Way {
 
 impl Way {
     /// A way through voxels with its gaps.
-    pub fn of(voxels: &Voxels, region: &mut Region, steps: &[[i32; 3]]) -> Self {
+    pub(crate) fn of(voxels: &Voxels, region: &mut Region, steps: &[[i32; 3]]) -> Self {
         let points: Vec<DVec3> = steps.iter().map(|voxel| voxels.center(*voxel)).collect();
         let codes: Vec<u8> = steps.iter().map(|voxel| region.code_of(voxels, *voxel)).collect();
         let below =
@@ -33,7 +33,7 @@ impl Way {
     }
 
     /// Its points, those of gaps put on a straight line: nothing is seen there that could lead it.
-    pub fn straightened(&self) -> Vec<DVec3> {
+    pub(crate) fn straightened(&self) -> Vec<DVec3> {
         let mut points = self.points.clone();
         for gap in &self.gaps {
             let (first, last) = (gap.points.start.saturating_sub(1), gap.points.end.min(points.len() - 1));
@@ -47,7 +47,7 @@ impl Way {
 }
 
 /// The voxel where the front of a click starts: its own, or where that is at the wall the neighbour that costs least.
-pub fn start(voxels: &Voxels, region: &mut Region, click: DVec3) -> [i32; 3] {
+pub(crate) fn start(voxels: &Voxels, region: &mut Region, click: DVec3) -> [i32; 3] {
     let middle = voxels.voxel_at(click).unwrap_or([0; 3]);
     let mut best = (region.code_of(voxels, middle), middle);
     if best.0 != FORBIDDEN && best.0 < region.code_below(THIN) {

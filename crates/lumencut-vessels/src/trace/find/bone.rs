@@ -3,8 +3,8 @@
 //! Tracked bone is mostly a plate: its cross-section at half level is long, and so are those of the tracks around. What is
 //! round bone is uneven inside, by its marrow. Both make a track doubtful, as do wide tracks that are paler than vessels.
 
-pub mod neighbourhood;
-pub mod raw_section;
+pub(crate) mod neighbourhood;
+pub(crate) mod raw_section;
 
 use rayon::prelude::*;
 
@@ -88,7 +88,7 @@ const LEAST: f64 = 0.05;
 
 /// What the raw voxels show of a track.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Shape {
+pub(crate) struct Shape {
     /// The level inside, in the unit of the volume.
     level: f64,
     /// The greatest diameter at half level as a multiple of the least one.
@@ -111,7 +111,12 @@ impl Shape {
 ///
 /// # Errors
 /// [`lumencut_core::error::ErrorKind::Interrupted`].
-pub fn shapes(scan: &Scan, tracks: &[Track], stop: Stop, stages: Stages) -> Result<Vec<Option<Shape>>> {
+pub(crate) fn shapes(
+    scan: &Scan,
+    tracks: &[Track],
+    stop: Stop,
+    stages: Stages,
+) -> Result<Vec<Option<Shape>>> {
     let pieces = stages.stage(Stage::Judgement, tracks.len());
     let of_track = |track| {
         let shape = shape(scan, track, stop)?;
@@ -123,7 +128,7 @@ pub fn shapes(scan: &Scan, tracks: &[Track], stop: Stop, stages: Stages) -> Resu
 
 /// The usual level and contrast once more, from sure, round and even tracks alone: the first pass sees bone too. None without
 /// such tracks.
-pub fn lumen_level(scan: &Scan, tracks: &[Track], shapes: &[Option<Shape>]) -> Option<[f64; 2]> {
+pub(crate) fn lumen_level(scan: &Scan, tracks: &[Track], shapes: &[Option<Shape>]) -> Option<[f64; 2]> {
     let is_lumen = |track: &Track, shape: &Shape| {
         let is_even = !shape.is_marrow && shape.spread <= LUMEN_SPREAD;
         track.confidence >= LUMEN_CONFIDENCE && shape.elongation <= LUMEN_ELONGATION && is_even
@@ -145,7 +150,12 @@ pub fn lumen_level(scan: &Scan, tracks: &[Track], shapes: &[Option<Shape>]) -> O
 ///
 /// # Errors
 /// [`lumencut_core::error::ErrorKind::Interrupted`].
-pub fn judged(scan: &Scan, tracks: Vec<Track>, shapes: &[Option<Shape>], stop: Stop) -> Result<Vec<Track>> {
+pub(crate) fn judged(
+    scan: &Scan,
+    tracks: Vec<Track>,
+    shapes: &[Option<Shape>],
+    stop: Stop,
+) -> Result<Vec<Track>> {
     let counts: Vec<bool> =
         tracks.iter().zip(shapes).map(|(t, s)| s.is_some() && t.confidence >= LEAST_COUNTED).collect();
     let neighbours = beside(&tracks, &counts, stop)?;
@@ -163,7 +173,7 @@ pub fn judged(scan: &Scan, tracks: Vec<Track>, shapes: &[Option<Shape>], stop: S
 }
 
 /// The tracks to which some confidence is left.
-pub fn left(tracks: Vec<Track>) -> Vec<Track> {
+pub(crate) fn left(tracks: Vec<Track>) -> Vec<Track> {
     tracks.into_iter().filter(|track| track.confidence >= LEAST).collect()
 }
 

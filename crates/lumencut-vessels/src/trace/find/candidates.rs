@@ -50,7 +50,7 @@ const EVENEST_OF_NOISE: f64 = 0.855;
 
 /// A place where a tube may begin. Lengths are in voxels of the finest level.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Candidate {
+pub(crate) struct Candidate {
     /// The middle of its section.
     pub place: DVec3,
     /// Its direction (unit vector).
@@ -69,7 +69,7 @@ pub struct Candidate {
 
 /// The least that a tube must have, in the unit of the volume.
 #[derive(Clone, Copy, Debug)]
-pub struct Floors {
+pub(crate) struct Floors {
     /// The noise of the finest level that is looked at.
     pub noise: f64,
     /// The usual contrast of vessels; in the first pass a part of the range of values.
@@ -78,7 +78,7 @@ pub struct Floors {
 
 impl Floors {
     /// The least contrast of a section.
-    pub fn of_section(&self) -> f64 {
+    pub(crate) fn of_section(&self) -> f64 {
         (SECTION_NOISES * self.noise).max(SECTION_OF_CONTRAST * self.contrast)
     }
 }
@@ -87,7 +87,7 @@ impl Floors {
 ///
 /// # Errors
 /// [`lumencut_core::error::ErrorKind::Interrupted`].
-pub fn candidates(
+pub(crate) fn candidates(
     pyramid: &Pyramid,
     looked_at: &Range<usize>,
     floors: &Floors,
@@ -115,7 +115,7 @@ pub fn candidates(
 }
 
 /// The candidates within two radii of a place (voxels of the finest level), the most promising first.
-pub fn candidates_near(
+pub(crate) fn candidates_near(
     pyramid: &Pyramid,
     looked_at: &Range<usize>,
     floors: &Floors,
@@ -161,7 +161,7 @@ fn limits(level: &Level, number: usize, looked_at: &Range<usize>, floors: &Floor
 }
 
 /// The standard deviation of the noise of a level, from the spread of its brighter voxels where they are evenest.
-pub fn noise(level: &Level) -> f64 {
+pub(crate) fn noise(level: &Level) -> f64 {
     let [nx, ny, nz] = level.size;
     if level.size.iter().any(|n| *n < 3) {
         return 0.0;

@@ -12,7 +12,7 @@ use crate::voxels::Voxels;
 
 /// What the usual vessels of a scan are like, in the unit of the volume.
 #[derive(Clone, Copy, Debug)]
-pub struct UsualVessels {
+pub(crate) struct UsualVessels {
     /// Their level.
     pub level: f64,
     /// Their contrast.
@@ -58,12 +58,12 @@ struct Around {
 }
 
 /// A value between 0 and 1 as it passes from one limit to another.
-pub fn ramp(value: f64, from: f64, to: f64) -> f64 {
+pub(crate) fn ramp(value: f64, from: f64, to: f64) -> f64 {
     ((value - from) / (to - from)).clamp(0.0, 1.0)
 }
 
 /// How sure a track is, 0 to 1, and what speaks against it most. Its points are in voxels of the finest level.
-pub fn confidence(
+pub(crate) fn confidence(
     pyramid: &Pyramid,
     voxels: &Voxels,
     points: &[TrackPoint],

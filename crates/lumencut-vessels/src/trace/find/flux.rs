@@ -10,7 +10,7 @@ use lumencut_core::math::lanes::{Isa, Kernel, dispatch};
 
 /// The radii of the balls (voxels of the level): the finest level has the first three, others the second and the third, and the
 /// coarsest one the last two as well.
-pub const RADII: [f64; 4] = [1.0, 1.5, 2.1, 3.0];
+pub(crate) const RADII: [f64; 4] = [1.0, 1.5, 2.1, 3.0];
 
 /// The smoothing before: a Gaussian of 0.7 voxels.
 const SMOOTHING: [f32; 3] = [0.561_8, 0.202_5, 0.016_6];
@@ -21,14 +21,14 @@ const BLUR: f64 = 0.6;
 /// How far a ball reaches (voxels), and how far beyond a tile voxels are needed.
 const REACH: usize = 3;
 /// See `REACH`.
-pub const HALO: usize = 2 + REACH + 2;
+pub(crate) const HALO: usize = 2 + REACH + 2;
 
 /// A tube's weaker inflow is at least this share of the sum of its flows: less needs no eigenvalues.
 const LEAST_TRACE: f32 = 1.2;
 
 /// What each radius needs beside the ball.
 #[derive(Clone, Copy, Debug)]
-pub struct Gain {
+pub(crate) struct Gain {
     /// The response of a cylinder of the radius and of contrast 1 becomes 1 by this factor.
     pub factor: f32,
     /// The standard deviation of the response in noise of 1.
@@ -36,7 +36,7 @@ pub struct Gain {
 }
 
 /// The responses in a box of voxels: the strongest of all radii.
-pub struct Responses {
+pub(crate) struct Responses {
     /// The number of voxels along each axis.
     pub size: [usize; 3],
     /// The response of each voxel, a contrast; 0 where there is none.
@@ -50,7 +50,7 @@ pub struct Responses {
 }
 
 /// The responses of a box of voxels with radii of some numbers. Each of them is looked for above its own threshold.
-pub struct FluxOf<'a> {
+pub(crate) struct FluxOf<'a> {
     /// The values, with `HALO` voxels more on each side than there are responses.
     pub values: Vec<f32>,
     /// The number of values along each axis.
@@ -87,14 +87,14 @@ impl Kernel for FluxOf<'_> {
 
 impl FluxOf<'_> {
     /// The responses, by the widest instruction set there is.
-    pub fn responses(self) -> Responses {
+    pub(crate) fn responses(self) -> Responses {
         dispatch(Isa::widest(), self)
     }
 }
 
 impl Responses {
     /// The direction of the tube at a voxel: that in which the gradient flows inwards least.
-    pub fn direction(&self, voxel: [usize; 3]) -> [f64; 3] {
+    pub(crate) fn direction(&self, voxel: [usize; 3]) -> [f64; 3] {
         let radius = usize::from(self.radius[self.number(voxel)]);
         let average = self.averages.iter().find(|(number, _)| *number == radius);
         let Some((_, average)) = average else { return [0.0, 0.0, 1.0] };
@@ -105,7 +105,7 @@ impl Responses {
     }
 
     /// The number of a voxel of the box.
-    pub fn number(&self, [i, j, k]: [usize; 3]) -> usize {
+    pub(crate) fn number(&self, [i, j, k]: [usize; 3]) -> usize {
         i + self.size[0] * (j + self.size[1] * k)
     }
 }
@@ -260,7 +260,7 @@ fn along([xx, yy, zz, xy, xz, yz]: [f32; 6], value: f32) -> [f64; 3] {
 }
 
 /// The gains of all radii.
-pub fn gains() -> &'static [Gain; 4] {
+pub(crate) fn gains() -> &'static [Gain; 4] {
     static GAINS: OnceLock<[Gain; 4]> = OnceLock::new();
     GAINS.get_or_init(|| std::array::from_fn(gain))
 }

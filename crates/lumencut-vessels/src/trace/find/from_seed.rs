@@ -16,7 +16,7 @@ const FAINTER: f64 = 1.0 / 3.0;
 ///
 /// # Errors
 /// [`lumencut_core::error::ErrorKind::Interrupted`].
-pub fn from_seed(tracking: &Tracking, seed: DVec3, known: &[Track]) -> Result<Vec<Track>> {
+pub(crate) fn from_seed(tracking: &Tracking, seed: DVec3, known: &[Track]) -> Result<Vec<Track>> {
     if known.iter().any(|track| holds(track, seed)) {
         return Ok(Vec::new());
     }

@@ -14,7 +14,7 @@ const MOST_VOXELS: f64 = 160e6;
 
 /// Where the voxels of the grid lie.
 #[derive(Clone, Debug)]
-pub struct Grid {
+pub(crate) struct Grid {
     /// The number of voxels along each axis.
     pub size: [usize; 3],
     /// The side of a voxel (mm).
@@ -27,7 +27,7 @@ pub struct Grid {
 
 impl Grid {
     /// A grid over a volume, whose voxels have its mean side, or what the narrowest vessel (mm) needs where that is more.
-    pub fn over(voxels: &Voxels, smallest_radius: f64) -> Self {
+    pub(crate) fn over(voxels: &Voxels, smallest_radius: f64) -> Self {
         let matrix = voxels.world_from_index.matrix3;
         let axes = square(matrix);
         let corners = corners(voxels, axes);
@@ -44,12 +44,12 @@ impl Grid {
     }
 
     /// The world position (mm, LPS) of a place in the grid.
-    pub fn world(&self, place: DVec3) -> DVec3 {
+    pub(crate) fn world(&self, place: DVec3) -> DVec3 {
         self.world_from_grid.transform_point3(place)
     }
 
     /// Whether a place lies in some voxel of the grid.
-    pub fn holds(&self, place: DVec3) -> bool {
+    pub(crate) fn holds(&self, place: DVec3) -> bool {
         (0..3).all(|a| place[a] >= -0.5 && place[a] <= self.size[a] as f64 - 0.5)
     }
 }

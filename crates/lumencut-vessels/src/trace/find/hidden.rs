@@ -20,7 +20,7 @@ const NARROWER: f64 = 0.5;
 ///
 /// # Errors
 /// [`lumencut_core::error::ErrorKind::Interrupted`].
-pub fn hidden(
+pub(crate) fn hidden(
     tracking: &Tracking,
     candidates: &[Candidate],
     tracks: &[Track],

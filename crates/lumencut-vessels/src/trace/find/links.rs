@@ -3,13 +3,13 @@
 //! Each end is linked with the cheapest place of another track ahead. Then ends and sides are linked with other trees alone, and
 //! with stricter limits: where two trees come from one short trunk their nearest ends belong to themselves.
 
-pub mod bridges;
-pub mod ends;
-pub mod groups;
-pub mod landings;
-pub mod link;
-pub mod sides;
-pub mod way_level;
+pub(crate) mod bridges;
+pub(crate) mod ends;
+pub(crate) mod groups;
+pub(crate) mod landings;
+pub(crate) mod link;
+pub(crate) mod sides;
+pub(crate) mod way_level;
 
 use rayon::prelude::*;
 
@@ -32,7 +32,7 @@ const ROUNDS: usize = 2;
 ///
 /// # Errors
 /// [`lumencut_core::error::ErrorKind::Interrupted`].
-pub fn between(scan: &Scan, tracks: &[Track], stop: Stop, stages: Stages) -> Result<Vec<Link>> {
+pub(crate) fn between(scan: &Scan, tracks: &[Track], stop: Stop, stages: Stages) -> Result<Vec<Link>> {
     let landings = Landings::new(scan, tracks);
     let ends = ends(tracks);
     // Ends are looked at three times, and the sides of tracks once.

@@ -10,7 +10,7 @@ const BITS: u32 = 4;
 
 /// What is painted in a voxel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Painted {
+pub(crate) enum Painted {
     /// Nothing.
     Empty,
     /// The lumen of a track.
@@ -25,13 +25,13 @@ const REJECTED: u32 = u32::MAX - 1;
 
 /// The voxels of the finest level that are painted.
 #[derive(Default)]
-pub struct Paint {
+pub(crate) struct Paint {
     blocks: HashMap<[i32; 3], Box<[u32]>>,
 }
 
 impl Paint {
     /// What is painted at a place (voxels of the finest level).
-    pub fn at(&self, place: DVec3) -> Painted {
+    pub(crate) fn at(&self, place: DVec3) -> Painted {
         let voxel = place.round().to_array().map(|c| c as i32);
         let number = self.blocks.get(&voxel.map(|c| c >> BITS)).map_or(EMPTY, |block| block[inside(voxel)]);
         match number {
@@ -42,7 +42,7 @@ impl Paint {
     }
 
     /// Paints the lumen of a track around one of its points, over whatever `gives_way` allows.
-    pub fn lumen(&mut self, track: u32, center: DVec3, radius: f64, gives_way: &dyn Fn(u32) -> bool) {
+    pub(crate) fn lumen(&mut self, track: u32, center: DVec3, radius: f64, gives_way: &dyn Fn(u32) -> bool) {
         self.ball(center, radius, &mut |number| {
             if *number >= REJECTED || (*number != track && gives_way(*number)) {
                 *number = track;
@@ -51,7 +51,7 @@ impl Paint {
     }
 
     /// Paints the middle of a track that is no vessel.
-    pub fn rejected(&mut self, center: DVec3, radius: f64) {
+    pub(crate) fn rejected(&mut self, center: DVec3, radius: f64) {
         self.ball(center, radius, &mut |number| {
             if *number == EMPTY {
                 *number = REJECTED;

@@ -7,7 +7,7 @@ const BITS: u32 = 21;
 const MOST: f64 = ((1_u64 << BITS) - 1) as f64;
 
 /// Points in cubes of one size.
-pub struct PointGrid {
+pub(crate) struct PointGrid {
     places: Vec<DVec3>,
     /// The cell of each point and its number, in the order of the cells; points of a cell in their own order.
     cells: Vec<(u64, u32)>,
@@ -18,7 +18,7 @@ pub struct PointGrid {
 
 impl PointGrid {
     /// Points in cells with sides of `side` (mm).
-    pub fn new(places: Vec<DVec3>, side: f64) -> Self {
+    pub(crate) fn new(places: Vec<DVec3>, side: f64) -> Self {
         let first = places.first().copied().unwrap_or_default();
         let low = places.iter().copied().fold(first, DVec3::min);
         let high = places.iter().copied().fold(first, DVec3::max);
@@ -30,7 +30,7 @@ impl PointGrid {
     }
 
     /// Tells of each point at most `reach` (mm) from a place, always in the same order.
-    pub fn near(&self, place: DVec3, reach: f64, mut told: impl FnMut(usize)) {
+    pub(crate) fn near(&self, place: DVec3, reach: f64, mut told: impl FnMut(usize)) {
         let [first, last] = [-reach, reach].map(|way| self.cell(place + way));
         for z in first[2]..=last[2] {
             for y in first[1]..=last[1] {

@@ -26,7 +26,7 @@ const FULL: f32 = 65_535.0;
 
 /// The volume at one size.
 #[derive(Clone, Debug)]
-pub struct Level {
+pub(crate) struct Level {
     /// The number of voxels along each axis.
     pub size: [usize; 3],
     /// The side of its voxels, in voxels of the finest level.
@@ -41,7 +41,7 @@ pub struct Level {
 
 /// The levels, the finest first.
 #[derive(Debug)]
-pub struct Pyramid {
+pub(crate) struct Pyramid {
     /// Where the voxels of the finest level lie.
     pub grid: Grid,
     /// The levels.
@@ -51,7 +51,7 @@ pub struct Pyramid {
 impl Level {
     /// The value at a place in the grid of the finest level, trilinear; beyond the outermost voxels theirs.
     #[inline]
-    pub fn at(&self, place: DVec3) -> f32 {
+    pub(crate) fn at(&self, place: DVec3) -> f32 {
         let scale = 1.0 / self.side;
         let (mut first, mut share) = ([0_usize; 3], [0.0_f32; 3]);
         for a in 0..3 {
@@ -79,7 +79,7 @@ impl Level {
 
     /// The values at some places in voxels of this level, trilinear; beyond the outermost voxels theirs.
     #[inline(always)]
-    pub fn at_lanes<const N: usize>(&self, places: &[[f32; N]; 3]) -> [f32; N] {
+    pub(crate) fn at_lanes<const N: usize>(&self, places: &[[f32; N]; 3]) -> [f32; N] {
         let (mut first, mut share) = ([0_u32; N], [[0.0_f32; N]; 3]);
         let strides = [1, self.size[0], self.size[0] * self.size[1]];
         for a in 0..3 {
@@ -179,7 +179,7 @@ impl Pyramid {
     ///
     /// # Errors
     /// [`lumencut_core::error::ErrorKind::Interrupted`].
-    pub fn new(voxels: &Voxels, grid: Grid, range: [f64; 2], stop: Stop) -> Result<Self> {
+    pub(crate) fn new(voxels: &Voxels, grid: Grid, range: [f64; 2], stop: Stop) -> Result<Self> {
         let finest = finest(voxels, &grid, range, stop)?;
         let mut pyramid = Self { grid, levels: vec![finest] };
         pyramid.halve(stop)?;
@@ -190,7 +190,7 @@ impl Pyramid {
     ///
     /// # Errors
     /// [`lumencut_core::error::ErrorKind::Interrupted`].
-    pub fn clamp(&mut self, highest: f64, stop: Stop) -> Result<()> {
+    pub(crate) fn clamp(&mut self, highest: f64, stop: Stop) -> Result<()> {
         self.levels.truncate(1);
         self.levels[0].clamp(highest);
         self.halve(stop)
@@ -212,14 +212,14 @@ impl Pyramid {
 
     /// The level at which a tube of a radius (voxels of the finest level) is looked at, of those that are looked at: the finest
     /// where it is narrower than four voxels.
-    pub fn level_for(&self, radius: f64, looked_at: &Range<usize>) -> &Level {
+    pub(crate) fn level_for(&self, radius: f64, looked_at: &Range<usize>) -> &Level {
         let last = looked_at.end - 1;
         let number = (looked_at.start..last).find(|n| radius < WIDE * self.levels[*n].side).unwrap_or(last);
         &self.levels[number]
     }
 
     /// All levels.
-    pub fn all(&self) -> Range<usize> {
+    pub(crate) fn all(&self) -> Range<usize> {
         0..self.levels.len()
     }
 }

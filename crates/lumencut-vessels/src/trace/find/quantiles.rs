@@ -4,19 +4,19 @@
 //! on less than it should, and METHOD.md says so.
 
 /// The value at a share of the way from the least to the greatest one, the nearest in rank; none of no values.
-pub fn quantile(values: &mut [f64], share: f64) -> Option<f64> {
+pub(crate) fn quantile(values: &mut [f64], share: f64) -> Option<f64> {
     let last = values.len().checked_sub(1)?;
     let rank = (last as f64 * share).round() as usize;
     Some(*values.select_nth_unstable_by(rank, f64::total_cmp).1)
 }
 
 /// The median, of an even number of values the upper one of the middle; none of no values.
-pub fn median(values: &mut [f64]) -> Option<f64> {
+pub(crate) fn median(values: &mut [f64]) -> Option<f64> {
     quantile(values, 0.5)
 }
 
 /// The median, of an even number of values the lower one of the middle; none of no values.
-pub fn lower_median(values: &mut [f64]) -> Option<f64> {
+pub(crate) fn lower_median(values: &mut [f64]) -> Option<f64> {
     let last = values.len().checked_sub(1)?;
     Some(*values.select_nth_unstable_by(last / 2, f64::total_cmp).1)
 }

@@ -5,7 +5,7 @@ use glam::DVec3;
 use crate::voxels::Voxels;
 
 /// A scan whose vessels are being found.
-pub struct Scan<'v> {
+pub(crate) struct Scan<'v> {
     /// Its voxels, in their own grid and unit.
     pub voxels: &'v Voxels<'v>,
     /// The side of the isotropic voxels in which tubes are found (mm).
@@ -24,7 +24,7 @@ pub struct Scan<'v> {
 
 impl Scan<'_> {
     /// The value at a place (mm, LPS), trilinear, not below `lowest`; NaN outside.
-    pub fn value(&self, place: DVec3) -> f64 {
+    pub(crate) fn value(&self, place: DVec3) -> f64 {
         let value = f64::from(self.voxels.at(place));
         if value < self.lowest { self.lowest } else { value }
     }

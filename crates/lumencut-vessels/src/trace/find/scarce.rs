@@ -28,7 +28,7 @@ const BLOOD: f64 = 75.0;
 
 /// Whether a scan shows vessels as an angiography does: its sure tracks that are long and round have together the length of an
 /// angiography, and as a CT its vessels are brighter than blood without contrast medium.
-pub fn is_angiography(scan: &Scan, tracks: &[Track], shapes: &[Option<Shape>]) -> bool {
+pub(crate) fn is_angiography(scan: &Scan, tracks: &[Track], shapes: &[Option<Shape>]) -> bool {
     let diagonal = diagonal(scan.voxels);
     let length = |(track, shape): (&Track, &Option<Shape>)| {
         let length = track.length();
@@ -47,7 +47,7 @@ pub fn is_angiography(scan: &Scan, tracks: &[Track], shapes: &[Option<Shape>]) -
 
 /// The same vessels: those of short parts doubtful, and all where the scan is no angiography or no part of them has
 /// sure vessels as long as those of one.
-pub fn doubted_where_scarce(
+pub(crate) fn doubted_where_scarce(
     voxels: &Voxels,
     mut vessels: Vec<FoundVessel>,
     is_angiography: bool,

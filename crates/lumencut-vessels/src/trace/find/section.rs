@@ -29,7 +29,7 @@ const FAR_WALL: f64 = 1.6;
 const FARTHEST: f64 = 1.5;
 
 /// Bone may touch a tube that is no wider (voxels of the finest level).
-pub const TOUCHED: f64 = 3.0;
+pub(crate) const TOUCHED: f64 = 3.0;
 
 /// Beside bone a ray ends where it is darkest before it is brighter than the lumen by this part of the contrast: a wall between lumen
 /// and bone is too thin to be seen whole. Up to so many rays of that kind are not asked for contrast.
@@ -38,7 +38,7 @@ const MOST_BONE: usize = 4;
 
 /// What a cross-section shows. Lengths are in voxels of the finest level, values in the unit of the volume.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Section {
+pub(crate) struct Section {
     /// The level of the lumen.
     pub level: f64,
     /// How far it lies above the tissue around it.
@@ -54,19 +54,19 @@ pub struct Section {
 }
 
 /// Two unit vectors across a direction.
-pub fn across(direction: DVec3) -> [DVec3; 2] {
+pub(crate) fn across(direction: DVec3) -> [DVec3; 2] {
     let first = direction.any_orthonormal_vector();
     [first, direction.cross(first)]
 }
 
 impl Section {
     /// Looks at a tube of about a radius across its direction.
-    pub fn look(level: &Level, place: DVec3, direction: DVec3, radius: f64) -> Self {
+    pub(crate) fn look(level: &Level, place: DVec3, direction: DVec3, radius: f64) -> Self {
         Walls::seen(level, place, direction, radius).section()
     }
 
     /// The same of a tube that bone may touch: what is brighter than the lumen ends it as well.
-    pub fn beside_bone(level: &Level, place: DVec3, direction: DVec3, radius: f64) -> Self {
+    pub(crate) fn beside_bone(level: &Level, place: DVec3, direction: DVec3, radius: f64) -> Self {
         Walls::seen(level, place, direction, radius).ending_at_bone().section()
     }
 }

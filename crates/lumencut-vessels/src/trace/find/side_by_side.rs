@@ -38,7 +38,11 @@ const WITHIN: f64 = 1.15;
 ///
 /// # Errors
 /// [`lumencut_core::error::ErrorKind::Interrupted`].
-pub fn side_by_side(tracking: &Tracking, candidates: &[Candidate], tracks: &[Track]) -> Result<Vec<Track>> {
+pub(crate) fn side_by_side(
+    tracking: &Tracking,
+    candidates: &[Candidate],
+    tracks: &[Track],
+) -> Result<Vec<Track>> {
     let end = tracking.looked_at.end.saturating_sub(COARSE_LEVELS).max(tracking.looked_at.start + 1);
     let fine = Tracking { looked_at: tracking.looked_at.start..end, stages: Stages::default(), ..*tracking };
     let wide: Vec<TrackPoint> = tracks

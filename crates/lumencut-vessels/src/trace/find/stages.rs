@@ -6,7 +6,7 @@ use lumencut_core::progress::Progress;
 
 /// A stage of finding vessels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Stage {
+pub(crate) enum Stage {
     /// The levels of detail are made.
     Levels,
     /// A first pass tells the usual level of vessels.
@@ -31,11 +31,11 @@ const PARTS: usize = 1000;
 
 /// Tells how far the work is, where anybody asks.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Stages<'a>(Option<&'a Progress>);
+pub(crate) struct Stages<'a>(Option<&'a Progress>);
 
 impl<'a> Stages<'a> {
     /// Nothing is done yet.
-    pub fn begin(progress: Option<&'a Progress>) -> Self {
+    pub(crate) fn begin(progress: Option<&'a Progress>) -> Self {
         if let Some(progress) = progress {
             progress.expect_views(1);
             progress.begin_view(COSTS.into_iter(), PARTS);
@@ -44,7 +44,7 @@ impl<'a> Stages<'a> {
     }
 
     /// A stage of so many equal pieces of work begins.
-    pub fn stage(self, stage: Stage, pieces: usize) -> Pieces<'a> {
+    pub(crate) fn stage(self, stage: Stage, pieces: usize) -> Pieces<'a> {
         if let Some(progress) = self.0 {
             progress.begin_stage(COSTS[stage as usize]);
         }
@@ -52,7 +52,7 @@ impl<'a> Stages<'a> {
     }
 
     /// All is done.
-    pub fn end(self) {
+    pub(crate) fn end(self) {
         if let Some(progress) = self.0 {
             progress.end_view();
         }
@@ -61,7 +61,7 @@ impl<'a> Stages<'a> {
 
 /// The pieces of work of a stage.
 #[derive(Debug)]
-pub struct Pieces<'a> {
+pub(crate) struct Pieces<'a> {
     told: Stages<'a>,
     all: usize,
     done: AtomicUsize,
@@ -69,7 +69,7 @@ pub struct Pieces<'a> {
 
 impl Pieces<'_> {
     /// So many further pieces are done.
-    pub fn done(&self, count: usize) {
+    pub(crate) fn done(&self, count: usize) {
         let before = self.done.fetch_add(count, Ordering::Relaxed);
         let parts = |pieces: usize| PARTS * pieces.min(self.all) / self.all;
         if let Some(progress) = self.told.0 {

@@ -49,17 +49,17 @@ const GAP_VOXELS: f64 = 3.0;
 const DARK: f64 = 0.6;
 
 /// A track ends in one that is not darker by more than this part of its contrast.
-pub const DARKER: f64 = 0.35;
+pub(crate) const DARKER: f64 = 0.35;
 
 /// The most steps each way.
-pub const MOST_STEPS: usize = 20_000;
+pub(crate) const MOST_STEPS: usize = 20_000;
 
 /// A track has come back to itself where it is within this many radii of a point that lies so many radii behind along it.
 const RETURNED: f64 = 0.8;
 const BEHIND: f64 = 4.0;
 
 /// What a track is followed in. Lengths are in voxels of the finest level.
-pub struct Tracker<'a> {
+pub(crate) struct Tracker<'a> {
     /// The levels.
     pub pyramid: &'a Pyramid,
     /// The levels that are looked at.
@@ -99,7 +99,7 @@ type Look = fn(&Level, DVec3, DVec3, f64) -> Section;
 impl Tracker<'_> {
     /// The points of the track through a candidate, in voxels of the finest level; none where its section is not good.
     /// It has at most `most_steps` steps each way.
-    pub fn track(&self, from: &Candidate, most_steps: usize) -> Option<Vec<TrackPoint>> {
+    pub(crate) fn track(&self, from: &Candidate, most_steps: usize) -> Option<Vec<TrackPoint>> {
         let level = self.pyramid.level_for(from.radius, &self.looked_at);
         let section = Section::look(level, from.place, from.direction, from.radius);
         let contrast = section.contrast;

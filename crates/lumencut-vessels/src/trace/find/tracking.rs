@@ -52,7 +52,7 @@ const NEAR_VOXELS: f64 = 8.0;
 const MOST_LOOKED_AT: usize = 128;
 
 /// How candidates become tracks.
-pub struct Tracking<'a> {
+pub(crate) struct Tracking<'a> {
     /// The levels.
     pub pyramid: &'a Pyramid,
     /// The numbers of those that are looked at.
@@ -96,7 +96,7 @@ impl Tracking<'_> {
     ///
     /// # Errors
     /// [`lumencut_core::error::ErrorKind::Interrupted`].
-    pub fn candidates(&self) -> Result<Vec<Candidate>> {
+    pub(crate) fn candidates(&self) -> Result<Vec<Candidate>> {
         candidates(self.pyramid, &self.looked_at, &self.floors, self.stop, self.stages)
     }
 
@@ -110,7 +110,7 @@ impl Tracking<'_> {
     ///
     /// # Errors
     /// [`lumencut_core::error::ErrorKind::Interrupted`].
-    pub fn tracks(&self, candidates: &[Candidate]) -> Result<Vec<Track>> {
+    pub(crate) fn tracks(&self, candidates: &[Candidate]) -> Result<Vec<Track>> {
         self.tracks_beside(&[], candidates)
     }
 
@@ -118,7 +118,7 @@ impl Tracking<'_> {
     ///
     /// # Errors
     /// [`lumencut_core::error::ErrorKind::Interrupted`].
-    pub fn tracks_beside(&self, known: &[Track], candidates: &[Candidate]) -> Result<Vec<Track>> {
+    pub(crate) fn tracks_beside(&self, known: &[Track], candidates: &[Candidate]) -> Result<Vec<Track>> {
         let Known { mut paint, mut found, mut levels } = self.known(known);
         let (mut next, mut waiting) = (0, VecDeque::new());
         let pieces = self.stages.stage(Stage::Tracks, candidates.len());
@@ -148,7 +148,7 @@ impl Tracking<'_> {
     }
 
     /// The lumens of some tracks.
-    pub fn painted(&self, tracks: &[Track]) -> Paint {
+    pub(crate) fn painted(&self, tracks: &[Track]) -> Paint {
         self.known(tracks).paint
     }
 

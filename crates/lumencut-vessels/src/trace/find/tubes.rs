@@ -37,7 +37,7 @@ const ABOVE: f64 = 0.25;
 const FIRST_CONTRAST: f64 = 0.3;
 
 /// The tubes of a scan, and what is known of its vessels.
-pub struct Tubes<'v> {
+pub(crate) struct Tubes<'v> {
     /// What is known of the scan.
     pub scan: Scan<'v>,
     /// Its tubes as tracks.
@@ -50,7 +50,7 @@ pub struct Tubes<'v> {
 ///
 /// # Errors
 /// [`lumencut_core::error::ErrorKind::Interrupted`].
-pub fn tubes<'v>(
+pub(crate) fn tubes<'v>(
     voxels: &'v Voxels<'v>,
     seed: Option<DVec3>,
     request: &FindRequest,

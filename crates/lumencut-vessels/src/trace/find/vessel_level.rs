@@ -25,7 +25,7 @@ struct Tube {
 
 /// The usual level of vessels and their contrast: the most frequent ones of the tubes, by length, width and contrast. None
 /// without tubes.
-pub fn vessel_level(tracks: &[Vec<TrackPoint>], noise: f64) -> Option<[f64; 2]> {
+pub(crate) fn vessel_level(tracks: &[Vec<TrackPoint>], noise: f64) -> Option<[f64; 2]> {
     let strict: Vec<Tube> = tracks.iter().filter_map(|points| tube(points, noise, true)).collect();
     let tubes = if strict.is_empty() {
         tracks.iter().filter_map(|points| tube(points, noise, false)).collect()

@@ -3,17 +3,17 @@
 //! Tracks and links are a graph. From the root of each part runs go on with what is straightest and widest; each moves to the
 //! middle of its lumen, and begins and ends on points of the runs that it meets.
 
-pub mod attached;
-pub mod centered;
-pub mod closed;
-pub mod graph;
-pub mod outlook;
-pub mod roots;
-pub mod runs;
-pub mod stubs;
-pub mod sure;
-pub mod trimmed;
-pub mod way;
+pub(crate) mod attached;
+pub(crate) mod centered;
+pub(crate) mod closed;
+pub(crate) mod graph;
+pub(crate) mod outlook;
+pub(crate) mod roots;
+pub(crate) mod runs;
+pub(crate) mod stubs;
+pub(crate) mod sure;
+pub(crate) mod trimmed;
+pub(crate) mod way;
 
 use rayon::prelude::*;
 
@@ -38,7 +38,7 @@ use lumencut_core::stop::go_on;
 ///
 /// # Errors
 /// [`lumencut_core::error::ErrorKind::Interrupted`].
-pub fn of(
+pub(crate) fn of(
     scan: &Scan,
     tracks: &[Track],
     links: &[Link],

@@ -8,7 +8,7 @@ use glam::{DMat3, DVec3};
 const ROUNDS: usize = 50;
 
 /// So many unit vectors, spread evenly over half a sphere by the golden angle.
-pub fn half_sphere(count: u32) -> impl Iterator<Item = DVec3> {
+pub(crate) fn half_sphere(count: u32) -> impl Iterator<Item = DVec3> {
     let golden = PI * (3.0 - 5.0_f64.sqrt());
     (0..count).map(move |n| {
         let z = (f64::from(n) + 0.5) / f64::from(count);
@@ -20,7 +20,7 @@ pub fn half_sphere(count: u32) -> impl Iterator<Item = DVec3> {
 
 /// The axis along which weighted directions are spread most (a unit vector), found by power iteration from `start`; none where all
 /// weights are 0.
-pub fn longest_axis(weighted: impl Iterator<Item = (DVec3, f64)>, start: DVec3) -> Option<DVec3> {
+pub(crate) fn longest_axis(weighted: impl Iterator<Item = (DVec3, f64)>, start: DVec3) -> Option<DVec3> {
     let spread = weighted.fold(DMat3::ZERO, |sum, (way, weight)| {
         sum + DMat3::from_cols(way * way.x, way * way.y, way * way.z) * weight
     });

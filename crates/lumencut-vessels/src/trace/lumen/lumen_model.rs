@@ -68,13 +68,13 @@ impl LumenModel {
 const ABOVE_IS_NOT: f64 = 0.88;
 
 /// The value below which a share of some values lies, which are sorted; no number of none.
-pub fn quantile(sorted: &[f32], share: f64) -> f64 {
+pub(crate) fn quantile(sorted: &[f32], share: f64) -> f64 {
     let last = sorted.len().saturating_sub(1) as f64;
     sorted.get((last * share).round() as usize).map_or(f64::NAN, |value| f64::from(*value))
 }
 
 /// The noise of values beside each other, as neighbours differ where they differ little: most are not at the edge of a vessel.
-pub fn noise_of(neighbours: &[f32]) -> f64 {
+pub(crate) fn noise_of(neighbours: &[f32]) -> f64 {
     let mut steps: Vec<f32> = neighbours.windows(2).map(|pair| (pair[1] - pair[0]).abs()).collect();
     steps.retain(|step| step.is_finite());
     steps.sort_unstable_by(f32::total_cmp);
@@ -83,7 +83,7 @@ pub fn noise_of(neighbours: &[f32]) -> f64 {
 }
 
 /// The tissue around the lumen: bright for what is not lumen. Its values are sorted.
-pub fn tissue_level(tissue: &[f32], clicks: &[f64]) -> f64 {
+pub(crate) fn tissue_level(tissue: &[f32], clicks: &[f64]) -> f64 {
     let median = quantile(tissue, 0.5);
     let values: Vec<f64> = clicks.iter().copied().filter(|value| value.is_finite()).collect();
     let lumen = if values.is_empty() { median } else { lower_median(values) };
@@ -93,12 +93,12 @@ pub fn tissue_level(tissue: &[f32], clicks: &[f64]) -> f64 {
 }
 
 /// The median, of an even number of values the lower one of the middle; not of none.
-pub fn lower_median(mut values: Vec<f64>) -> f64 {
+pub(crate) fn lower_median(mut values: Vec<f64>) -> f64 {
     values.sort_unstable_by(f64::total_cmp);
     values[(values.len() - 1) / 2]
 }
 
 /// A position in words.
-pub fn in_words(place: DVec3) -> String {
+pub(crate) fn in_words(place: DVec3) -> String {
     format!("({:.1}, {:.1}, {:.1}) mm", place.x, place.y, place.z)
 }

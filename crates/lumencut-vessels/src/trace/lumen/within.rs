@@ -10,7 +10,7 @@ use crate::trace::lumen::refine::STEP;
 const ENDS: f64 = 0.3;
 
 /// Whether a place (mm, LPS) lies within the lumen of a vessel; beyond its ends there is no lumen.
-pub fn holds(vessel: &Centerline, place: DVec3) -> bool {
+pub(crate) fn holds(vessel: &Centerline, place: DVec3) -> bool {
     let points = &vessel.points;
     let near = nearest_point(points, place);
     let across = place - points[near];

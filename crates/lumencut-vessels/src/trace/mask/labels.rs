@@ -17,7 +17,7 @@ struct LabelRun {
 }
 
 /// A vessel in parts of one label each; parts that follow each other share a point.
-pub fn parted(vessel: &MaskVessel, mask: &Volume, labels: Option<&[i64]>) -> Vec<MaskVessel> {
+pub(crate) fn parted(vessel: &MaskVessel, mask: &Volume, labels: Option<&[i64]>) -> Vec<MaskVessel> {
     let ways = arc_lengths(&vessel.points);
     let mut runs = runs(vessel, mask, labels);
     let shortest = SHORTEST * vessel.mean_radius();

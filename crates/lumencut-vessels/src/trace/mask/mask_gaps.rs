@@ -29,7 +29,7 @@ pub struct Gap {
 ///
 /// # Errors
 /// [`lumencut_core::error::ErrorKind::Interrupted`] where `stop` says so.
-pub fn gaps(vessels: &[MaskVessel], stop: Stop) -> Result<Vec<Gap>> {
+pub(crate) fn gaps(vessels: &[MaskVessel], stop: Stop) -> Result<Vec<Gap>> {
     let piece_of = piece_of(vessels);
     let mut narrowest: HashMap<[usize; 2], Gap> = HashMap::new();
     for (number, vessel) in vessels.iter().enumerate() {
@@ -62,7 +62,7 @@ pub fn gaps(vessels: &[MaskVessel], stop: Stop) -> Result<Vec<Gap>> {
 }
 
 /// Adds a straight vessel over each gap that is no wider than `widest` (mm), with points at most `step` (mm) apart.
-pub fn bridge(vessels: &mut Vec<MaskVessel>, gaps: &mut [Gap], widest: f64, step: f64) {
+pub(crate) fn bridge(vessels: &mut Vec<MaskVessel>, gaps: &mut [Gap], widest: f64, step: f64) {
     for gap in gaps.iter_mut().filter(|gap| gap.width <= widest) {
         let [from, to] = gap.points;
         let count = (from.distance(to) / step).ceil().max(1.0) as usize;

@@ -27,14 +27,14 @@ const LEAST_ROOM: f64 = 0.8;
 
 /// Whether the first and the last point of a line end on another line, within whose lumen the branch has no
 /// cross-sections of its own.
-pub type OnOther = [Option<f64>; 2];
+pub(crate) type OnOther = [Option<f64>; 2];
 
 /// Moves a line into the middle of the lumen. `on_other` holds, for each end that lies on another line, the radius
 /// there.
 ///
 /// # Errors
 /// [`lumencut_core::error::ErrorKind::Interrupted`] where `stop` says so.
-pub fn center(line: &mut ThroughLine, lumen: &Lumen, on_other: OnOther, stop: Stop) -> Result<()> {
+pub(crate) fn center(line: &mut ThroughLine, lumen: &Lumen, on_other: OnOther, stop: Stop) -> Result<()> {
     let closed = line.is_closed;
     let radii: Vec<f64> =
         line.points.iter().map(|point| lumen.radius(*point).max(lumen.side() / 2.0)).collect();
@@ -99,7 +99,7 @@ fn way_inwards(radius: impl Fn(f64) -> f64, step: f64, limit: f64) -> f64 {
 
 /// Leads the first point of a line out to the wall, straight on from one radius before it. `most` is how much of the line
 /// may be given up for that (mm).
-pub fn lead_to_cap(points: &mut Vec<DVec3>, lumen: &Lumen, most: f64) {
+pub(crate) fn lead_to_cap(points: &mut Vec<DVec3>, lumen: &Lumen, most: f64) {
     let ways = arc_lengths(points);
     let whole = ways[ways.len() - 1];
     let inner = |way: f64| lumen.radius(point_at(points, &ways, way));

@@ -10,7 +10,7 @@ use crate::trace::skeleton::foreground::Foreground;
 
 /// A line of voxels between two nodes, which may be the same one.
 #[derive(Clone, Debug)]
-pub struct Branch {
+pub(crate) struct Branch {
     /// The nodes at its start and its end.
     pub nodes: [usize; 2],
     /// The cells from its start to its end, both included; at least two.
@@ -18,7 +18,7 @@ pub struct Branch {
 }
 
 /// Branches and the nodes in which they end.
-pub struct Graph {
+pub(crate) struct Graph {
     /// The cell of each node.
     pub nodes: Vec<u32>,
     /// The branches; `None` for one that was removed.
@@ -29,7 +29,7 @@ pub struct Graph {
 
 impl Graph {
     /// The graph of the lines of voxels that [`crate::trace::skeleton::thinning::thin`] left; `skeleton` lists their cells.
-    pub fn new(foreground: &Foreground, skeleton: &[u32]) -> Self {
+    pub(crate) fn new(foreground: &Foreground, skeleton: &[u32]) -> Self {
         let mut cells = skeleton.to_vec();
         cells.sort_unstable();
         let links = links(foreground, &cells);
@@ -89,7 +89,7 @@ impl Graph {
     }
 
     /// Adds a branch.
-    pub fn add(&mut self, branch: Branch) {
+    pub(crate) fn add(&mut self, branch: Branch) {
         for node in branch.nodes {
             self.incident[node].push(self.branches.len());
         }
@@ -97,7 +97,7 @@ impl Graph {
     }
 
     /// Takes a branch out of the graph.
-    pub fn remove(&mut self, number: usize) -> Option<Branch> {
+    pub(crate) fn remove(&mut self, number: usize) -> Option<Branch> {
         let branch = self.branches[number].take()?;
         for node in branch.nodes {
             self.incident[node].retain(|&other| other != number);
@@ -106,7 +106,7 @@ impl Graph {
     }
 
     /// Makes one branch of the two that meet in a node where nothing else ends.
-    pub fn join_at(&mut self, node: usize) {
+    pub(crate) fn join_at(&mut self, node: usize) {
         let [a, b] = self.incident[node][..] else { return };
         if a == b {
             return;
@@ -123,7 +123,7 @@ impl Graph {
     }
 
     /// The number of independent cycles.
-    pub fn cycles(&self) -> usize {
+    pub(crate) fn cycles(&self) -> usize {
         let mut parent: Vec<usize> = (0..self.nodes.len()).collect();
         let mut cycles = 0;
         for branch in self.branches.iter().flatten() {
@@ -137,7 +137,7 @@ impl Graph {
 
 impl Branch {
     /// Turns the branch round.
-    pub fn reverse(&mut self) {
+    pub(crate) fn reverse(&mut self) {
         self.nodes.reverse();
         self.cells.reverse();
     }

@@ -6,7 +6,7 @@ use lumencut_core::volume::{Volume, Voxels};
 const LARGEST_FLOAT: f64 = 16_777_216.0;
 
 /// Values that stand for labels.
-pub trait LabelValue: Sized {
+pub(crate) trait LabelValue: Sized {
     /// Whether every value is a whole number.
     const IS_WHOLE: bool;
 
@@ -53,7 +53,7 @@ macro_rules! float_label_values {
 float_label_values!(f32, f64);
 
 /// The value of the voxel at an index.
-pub fn label_at(mask: &Volume, index: [usize; 3]) -> i64 {
+pub(crate) fn label_at(mask: &Volume, index: [usize; 3]) -> i64 {
     let place: usize = (0..3).map(|a| index[a] * mask.strides()[a]).sum();
     match mask.voxels() {
         #[cfg(not(target_arch = "wasm32"))]

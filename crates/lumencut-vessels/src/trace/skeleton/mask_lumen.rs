@@ -19,7 +19,7 @@ const LONGEST_RAY: f64 = 1.5;
 const WALL: f64 = 0.499;
 
 /// A mask with its distances to the background.
-pub struct Lumen<'a> {
+pub(crate) struct Lumen<'a> {
     squares: &'a [f32],
     size: [usize; 3],
     world_from_index: DAffine3,
@@ -30,7 +30,7 @@ pub struct Lumen<'a> {
 
 /// A cross-section: its centre of gravity, and the radius of the circle with the same area (mm).
 #[derive(Clone, Copy, Debug)]
-pub struct MaskSection {
+pub(crate) struct MaskSection {
     /// The centre of gravity.
     pub center: DVec3,
     /// The radius of a circle of the same area.
@@ -41,7 +41,7 @@ pub struct MaskSection {
 
 impl<'a> Lumen<'a> {
     /// The lumen of a grid with its squared distances.
-    pub fn new(foreground: &Foreground, squares: &'a [f32]) -> Self {
+    pub(crate) fn new(foreground: &Foreground, squares: &'a [f32]) -> Self {
         let world_from_index = foreground.world_from_index;
         let diagonals = [[1.0, 1.0, 1.0], [-1.0, 1.0, 1.0], [1.0, -1.0, 1.0], [1.0, 1.0, -1.0]]
             .map(|d| world_from_index.transform_vector3(DVec3::from_array(d)).length());
@@ -56,12 +56,12 @@ impl<'a> Lumen<'a> {
     }
 
     /// The smallest side of a voxel (mm).
-    pub fn side(&self) -> f64 {
+    pub(crate) fn side(&self) -> f64 {
         self.side
     }
 
     /// The centres of cells (mm, LPS).
-    pub fn positions(&self, cells: &[u32]) -> Vec<DVec3> {
+    pub(crate) fn positions(&self, cells: &[u32]) -> Vec<DVec3> {
         let [ni, nj, _] = self.size;
         let position = |cell: usize| {
             let index = [cell % ni, cell / ni % nj, cell / (ni * nj)].map(|n| n as f64);
@@ -71,17 +71,17 @@ impl<'a> Lumen<'a> {
     }
 
     /// The distance from the centre of a cell to the wall (mm), which lies half a voxel before the next background.
-    pub fn radius_at_cell(&self, cell: u32) -> f64 {
+    pub(crate) fn radius_at_cell(&self, cell: u32) -> f64 {
         (f64::from(self.squares[cell as usize]).sqrt() - self.side / 2.0).max(0.0)
     }
 
     /// The distance from a place to the wall (mm), interpolated between voxels.
-    pub fn radius(&self, place: DVec3) -> f64 {
+    pub(crate) fn radius(&self, place: DVec3) -> f64 {
         (self.interpolated(place, |square| f64::from(square).sqrt()) - self.side / 2.0).max(0.0)
     }
 
     /// The share of lumen among the voxels around a place, 0 to 1; the wall is where it is a half.
-    pub fn share(&self, place: DVec3) -> f64 {
+    pub(crate) fn share(&self, place: DVec3) -> f64 {
         self.interpolated(place, |square| f64::from(u8::from(square > 0.0)))
     }
 
@@ -101,7 +101,7 @@ impl<'a> Lumen<'a> {
     }
 
     /// The way from a place along a unit vector to the wall (mm), at most `most`; 0 outside the lumen.
-    pub fn way_to_wall(&self, place: DVec3, direction: DVec3, most: f64) -> f64 {
+    pub(crate) fn way_to_wall(&self, place: DVec3, direction: DVec3, most: f64) -> f64 {
         let (mut way, mut before) = (0.0, self.share(place));
         if before < WALL {
             return 0.0;
@@ -121,7 +121,7 @@ impl<'a> Lumen<'a> {
     }
 
     /// The cross-section at a place across a direction; `None` outside the lumen.
-    pub fn cross_section(&self, place: DVec3, direction: DVec3) -> Option<MaskSection> {
+    pub(crate) fn cross_section(&self, place: DVec3, direction: DVec3) -> Option<MaskSection> {
         let [u, v] = across(direction);
         let most = 4.0 * (self.radius(place) + self.side);
         let mut ways = [0.0; RAYS];

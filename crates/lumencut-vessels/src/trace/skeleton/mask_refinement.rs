@@ -24,7 +24,7 @@ const FEWEST: usize = 5;
 ///
 /// # Errors
 /// Those of `refine`.
-pub fn refined(
+pub(crate) fn refined(
     line: Centerline,
     is_free: [bool; 2],
     lumen: &Lumen,

@@ -22,7 +22,7 @@ const ELONGATED: f64 = 1.25;
 /// Removes the spurs of a graph. A branch with a free end stays where it is at least `parent_radii` radii of its parent
 /// long, from the parent's centerline to its end, or reaches far beyond the parent's wall for how narrow it is itself.
 /// The least significant spur goes first, and what it leaves is judged anew.
-pub fn prune(graph: &mut Graph, lumen: &Lumen, parent_radii: f64) {
+pub(crate) fn prune(graph: &mut Graph, lumen: &Lumen, parent_radii: f64) {
     let mut waiting: BinaryHeap<Reverse<(u64, usize)>> = BinaryHeap::new();
     let push = |graph: &Graph, waiting: &mut BinaryHeap<Reverse<(u64, usize)>>, number: usize| {
         let rank = significance(graph, lumen, number, parent_radii).map(rank);
@@ -103,7 +103,7 @@ fn parent_radius(graph: &Graph, lumen: &Lumen, number: usize, junction: usize) -
 }
 
 /// The length of a line of voxels without its stairs: of the means of five neighbours.
-pub fn length(points: &[DVec3]) -> f64 {
+pub(crate) fn length(points: &[DVec3]) -> f64 {
     let mean = |n: usize| {
         let reach = n.min(points.len() - 1 - n).min(2);
         let near = &points[n - reach..=n + reach];
@@ -113,7 +113,7 @@ pub fn length(points: &[DVec3]) -> f64 {
 }
 
 /// Makes one junction of two that lie side by side.
-pub fn merge_junctions(graph: &mut Graph, lumen: &Lumen) {
+pub(crate) fn merge_junctions(graph: &mut Graph, lumen: &Lumen) {
     while let Some(number) = (0..graph.branches.len()).find(|&number| is_near(graph, lumen, number)) {
         let Some(branch) = graph.remove(number) else { return };
         let widest = (0..2).max_by(|&a, &b| {
@@ -153,7 +153,7 @@ fn is_near(graph: &Graph, lumen: &Lumen, number: usize) -> bool {
 }
 
 /// Removes pieces of lumen that are as wide as they are long, and whose one branch therefore means nothing.
-pub fn remove_round_pieces(graph: &mut Graph, lumen: &Lumen) {
+pub(crate) fn remove_round_pieces(graph: &mut Graph, lumen: &Lumen) {
     for number in 0..graph.branches.len() {
         let Some(branch) = &graph.branches[number] else { continue };
         let [a, b] = branch.nodes;

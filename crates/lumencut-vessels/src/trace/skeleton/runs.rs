@@ -24,7 +24,7 @@ struct Runs {
 ///
 /// # Errors
 /// [`lumencut_core::error::ErrorKind::Interrupted`] where `stop` says so.
-pub fn fill_cavities(foreground: &mut Foreground, stop: Stop) -> Result<[usize; 2]> {
+pub(crate) fn fill_cavities(foreground: &mut Foreground, stop: Stop) -> Result<[usize; 2]> {
     let mut runs = Runs::of(foreground, BACKGROUND, 0, stop)?;
     // The border is background: the run of the first row is the outside.
     let outside = runs.root(0);
@@ -49,7 +49,7 @@ pub fn fill_cavities(foreground: &mut Foreground, stop: Stop) -> Result<[usize; 
 ///
 /// # Errors
 /// [`lumencut_core::error::ErrorKind::Interrupted`] where `stop` says so.
-pub fn pieces(foreground: &Foreground, stop: Stop) -> Result<usize> {
+pub(crate) fn pieces(foreground: &Foreground, stop: Stop) -> Result<usize> {
     let mut runs = Runs::of(foreground, LUMEN, 1, stop)?;
     Ok((0..runs.runs.len() as u32).filter(|&number| runs.root(number) == number).count())
 }

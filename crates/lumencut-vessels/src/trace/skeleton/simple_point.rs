@@ -45,12 +45,12 @@ const fn neighbours(most: usize, left_out: u32) -> [u32; 27] {
 
 /// The voxels around one, a bit for each of the 27 places that is lumen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Neighbourhood(u32);
+pub(crate) struct Neighbourhood(u32);
 
 impl Neighbourhood {
     /// The neighbourhood of a cell in a grid of these strides; cells other than 0 are lumen.
     #[inline(always)]
-    pub fn of(cells: &[u8], cell: usize, strides: [usize; 3]) -> Self {
+    pub(crate) fn of(cells: &[u8], cell: usize, strides: [usize; 3]) -> Self {
         let mut bits = 0;
         let first = cell - strides[1] - strides[2] - 1;
         for k in 0..3 {
@@ -65,12 +65,12 @@ impl Neighbourhood {
     }
 
     /// How many of the 26 neighbours are lumen.
-    pub fn count(self) -> u32 {
+    pub(crate) fn count(self) -> u32 {
         self.0.count_ones()
     }
 
     /// Whether the voxel in the middle can go without a change of the topology.
-    pub fn is_simple(self) -> bool {
+    pub(crate) fn is_simple(self) -> bool {
         let background = !self.0 & AROUND & !CORNERS;
         let faces = background & FACES;
         if self.0 == 0 || faces == 0 {

@@ -18,7 +18,12 @@ const TURN: f64 = 0.5;
 ///
 /// # Errors
 /// [`lumencut_core::error::ErrorKind::Interrupted`] where `stop` says so.
-pub fn thin(foreground: &mut Foreground, lumen: &[u32], squares: &[f32], stop: Stop) -> Result<Vec<u32>> {
+pub(crate) fn thin(
+    foreground: &mut Foreground,
+    lumen: &[u32],
+    squares: &[f32],
+    stop: Stop,
+) -> Result<Vec<u32>> {
     let step = TURN * foreground.smallest_side();
     let turn_of = |cell: u32| (f64::from(squares[cell as usize]).sqrt() / step) as u64;
     let mut waiting: Vec<u64> = lumen.iter().map(|&cell| turn_of(cell) << 32 | u64::from(cell)).collect();

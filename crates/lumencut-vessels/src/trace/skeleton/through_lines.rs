@@ -7,7 +7,7 @@ use crate::trace::skeleton::mask_lumen::Lumen;
 use lumencut_core::math::same_place::ALONG_LINE;
 
 /// Branches one after the other, each the right way round.
-pub struct ThroughLine {
+pub(crate) struct ThroughLine {
     /// The points (mm, LPS): at first the centres of voxels.
     pub points: Vec<DVec3>,
     /// The nodes that the line begins with, passes and ends in, and the number of the point there.
@@ -18,7 +18,7 @@ pub struct ThroughLine {
 
 /// A node on a line.
 #[derive(Clone, Copy, Debug)]
-pub struct Knot {
+pub(crate) struct Knot {
     /// The node of the graph.
     pub node: usize,
     /// The number of the point of the line that lies there.
@@ -27,7 +27,7 @@ pub struct Knot {
 
 /// All branches of a graph as lines. In each junction the two branches that are straightest and most alike in
 /// width are one line.
-pub fn through_lines(graph: &Graph, lumen: &Lumen) -> Vec<ThroughLine> {
+pub(crate) fn through_lines(graph: &Graph, lumen: &Lumen) -> Vec<ThroughLine> {
     let next: Vec<Option<[usize; 2]>> = (0..graph.nodes.len()).map(|node| pair(graph, lumen, node)).collect();
     let mut used = vec![false; graph.branches.len()];
     let mut lines = Vec::new();

@@ -3,9 +3,9 @@
 use crate::trace::ways::blocks::SIDE;
 
 /// How far beyond a block its costs look (voxels).
-pub const HALO: usize = 3;
+pub(crate) const HALO: usize = 3;
 /// The side of the cube of voxels that the costs of a block look at.
-pub const WIDE: usize = SIDE + 2 * HALO;
+pub(crate) const WIDE: usize = SIDE + 2 * HALO;
 
 /// How much of what is missing to full membership a ridge makes up for.
 const RIDGE: f64 = 0.6;
@@ -20,7 +20,7 @@ const THROAT: f64 = 0.3;
 
 /// How much a voxel lies in a wall between two lumens, 0 to 1: darker than both its neighbours in one direction, and not
 /// brighter than those in the two directions across, as the throat of a stenosis is.
-pub fn wall_between(share: f64, bends: &[f64; 3]) -> f64 {
+pub(crate) fn wall_between(share: f64, bends: &[f64; 3]) -> f64 {
     if !(0.1..0.95).contains(&share) {
         return 0.0;
     }
@@ -31,14 +31,14 @@ pub fn wall_between(share: f64, bends: &[f64; 3]) -> f64 {
 
 /// The membership of a voxel, which counts for more where it is brighter than its neighbours in two directions across each other: a
 /// vessel thinner than a voxel, as in a stenosis, is never as bright as its lumen. Noise of this standard deviation does not count.
-pub fn raised(share: f64, bends: &[f64; 3], noise: f64) -> f64 {
+pub(crate) fn raised(share: f64, bends: &[f64; 3], noise: f64) -> f64 {
     let is_seen = (share / (2.0 * noise).max(FAINT) - 1.0).clamp(0.0, 1.0);
     let ridge = ((-bends[1] - 2.0 * noise) / share.max(1e-6)).clamp(0.0, 1.0);
     share + (1.0 - share) * RIDGE * ridge * is_seen
 }
 
 /// How the membership around a voxel bends, falling: positive where neighbours on both sides are brighter.
-pub fn bends(shares: &[f32], at: usize) -> [f64; 3] {
+pub(crate) fn bends(shares: &[f32], at: usize) -> [f64; 3] {
     let share = f64::from(shares[at]);
     if !(0.02..0.98).contains(&share) {
         return [0.0; 3];
@@ -58,7 +58,7 @@ pub fn bends(shares: &[f32], at: usize) -> [f64; 3] {
 }
 
 /// Which voxels of a cube of `WIDE` a side, but for those at its border, or their neighbours are marked.
-pub fn beside(values: &[f32], is_marked: impl Fn(f32) -> bool) -> Vec<bool> {
+pub(crate) fn beside(values: &[f32], is_marked: impl Fn(f32) -> bool) -> Vec<bool> {
     let mut marked: Vec<bool> = values.iter().map(|value| is_marked(*value)).collect();
     if !marked.contains(&true) {
         return marked;
@@ -91,7 +91,7 @@ fn eigenvalues(m: [[f64; 3]; 3]) -> [f64; 3] {
 }
 
 /// A cube of `WIDE` voxels a side, averaged with these weights along each axis; right where all of them lie within it.
-pub fn blurred(shares: &[f32], weights: &[f32]) -> Vec<f32> {
+pub(crate) fn blurred(shares: &[f32], weights: &[f32]) -> Vec<f32> {
     let reach = weights.len() / 2;
     let mut now = shares.to_vec();
     let mut next = vec![0.0; shares.len()];

@@ -21,7 +21,7 @@ const STEP: f64 = 2.0;
 ///
 /// # Errors
 /// [`lumencut_core::error::ErrorKind::Interrupted`].
-pub fn beside(tracks: &[Track], counts: &[bool], stop: Stop) -> Result<Vec<Vec<usize>>> {
+pub(crate) fn beside(tracks: &[Track], counts: &[bool], stop: Stop) -> Result<Vec<Vec<usize>>> {
     let radii: Vec<f64> = tracks.iter().map(Track::radius).collect();
     let places: Vec<Vec<DVec3>> = tracks.par_iter().map(spread_out).collect();
     let mut owners = Vec::new();

@@ -60,7 +60,7 @@ const MARROW_RADIUS: f64 = 1.5;
 
 /// What the raw voxels show across a track.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct RawSection {
+pub(crate) struct RawSection {
     /// The level inside.
     pub level: f64,
     /// The greatest diameter at half level as a multiple of the least one.
@@ -73,7 +73,7 @@ pub struct RawSection {
 
 impl RawSection {
     /// The section at a point of a track; none where it is no brighter than its surroundings.
-    pub fn at(scan: &Scan, point: &TrackPoint) -> Option<Self> {
+    pub(crate) fn at(scan: &Scan, point: &TrackPoint) -> Option<Self> {
         let [u, v] = across(point.direction);
         let level = median(&mut inside(scan, point, [u, v], &LEVEL_WITHIN))?;
         let values = inside(scan, point, [u, v], &SPREAD_WITHIN);

@@ -32,7 +32,7 @@ const LEVEL: f64 = 0.6;
 ///
 /// # Errors
 /// [`lumencut_core::error::ErrorKind::Interrupted`].
-pub fn bridges(
+pub(crate) fn bridges(
     scan: &Scan,
     tracks: &[Track],
     ends: &[End],

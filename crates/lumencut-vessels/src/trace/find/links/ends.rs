@@ -16,7 +16,7 @@ const LAST: usize = 5;
 
 /// An end of a track.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct End {
+pub(crate) struct End {
     /// The track, and the number of its point there.
     pub of: [usize; 2],
     /// Where it lies (mm, LPS).
@@ -32,12 +32,12 @@ pub struct End {
 }
 
 /// Whether a track takes part in links.
-pub fn may_link(track: &Track) -> bool {
+pub(crate) fn may_link(track: &Track) -> bool {
     track.confidence >= LEAST_CONFIDENCE
 }
 
 /// Both ends of all tracks that take part in links.
-pub fn ends(tracks: &[Track]) -> Vec<End> {
+pub(crate) fn ends(tracks: &[Track]) -> Vec<End> {
     let linked = tracks.iter().enumerate().filter(|(_, track)| may_link(track));
     linked.flat_map(|(number, track)| [false, true].map(|at_last| end(number, track, at_last))).collect()
 }

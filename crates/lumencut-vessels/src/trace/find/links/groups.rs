@@ -8,11 +8,11 @@ use crate::trace::find::track::Track;
 use lumencut_core::math::arc_length::arc_lengths;
 
 /// A loop that is shorter than so many of the larger radius at the link that closes it, or than this (mm), goes round no tissue.
-pub const SMALL_LOOP: f64 = 12.0;
+pub(crate) const SMALL_LOOP: f64 = 12.0;
 const SMALL_LOOP_LENGTH: f64 = 10.0;
 
 /// Tracks in groups that hang together.
-pub struct Groups<'a> {
+pub(crate) struct Groups<'a> {
     tracks: &'a [Track],
     /// The links made so far.
     pub links: Vec<Link>,
@@ -26,7 +26,7 @@ pub struct Groups<'a> {
 
 impl<'a> Groups<'a> {
     /// Tracks without a link.
-    pub fn new(tracks: &'a [Track]) -> Self {
+    pub(crate) fn new(tracks: &'a [Track]) -> Self {
         let length =
             |track: &Track| arc_lengths(&track.points.iter().map(|point| point.place).collect::<Vec<_>>());
         Self {
@@ -39,7 +39,7 @@ impl<'a> Groups<'a> {
     }
 
     /// The first track of the group of a track.
-    pub fn group(&self, track: usize) -> usize {
+    pub(crate) fn group(&self, track: usize) -> usize {
         let mut root = track;
         while self.parents[root] != root {
             root = self.parents[root];
@@ -48,19 +48,19 @@ impl<'a> Groups<'a> {
     }
 
     /// Whether a link would join two groups.
-    pub fn are_apart(&self, link: &Link) -> bool {
+    pub(crate) fn are_apart(&self, link: &Link) -> bool {
         self.group(link.from[0]) != self.group(link.to[0])
     }
 
     /// Adds a link that joins two groups.
-    pub fn add_between_trees(&mut self, link: Link) {
+    pub(crate) fn add_between_trees(&mut self, link: Link) {
         if self.are_apart(&link) {
             self.add(link);
         }
     }
 
     /// Adds a link unless it closes a small loop: one that goes on, such as the arteries below a brain, is kept.
-    pub fn add_unless_small_loop(&mut self, link: Link) {
+    pub(crate) fn add_unless_small_loop(&mut self, link: Link) {
         let radius = |[track, point]: [usize; 2]| self.tracks[track].points[point].radius;
         let length = self.length_of(&link);
         let small = SMALL_LOOP_LENGTH.max(SMALL_LOOP * radius(link.from).max(radius(link.to))) - length;

@@ -32,7 +32,7 @@ const NARROW: f64 = 2.5;
 const TRIES: usize = 3;
 
 /// What a link must be like.
-pub struct Limits {
+pub(crate) struct Limits {
     /// The least confidence of both tracks.
     pub confidence: f64,
     /// The least cosine of its turn, but where the end lies within the other track.
@@ -44,14 +44,14 @@ pub struct Limits {
 }
 
 /// Limits for the first link of each end: turns of 60°.
-pub const OPEN_ENDS: Limits = Limits { confidence: 0.3, turn: 0.5, unlike: 0.5, narrow: 1.0 };
+pub(crate) const OPEN_ENDS: Limits = Limits { confidence: 0.3, turn: 0.5, unlike: 0.5, narrow: 1.0 };
 
 /// Limits for links with another tree: turns of 45°.
-pub const BETWEEN_TREES: Limits =
+pub(crate) const BETWEEN_TREES: Limits =
     Limits { confidence: 0.6, turn: std::f64::consts::FRAC_1_SQRT_2, unlike: 0.4, narrow: 0.5 };
 
 /// The points of all tracks that take part in links, found by where they lie.
-pub struct Landings<'a, 'v> {
+pub(crate) struct Landings<'a, 'v> {
     scan: &'a Scan<'v>,
     tracks: &'a [Track],
     /// By width: tracks that are wide are found from afar.
@@ -77,7 +77,7 @@ struct Place {
 
 impl<'a, 'v> Landings<'a, 'v> {
     /// The points of tracks.
-    pub fn new(scan: &'a Scan<'v>, tracks: &'a [Track]) -> Self {
+    pub(crate) fn new(scan: &'a Scan<'v>, tracks: &'a [Track]) -> Self {
         let all = || {
             let linked = tracks.iter().enumerate().filter(|(_, track)| may_link(track));
             linked.flat_map(|(t, track)| (0..track.points.len()).map(move |n| [t, n]))
@@ -94,7 +94,13 @@ impl<'a, 'v> Landings<'a, 'v> {
     }
 
     /// Tells of each point whose wall is nearer to a place than `wall` and that itself is nearer than `reach` (mm).
-    pub fn near(&self, place: glam::DVec3, wall: f64, reach: f64, mut told: impl FnMut([usize; 2], f64)) {
+    pub(crate) fn near(
+        &self,
+        place: glam::DVec3,
+        wall: f64,
+        reach: f64,
+        mut told: impl FnMut([usize; 2], f64),
+    ) {
         for width in &self.widths {
             width.grid.near(place, reach.min(wall + width.widest), |n| {
                 let of = width.points[n];
@@ -108,7 +114,7 @@ impl<'a, 'v> Landings<'a, 'v> {
     }
 
     /// The links that an end may have, the cheapest one first and one for each track.
-    pub fn of<'b>(&'b self, end: &'b End, limits: &Limits) -> impl Iterator<Item = Link> + 'b {
+    pub(crate) fn of<'b>(&'b self, end: &'b End, limits: &Limits) -> impl Iterator<Item = Link> + 'b {
         let places = if self.tracks[end.of[0]].confidence < limits.confidence {
             Vec::new()
         } else {

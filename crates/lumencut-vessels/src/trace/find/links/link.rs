@@ -2,7 +2,7 @@
 
 /// A link from a point of one track to a point of another one.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Link {
+pub(crate) struct Link {
     /// The track it comes from, and the number of its point there.
     pub from: [usize; 2],
     /// The track that it leads to, and the number of its point there.
@@ -17,7 +17,7 @@ pub struct Link {
 
 impl Link {
     /// What decides between links of the same cost: the numbers of what they link.
-    pub fn order(&self, other: &Self) -> std::cmp::Ordering {
+    pub(crate) fn order(&self, other: &Self) -> std::cmp::Ordering {
         let numbers = |link: &Self| (link.from, link.to);
         self.cost.total_cmp(&other.cost).then_with(|| numbers(self).cmp(&numbers(other)))
     }

@@ -35,7 +35,7 @@ const TRIES: usize = 8;
 ///
 /// # Errors
 /// [`lumencut_core::error::ErrorKind::Interrupted`].
-pub fn side_links(
+pub(crate) fn side_links(
     scan: &Scan,
     tracks: &[Track],
     groups: &Groups,

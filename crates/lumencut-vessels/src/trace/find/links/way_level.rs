@@ -12,7 +12,7 @@ const SMOOTHED: f64 = 0.6;
 
 /// An end of a way.
 #[derive(Clone, Copy, Debug)]
-pub struct WayEnd {
+pub(crate) struct WayEnd {
     /// Where it lies (mm, LPS).
     pub place: DVec3,
     /// The level of the lumen there, and how far that lies above the tissue around.
@@ -23,7 +23,7 @@ pub struct WayEnd {
 
 /// The lowest value along a straight way, as a share of the way from the tissue (0) to the lumen (1) of the darker end, which is
 /// the branch of the other one; 0 for a way that leaves the volume.
-pub fn lowest_level(scan: &Scan, from: WayEnd, to: WayEnd) -> f64 {
+pub(crate) fn lowest_level(scan: &Scan, from: WayEnd, to: WayEnd) -> f64 {
     let count = (from.place.distance(to.place) / (STEP * scan.side)).ceil().max(1.0);
     let darker = if to.level < from.level { to } else { from };
     let share = |n: usize| {

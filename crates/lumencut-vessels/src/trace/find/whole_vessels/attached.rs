@@ -14,7 +14,7 @@ const BEND: usize = 16;
 
 /// A run whose ends lie on others where it meets them.
 #[derive(Clone, Debug)]
-pub struct Attached {
+pub(crate) struct Attached {
     /// Its points.
     pub points: Vec<LinePoint>,
     /// The runs at its start and its end; none at free ends.
@@ -27,7 +27,12 @@ pub struct Attached {
 ///
 /// # Errors
 /// [`lumencut_core::error::ErrorKind::Interrupted`].
-pub fn attached(runs: &Runs, places: &[DVec3], lines: &[Centered], stop: Stop) -> Result<Vec<Attached>> {
+pub(crate) fn attached(
+    runs: &Runs,
+    places: &[DVec3],
+    lines: &[Centered],
+    stop: Stop,
+) -> Result<Vec<Attached>> {
     let mut made: Vec<Attached> = lines
         .iter()
         .map(|line| Attached { points: line.points.clone(), met: [None; 2], leads: [0; 2] })

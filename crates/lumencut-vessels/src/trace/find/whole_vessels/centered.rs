@@ -32,7 +32,7 @@ const LEAST_CONTRAST: f64 = 0.3;
 
 /// A point of a centred run.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LinePoint {
+pub(crate) struct LinePoint {
     /// Where it lies (mm, LPS).
     pub place: DVec3,
     /// The radius of the lumen (mm).
@@ -45,7 +45,7 @@ pub struct LinePoint {
 
 /// A centred run.
 #[derive(Clone, Debug)]
-pub struct Centered {
+pub(crate) struct Centered {
     /// Its points.
     pub points: Vec<LinePoint>,
     /// Whether any of it lies outside the lumens of the runs at its ends; where none does, the points are those of its tracks.
@@ -56,7 +56,7 @@ pub struct Centered {
 ///
 /// # Errors
 /// [`lumencut_core::error::ErrorKind::Interrupted`].
-pub fn centered(scan: &Scan, runs: &Runs, number: usize, stop: Stop) -> Result<Centered> {
+pub(crate) fn centered(scan: &Scan, runs: &Runs, number: usize, stop: Stop) -> Result<Centered> {
     let way = &runs.runs[number].points;
     let outside = outside(runs, number);
     let is_outside = outside.is_some();
@@ -76,7 +76,7 @@ pub fn centered(scan: &Scan, runs: &Runs, number: usize, stop: Stop) -> Result<C
 }
 
 /// The run that a run begins on (0) or ends on (1), and the number of the point there; none at a free end.
-pub fn met(runs: &Runs, number: usize, end: usize) -> Option<(usize, usize)> {
+pub(crate) fn met(runs: &Runs, number: usize, end: usize) -> Option<(usize, usize)> {
     let run = &runs.runs[number];
     let (node, _) = run.knots[if end == 0 { 0 } else { run.knots.len() - 1 }];
     let owner = runs.owners[node];

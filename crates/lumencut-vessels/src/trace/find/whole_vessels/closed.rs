@@ -10,7 +10,7 @@ use lumencut_core::math::arc_length::arc_lengths;
 const NEAR: f64 = 1.0;
 
 /// The run, closed where it is a ring whose ends both are free.
-pub fn closed(mut run: Attached) -> Attached {
+pub(crate) fn closed(mut run: Attached) -> Attached {
     let [first, last] = [run.points[0], run.points[run.points.len() - 1]];
     let gap = first.place.distance(last.place);
     let radius = first.radius.min(last.radius);

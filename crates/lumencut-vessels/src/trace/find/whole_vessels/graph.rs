@@ -12,7 +12,7 @@ const STEP: f64 = 0.5;
 
 /// A point of an edge.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct WayPoint {
+pub(crate) struct WayPoint {
     /// Where it lies (mm, LPS).
     pub place: DVec3,
     /// The radius (mm), and the level and the contrast of the lumen.
@@ -31,7 +31,7 @@ pub struct WayPoint {
 
 /// A piece of a track, or a link.
 #[derive(Clone, Debug)]
-pub struct Edge {
+pub(crate) struct Edge {
     /// The nodes at its start and its end.
     pub nodes: [usize; 2],
     /// Its points, those at both nodes included.
@@ -39,7 +39,7 @@ pub struct Edge {
 }
 
 /// Tracks and links as nodes and edges.
-pub struct Graph {
+pub(crate) struct Graph {
     /// Where each node lies (mm, LPS).
     pub places: Vec<DVec3>,
     /// The numbers of the edges at each node.
@@ -52,7 +52,7 @@ pub struct Graph {
 
 impl Graph {
     /// The graph of linked tracks.
-    pub fn new(tracks: &[Track], links: &[Link]) -> Self {
+    pub(crate) fn new(tracks: &[Track], links: &[Link]) -> Self {
         let mut cuts: Vec<BTreeSet<usize>> =
             tracks.iter().map(|track| BTreeSet::from([0, track.points.len() - 1])).collect();
         for [track, point] in links.iter().flat_map(|link| [link.from, link.to]) {
@@ -83,13 +83,13 @@ impl Graph {
     }
 
     /// The node at the other end of an edge.
-    pub fn far(&self, edge: usize, node: usize) -> usize {
+    pub(crate) fn far(&self, edge: usize, node: usize) -> usize {
         let [a, b] = self.edges[edge].nodes;
         if a == node { b } else { a }
     }
 
     /// The points of an edge from a node on.
-    pub fn points_from(&self, edge: usize, node: usize) -> Vec<WayPoint> {
+    pub(crate) fn points_from(&self, edge: usize, node: usize) -> Vec<WayPoint> {
         let mut points = self.edges[edge].points.clone();
         if self.edges[edge].nodes[0] != node {
             points.reverse();
@@ -98,7 +98,7 @@ impl Graph {
     }
 
     /// The part that each node belongs to, numbered in the order of their first nodes, and how many there are.
-    pub fn parts(&self) -> (Vec<usize>, usize) {
+    pub(crate) fn parts(&self) -> (Vec<usize>, usize) {
         let mut parts = vec![usize::MAX; self.places.len()];
         let mut count = 0;
         for first in 0..parts.len() {

@@ -13,7 +13,7 @@ const MOST_EDGES: usize = 4;
 
 /// Where something leads to, and how wide it is.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Outlook {
+pub(crate) struct Outlook {
     /// Where it leads to (unit vector).
     pub direction: DVec3,
     /// Its radius (mm).
@@ -21,7 +21,7 @@ pub struct Outlook {
 }
 
 /// Where an edge leads to from a node of a run with some radius (mm).
-pub fn outlook(graph: &Graph, edge: usize, node: usize, radius: f64) -> Outlook {
+pub(crate) fn outlook(graph: &Graph, edge: usize, node: usize, radius: f64) -> Outlook {
     let place = graph.places[node];
     let (mut edge, mut node) = (edge, node);
     let mut radii = Vec::new();

@@ -28,7 +28,7 @@ struct Part {
 ///
 /// # Errors
 /// [`lumencut_core::error::ErrorKind::Interrupted`].
-pub fn roots(scan: &Scan, tracks: &[Track], graph: &Graph, stop: Stop) -> Result<Vec<[usize; 2]>> {
+pub(crate) fn roots(scan: &Scan, tracks: &[Track], graph: &Graph, stop: Stop) -> Result<Vec<[usize; 2]>> {
     let (of_node, count) = graph.parts();
     let mut parts: Vec<Part> =
         (0..count).map(|_| Part { rank: 0.0, largest: (0, -1.0), free: None }).collect();

@@ -25,7 +25,7 @@ const LAST: usize = 5;
 
 /// A whole run.
 #[derive(Clone, Debug)]
-pub struct Run {
+pub(crate) struct Run {
     /// Its points, from the root outwards.
     pub points: Vec<WayPoint>,
     /// The nodes that it passes, and the number of its point at each.
@@ -33,7 +33,7 @@ pub struct Run {
 }
 
 /// The runs of a graph.
-pub struct Runs {
+pub(crate) struct Runs {
     /// The runs: each after the one that it leaves, unless that is met from the side.
     pub runs: Vec<Run>,
     /// The run that passes each node.
@@ -49,7 +49,7 @@ type Start = (u64, Reverse<usize>, usize);
 ///
 /// # Errors
 /// [`lumencut_core::error::ErrorKind::Interrupted`].
-pub fn runs(graph: &Graph, roots: &[[usize; 2]], stop: Stop) -> Result<Runs> {
+pub(crate) fn runs(graph: &Graph, roots: &[[usize; 2]], stop: Stop) -> Result<Runs> {
     let owners = vec![NONE; graph.places.len()];
     let made = Runs { runs: Vec::new(), owners };
     let mut search = Search { graph, made, used: vec![false; graph.edges.len()], open: BinaryHeap::new() };
@@ -155,7 +155,11 @@ impl Search<'_> {
 }
 
 /// Which edge is straightest and widest, the first of several; none where none is new.
-pub fn straightest(before: &Outlook, ahead: &[Outlook], is_new: impl Fn(&usize) -> bool) -> Option<usize> {
+pub(crate) fn straightest(
+    before: &Outlook,
+    ahead: &[Outlook],
+    is_new: impl Fn(&usize) -> bool,
+) -> Option<usize> {
     let widest = ahead.iter().map(|edge| edge.radius).fold(0.0, f64::max).max(f64::MIN_POSITIVE);
     let mut best: Option<(f64, usize)> = None;
     for n in (0..ahead.len()).filter(is_new) {

@@ -15,7 +15,7 @@ const AS_WIDE: f64 = 0.6;
 ///
 /// # Errors
 /// [`lumencut_core::error::ErrorKind::Interrupted`].
-pub fn without_stubs(tracks: &[Track], links: &[Link], stop: Stop) -> Result<(Vec<Track>, Vec<Link>)> {
+pub(crate) fn without_stubs(tracks: &[Track], links: &[Link], stop: Stop) -> Result<(Vec<Track>, Vec<Link>)> {
     let (mut tracks, mut links) = (tracks.to_vec(), links.to_vec());
     for number in 0..tracks.len() {
         go_on(stop)?;

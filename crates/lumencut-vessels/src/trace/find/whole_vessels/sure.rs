@@ -10,7 +10,7 @@ const SHORTEST: f64 = 15.0;
 const SHORTEST_RADII: f64 = 5.0;
 
 /// The vessels of a run of a part: one, or where it is sure and doubtful over long stretches one for each.
-pub fn vessels(tracks: &[Track], points: &[LinePoint], part: usize) -> Vec<FoundVessel> {
+pub(crate) fn vessels(tracks: &[Track], points: &[LinePoint], part: usize) -> Vec<FoundVessel> {
     let cuts = cuts(points);
     cuts.windows(2).map(|pair| vessel(tracks, &points[pair[0]..=pair[1]], part)).collect()
 }

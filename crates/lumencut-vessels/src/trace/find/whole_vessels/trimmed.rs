@@ -17,7 +17,11 @@ const BESIDE: usize = 4;
 ///
 /// # Errors
 /// [`lumencut_core::error::ErrorKind::Interrupted`].
-pub fn trimmed(mut runs: Vec<Attached>, smallest_radius: f64, stop: Stop) -> Result<Vec<Option<Attached>>> {
+pub(crate) fn trimmed(
+    mut runs: Vec<Attached>,
+    smallest_radius: f64,
+    stop: Stop,
+) -> Result<Vec<Option<Attached>>> {
     let mut stays = vec![true; runs.len()];
     // Branches come after what they leave, but for runs that were met from the side.
     for number in (0..runs.len()).rev() {

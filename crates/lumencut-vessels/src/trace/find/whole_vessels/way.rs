@@ -17,7 +17,7 @@ const ASTRAY: f64 = 1.25;
 const SMOOTHED: f64 = 0.4;
 
 /// The way of a run.
-pub struct Way {
+pub(crate) struct Way {
     /// Its points.
     pub points: Vec<WayPoint>,
     /// The same points as a line.
@@ -28,7 +28,7 @@ pub struct Way {
 
 impl Way {
     /// The way along some points, of which there is one at least, without the turns that links make where tracks overlap.
-    pub fn along(points: &[WayPoint]) -> Self {
+    pub(crate) fn along(points: &[WayPoint]) -> Self {
         let mut points = points.to_vec();
         let mut near_link = near_links(&points);
         while let Some(n) = turn(&points, &near_link) {
@@ -44,12 +44,12 @@ impl Way {
     }
 
     /// The length (mm).
-    pub fn length(&self) -> f64 {
+    pub(crate) fn length(&self) -> f64 {
         length(&self.line.points)
     }
 
     /// A line that was made from the way, but where that strays, and near links, the way itself.
-    pub fn guarded(&self, line: &Centerline) -> Centerline {
+    pub(crate) fn guarded(&self, line: &Centerline) -> Centerline {
         let way = &self.line;
         let nearest: Vec<usize> =
             line.points.iter().map(|point| nearest_point(&way.points, *point)).collect();
