@@ -1,8 +1,9 @@
-//! Centerlines from a volume or a mask, and how alike two centerlines are.
+//! Traces centerlines in a volume or a mask.
 //!
-//! The rooms, of which each needs only those before it: [`lines`] is arithmetic of points along a line; [`lumen`] says what
-//! lumen looks like across a line; [`ways`] finds ways through voxels of lumen; [`skeleton`] thins voxels of lumen to lines.
-//! [`clicks`], [`find`] and [`mask`] are what a caller asks for; they do not need each other.
+//! Modules, each of which needs only those before it: [`lines`] is arithmetic along a line; [`lumen`]
+//! recognizes lumen across a line; [`ways`] finds cheapest paths through voxels; [`skeleton`] thins lumen
+//! voxels to lines. [`clicks`], [`find`] and [`mask`] are the entry points. Described in
+//! `docs/method/tracing.md`.
 
 pub mod clicks;
 pub mod find;

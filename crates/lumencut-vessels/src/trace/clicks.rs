@@ -1,4 +1,4 @@
-//! Centerlines between clicks.
+//! Traces centerlines between clicks.
 
 pub mod checks;
 pub(crate) mod gaps;

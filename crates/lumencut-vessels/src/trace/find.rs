@@ -1,4 +1,7 @@
-//! All vessels of an angiography, without a seed: tubes are found first, judged, linked into trees, and ranked.
+//! Finds all vessels of an angiography without a seed: tubes are tracked, judged, linked into trees, and
+//! ranked.
+//!
+//! The thresholds are the same for all scans.
 
 pub(crate) mod bone;
 pub(crate) mod candidates;
@@ -39,20 +42,20 @@ use lumencut_core::progress::Progress;
 use lumencut_core::stop::Stop;
 use lumencut_core::volume::Volume;
 
-/// Where vessels end unless somebody asks for another radius (mm).
+/// Default radius at which vessels end (mm).
 pub const SMALLEST_RADIUS: f64 = 1.0;
 
-/// What is found, and how.
+/// What to find.
 pub struct FindRequest<'a> {
-    /// Vessels end where they are narrower from there on (mm).
+    /// Vessels end where they stay narrower (mm).
     pub smallest_radius: f64,
     /// Asked whether to stop.
     pub stop: Stop<'a>,
-    /// Told how far the work is.
+    /// Receives the progress.
     pub progress: Option<&'a Progress>,
 }
 
-/// All vessels of a volume: those that hang together are a part, the most important part first.
+/// All vessels of a volume in connected parts, the most important first.
 ///
 /// # Errors
 /// [`lumencut_core::error::ErrorKind::Interrupted`].
@@ -62,7 +65,7 @@ pub fn find_vessels(volume: &Volume, request: &FindRequest) -> Result<Trees> {
     Ok(Trees { vessels: doubted_where_scarce(voxels, trees.vessels, trees.is_angiography), ..trees })
 }
 
-/// All vessels of a volume; around a seed (mm, LPS) that lies in none of them fainter ones are found too.
+/// All vessels of a volume; around a seed (mm, LPS) outside all of them, fainter ones are found too.
 ///
 /// # Errors
 /// [`lumencut_core::error::ErrorKind::Interrupted`].

@@ -1,4 +1,4 @@
-//! What lumen looks like: its values, its cross-sections along a line, and lines moved to its middle.
+//! Recognizes lumen: values, cross-sections along a line, and centring.
 
 pub mod across;
 pub mod calm;

@@ -1,4 +1,4 @@
-//! Ways through the voxels of a volume: what a step costs, the cheapest ways from a voxel.
+//! Cheapest paths through the voxels of a volume.
 
 pub(crate) mod blocks;
 pub(crate) mod buckets;

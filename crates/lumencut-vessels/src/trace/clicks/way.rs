@@ -1,4 +1,4 @@
-//! The way between two clicks through voxels.
+//! The voxel path between two clicks.
 
 use glam::DVec3;
 
@@ -6,17 +6,15 @@ use crate::trace::clicks::gaps::{Gap, Line};
 use crate::trace::ways::region::{FORBIDDEN, Region, THIN, WEAK};
 use crate::voxels::Voxels;
 
-/// The way between two clicks through voxels.
 #[derive(Clone, Debug)]
 pub(crate) struct Way {
-    /// The middles of its voxels (mm, LPS).
+    /// Voxel centres (mm, LPS).
     pub points: Vec<DVec3>,
-    /// Its stretches without lumen.
+    /// Stretches without lumen.
     pub gaps: Vec<Gap>,
 }
 
 impl Way {
-    /// A way through voxels with its gaps.
     pub(crate) fn of(voxels: &Voxels, region: &mut Region, steps: &[[i32; 3]]) -> Self {
         let points: Vec<DVec3> = steps.iter().map(|voxel| voxels.center(*voxel)).collect();
         let codes: Vec<u8> = steps.iter().map(|voxel| region.code_of(voxels, *voxel)).collect();
@@ -26,13 +24,13 @@ impl Way {
         let line = Line::new(voxels, &region.model, &points);
         let mut gaps = line.gaps(&weak);
         for gap in &mut gaps {
-            // A way around a stopper through tissue does not count.
+            // A detour around a stopper through tissue is not acceptable.
             gap.is_open |= region.stoppers.iter().any(|stopper| gap.passes(&points, stopper));
         }
         Self { points, gaps }
     }
 
-    /// Its points, those of gaps put on a straight line: nothing is seen there that could lead it.
+    /// Points with gaps replaced by straight lines, because nothing guides the path there.
     pub(crate) fn straightened(&self) -> Vec<DVec3> {
         let mut points = self.points.clone();
         for gap in &self.gaps {
@@ -46,7 +44,7 @@ impl Way {
     }
 }
 
-/// The voxel where the front of a click starts: its own, or where that is at the wall the neighbour that costs least.
+/// Start voxel of a click: its own, or at a wall the cheapest neighbour.
 pub(crate) fn start(voxels: &Voxels, region: &mut Region, click: DVec3) -> [i32; 3] {
     let middle = voxels.voxel_at(click).unwrap_or([0; 3]);
     let mut best = (region.code_of(voxels, middle), middle);

@@ -1,4 +1,4 @@
-//! Tracks from a seed that lies in none of those that were found: narrower and fainter tubes are looked for around it alone.
+//! Searches for fainter tubes around a seed that lies in no track.
 
 use glam::DVec3;
 
@@ -9,13 +9,10 @@ use crate::trace::find::track::Track;
 use crate::trace::find::tracking::Tracking;
 use lumencut_core::error::Result;
 
-/// Around a seed tubes may have this part of the contrast that is asked of others.
+/// Contrast threshold around a seed, relative to the normal one.
 const FAINTER: f64 = 1.0 / 3.0;
 
-/// The tracks through a seed (voxels of the finest level) where it lies in none of those that are known; else none.
-///
-/// # Errors
-/// [`lumencut_core::error::ErrorKind::Interrupted`].
+/// Tracks through a seed (finest voxels); empty if it lies in a known track.
 pub(crate) fn from_seed(tracking: &Tracking, seed: DVec3, known: &[Track]) -> Result<Vec<Track>> {
     if known.iter().any(|track| holds(track, seed)) {
         return Ok(Vec::new());
@@ -28,7 +25,6 @@ pub(crate) fn from_seed(tracking: &Tracking, seed: DVec3, known: &[Track]) -> Re
     Ok(found.into_iter().filter(|track| holds(track, seed)).collect())
 }
 
-/// Whether a place lies in a track, or as near to it as a seed may.
 fn holds(track: &Track, place: DVec3) -> bool {
     track.points.iter().any(|point| point.place.distance(place) <= (REACH * point.radius).max(1.0))
 }

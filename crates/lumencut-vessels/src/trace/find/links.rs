@@ -1,7 +1,8 @@
-//! Links from the open ends of tracks to other tracks, so that they become trees.
+//! Links open ends of tracks to other tracks, which joins them into trees.
 //!
-//! Each end is linked with the cheapest place of another track ahead. Then ends and sides are linked with other trees alone, and
-//! with stricter limits: where two trees come from one short trunk their nearest ends belong to themselves.
+//! Each end is linked to the cheapest place ahead on another track. Then ends and sides are linked to other
+//! trees only, with stricter limits: where two trees leave one short trunk, their nearest ends belong to
+//! themselves.
 
 pub(crate) mod bridges;
 pub(crate) mod ends;
@@ -25,17 +26,13 @@ use crate::trace::find::track::Track;
 use lumencut_core::error::Result;
 use lumencut_core::stop::{Stop, go_on};
 
-/// How often the ends look for other trees.
+/// Rounds of linking ends to other trees.
 const ROUNDS: usize = 2;
 
-/// The links between tracks.
-///
-/// # Errors
-/// [`lumencut_core::error::ErrorKind::Interrupted`].
 pub(crate) fn between(scan: &Scan, tracks: &[Track], stop: Stop, stages: Stages) -> Result<Vec<Link>> {
     let landings = Landings::new(scan, tracks);
     let ends = ends(tracks);
-    // Ends are looked at three times, and the sides of tracks once.
+    // Ends are processed three times, sides once.
     let pieces = stages.stage(Stage::Links, 3 * ends.len() + tracks.len());
     let stop = &|| {
         pieces.done(1);
@@ -70,7 +67,6 @@ pub(crate) fn between(scan: &Scan, tracks: &[Track], stop: Stop, stages: Stages)
     Ok(groups.links)
 }
 
-/// Links, the cheapest one first.
 fn in_order(mut links: Vec<Link>) -> Vec<Link> {
     links.sort_unstable_by(Link::order);
     links

@@ -1,4 +1,5 @@
-//! From candidates to tracks, the most promising first: each is followed, judged and painted, so that no tube is found twice.
+//! Turns candidates into tracks, the most promising first: each is followed, judged and painted, so that no
+//! tube is found twice.
 
 use std::collections::VecDeque;
 use std::ops::Range;
@@ -15,109 +16,86 @@ use crate::trace::find::tracker::{DARKER, MOST_STEPS, Tracker};
 use lumencut_core::error::Result;
 use lumencut_core::stop::{Stop, go_on};
 
-/// A track is at least so many radii and so many voxels long, and this share of its sections is good.
+/// Minimum length in radii and voxels, and minimum share of good sections.
 const LEAST_RADII: f64 = 3.0;
 const LEAST_VOXELS: f64 = 5.0;
 const LEAST_GOOD: f64 = 0.6;
 
-/// Tracks of less confidence are left out.
+/// Minimum confidence.
 const LEAST_CONFIDENCE: f64 = 0.3;
 
-/// So many steps each way are looked at before a track is followed to its ends; they are as sure as this share of what is asked of a
-/// whole track.
+/// Steps of a first look, and its minimum confidence relative to a whole track.
 const FIRST_STEPS: usize = 16;
 const LEAST_OF_FIRST: f64 = 0.5;
 
-/// How far from its middle a track is painted, in its radii: where it is narrower than the first limit (voxels), wider than the
-/// second one, and between them.
+/// Painted radius in radii for narrow, wide and other tracks, and the two limits (voxels).
 const PAINTED: [f64; 3] = [0.9, 1.1, 1.0];
 const NARROW: f64 = 2.0;
 const WIDE: f64 = 4.0;
 
-/// How far from its middle a rejected track is painted (voxels).
+/// Painted radius of a rejected track (voxels).
 const THIN: f64 = 1.0;
 
-/// A candidate in the lumen of a darker track is tried where its contrast is at least this part of the usual one, and its radius
-/// less than so many voxels.
+/// A candidate inside a darker track needs this share of the vessel contrast and at most this radius
+/// (voxels).
 const OVER_CONTRAST: f64 = 0.5;
 const OVER_RADIUS: f64 = 5.0;
 
-/// How many candidates are tracked beside each other before what they found is painted.
+/// Candidates tracked in parallel before painting.
 const BATCH: usize = 32;
 
-/// Candidates are tracked one after the other where they are nearer than so many times the sum of their radii and so many voxels more;
-/// so many others are looked at for those that are not.
+/// Candidates closer than this multiple of their radii plus voxels are tracked in sequence; maximum number
+/// searched for independent ones.
 const NEAR_RADII: f64 = 4.0;
 const NEAR_VOXELS: f64 = 8.0;
 const MOST_LOOKED_AT: usize = 128;
 
-/// How candidates become tracks.
+/// Data for tracking candidates.
 pub(crate) struct Tracking<'a> {
-    /// The levels.
     pub pyramid: &'a Pyramid,
-    /// The numbers of those that are looked at.
+    /// Level range.
     pub looked_at: Range<usize>,
-    /// The least that a tube must have.
     pub floors: Floors,
-    /// Asked whether to stop.
     pub stop: Stop<'a>,
-    /// How sure a track is.
     pub judge: &'a (dyn Fn(Vec<TrackPoint>) -> Track + Sync),
-    /// Told how far it is.
     pub stages: Stages<'a>,
 }
 
-/// Candidates that are tracked beside each other.
 struct Batch {
     candidates: Vec<Candidate>,
-    /// How many of the others were looked at for them.
+    /// Number of candidates consumed.
     looked_at: usize,
 }
 
-/// The tracks that are known, their levels, and their lumens.
 struct Known {
     paint: Paint,
     found: Vec<Track>,
     levels: Vec<f64>,
 }
 
-/// What became of a candidate.
 enum Tried {
-    /// No track begins there.
     Nothing,
-    /// A track that is no vessel.
     Rejected(Vec<TrackPoint>),
-    /// A tube.
     Kept(Track),
 }
 
 impl Tracking<'_> {
-    /// The candidates, the most promising first.
-    ///
-    /// # Errors
-    /// [`lumencut_core::error::ErrorKind::Interrupted`].
+    /// Candidates, the most promising first.
     pub(crate) fn candidates(&self) -> Result<Vec<Candidate>> {
         candidates(self.pyramid, &self.looked_at, &self.floors, self.stop, self.stages)
     }
 
-    /// The side of the finest voxels that are looked at.
     fn side(&self) -> f64 {
         self.pyramid.levels[self.looked_at.start].side
     }
 
-    /// The tracks, in voxels of the finest level. Candidates are tracked in batches, each as if it were alone; they are painted in
-    /// their order, and who runs into what was painted meanwhile is tracked anew. So threads change nothing.
-    ///
-    /// # Errors
-    /// [`lumencut_core::error::ErrorKind::Interrupted`].
+    /// Tracks in finest voxels. Candidates are tracked in independent batches and painted in order; those
+    /// that meet new paint are tracked again, so the result does not depend on threads.
     pub(crate) fn tracks(&self, candidates: &[Candidate]) -> Result<Vec<Track>> {
         self.tracks_beside(&[], candidates)
     }
 
-    /// The same, where some tracks are known already: those that are found besides.
-    ///
-    /// # Errors
-    /// [`lumencut_core::error::ErrorKind::Interrupted`].
+    /// Additional tracks if some are known.
     pub(crate) fn tracks_beside(&self, known: &[Track], candidates: &[Candidate]) -> Result<Vec<Track>> {
         let Known { mut paint, mut found, mut levels } = self.known(known);
         let (mut next, mut waiting) = (0, VecDeque::new());
@@ -147,12 +125,10 @@ impl Tracking<'_> {
         Ok(found)
     }
 
-    /// The lumens of some tracks.
     pub(crate) fn painted(&self, tracks: &[Track]) -> Paint {
         self.known(tracks).paint
     }
 
-    /// What is known where some tracks are.
     fn known(&self, tracks: &[Track]) -> Known {
         let mut known = Known { paint: Paint::default(), found: Vec::new(), levels: Vec::new() };
         for track in tracks {
@@ -161,8 +137,7 @@ impl Tracking<'_> {
         known
     }
 
-    /// The next candidates that are tried beside each other: those that wait, then others. Who lies near one of them waits, as it
-    /// may well lie in the same tube.
+    /// Next independent candidates. Those near another one wait, because they may lie in the same tube.
     fn batch(
         &self,
         paint: &Paint,
@@ -201,7 +176,7 @@ impl Tracking<'_> {
         batch
     }
 
-    /// Whether a candidate is tried: nothing is painted there, or a darker and narrower lumen.
+    /// Whether nothing is painted there, or a darker lumen around a narrow candidate.
     fn is_open(&self, paint: &Paint, levels: &[f64], candidate: &Candidate) -> bool {
         match paint.at(candidate.place) {
             Painted::Empty => true,
@@ -217,15 +192,14 @@ impl Tracking<'_> {
         }
     }
 
-    /// What becomes of a candidate.
     fn tried(&self, paint: &Paint, levels: &[f64], candidate: &Candidate) -> Tried {
         let (looked_at, floors) = (self.looked_at.clone(), self.floors);
         let tracker = Tracker { pyramid: self.pyramid, looked_at, paint, levels, floors };
-        // Most candidates are no vessel, which their first steps show.
+        // The first steps reveal most non-vessels.
         let Some(points) = tracker.track(candidate, FIRST_STEPS) else { return Tried::Nothing };
         let Some(first) = self.kept(&points, LEAST_OF_FIRST) else { return Tried::Rejected(points) };
         if points.len() <= FIRST_STEPS {
-            // It ended both ways before so many steps: it is whole.
+            // It ended early, so it is complete.
             let is_sure = first.confidence >= LEAST_CONFIDENCE;
             return if is_sure { Tried::Kept(first) } else { Tried::Rejected(points) };
         }
@@ -233,7 +207,7 @@ impl Tracking<'_> {
         self.kept(&points, 1.0).map_or(Tried::Rejected(points), Tried::Kept)
     }
 
-    /// The track of some points, where they are long enough, good, and sure: as sure as `share` of what is asked of a whole track.
+    /// The track, if long, good and confident enough (`share` of the usual minimum).
     fn kept(&self, points: &[TrackPoint], share: f64) -> Option<Track> {
         let radius = usual(points, |point| point.radius);
         let good = points.iter().filter(|point| point.is_good).count() as f64;
@@ -246,7 +220,7 @@ impl Tracking<'_> {
         (track.confidence >= share * LEAST_CONFIDENCE).then_some(track)
     }
 
-    /// Paints a track and keeps it, or paints the middle of what is no vessel.
+    /// Paints a track and stores it, or paints the centre of a rejected one.
     fn commit(&self, tried: Tried, paint: &mut Paint, found: &mut Vec<Track>, levels: &mut Vec<f64>) {
         match tried {
             Tried::Nothing => (),
@@ -270,7 +244,7 @@ impl Tracking<'_> {
     }
 }
 
-/// How far from its middle a track is painted.
+/// Painted radius.
 fn painted(radius: f64) -> f64 {
     radius
         * match () {
@@ -280,7 +254,7 @@ fn painted(radius: f64) -> f64 {
         }
 }
 
-/// Whether a track lies in the lumen of one that was found after the first `known` ones.
+/// Whether a track meets one found after the first `known`.
 fn meets_new(paint: &Paint, known: usize, tried: &Tried) -> bool {
     let points = match tried {
         Tried::Nothing => return false,

@@ -1,7 +1,7 @@
-//! From linked tracks to whole vessels, from the root outwards, in parts that are ranked.
+//! Turns linked tracks into whole vessels from the root outwards, in ranked parts.
 //!
-//! Tracks and links are a graph. From the root of each part runs go on with what is straightest and widest; each moves to the
-//! middle of its lumen, and begins and ends on points of the runs that it meets.
+//! Tracks and links form a graph. From each root, runs follow the straightest and widest edges, are centred,
+//! and start and end on points of the runs they meet.
 
 pub(crate) mod attached;
 pub(crate) mod centered;
@@ -35,9 +35,6 @@ use lumencut_core::error::Result;
 use lumencut_core::stop::go_on;
 
 /// The vessels of linked tracks.
-///
-/// # Errors
-/// [`lumencut_core::error::ErrorKind::Interrupted`].
 pub(crate) fn of(
     scan: &Scan,
     tracks: &[Track],
@@ -71,7 +68,7 @@ pub(crate) fn of(
         let rank = part_of_root[of_node[run.knots[0].0]];
         stays[rank].extend(line.iter().map(|line| &line.points));
     }
-    // Parts of which nothing stays have no number.
+    // Empty parts get no number.
     stays.retain(|lines| !lines.is_empty());
     let lines = stays.iter().enumerate().flat_map(|(part, lines)| lines.iter().map(move |line| (part, line)));
     Ok(lines.flat_map(|(part, line)| sure::vessels(tracks, line, part)).collect())

@@ -1,4 +1,4 @@
-//! Lines that wander within a wide lumen, made calm: smoothed over the width of the lumen, and moved to its middle again.
+//! Smooths lines that wander within a wide lumen and centres them again.
 
 use crate::trace::lines::centerline::Centerline;
 use crate::trace::lines::smoothing::smoothed_by_gaussian;
@@ -9,12 +9,11 @@ use crate::voxels::Voxels;
 use lumencut_core::error::Result;
 use lumencut_core::stop::Stop;
 
-/// The standard deviations of the smoothing that are tried, one after the other: in radii.
+/// Standard deviations tried in turn, in radii.
 const WIDTHS: [f64; 3] = [0.5, 1.0, 2.0];
 
-/// The line as it is where it turns nowhere more tightly than its vessel is wide; else the one that does so least of those that are
-/// smoothed along it and moved to the middle again. Cross-sections of a line that runs obliquely through a wide lumen cut each other,
-/// and their middles lead it back and forth.
+/// Returns the line unchanged if it never wanders; otherwise the smoothed and recentred version that wanders
+/// least. Sections of a line oblique in a wide lumen intersect, and their centres lead it back and forth.
 ///
 /// # Errors
 /// [`lumencut_core::error::ErrorKind::Interrupted`].

@@ -1,23 +1,20 @@
-//! Thinning: what is left of a mask when simple points go, those nearest to the wall first.
+//! Thins a mask by removing simple points, nearest to the wall first.
 //!
 //! Pudney, "Distance-Ordered Homotopic Thinning", Computer Vision and Image Understanding 72(3), 1998,
-//! doi:10.1006/cviu.1998.0680. Voxels at about the same distance from the wall go in turns, from each of the six sides
-//! once, so that a vessel two voxels wide is thinned across its width before it is shortened. A voxel with a single
-//! neighbour is the end of a line and stays.
+//! doi:10.1006/cviu.1998.0680. Voxels at about the same distance are removed in turns from the six sides, so
+//! that a vessel two voxels wide is thinned before it is shortened. A voxel with one neighbour is an end and
+//! stays.
 
 use crate::trace::skeleton::foreground::{BACKGROUND, Foreground, LUMEN};
 use crate::trace::skeleton::simple_point::Neighbourhood;
 use lumencut_core::error::Result;
 use lumencut_core::stop::{Stop, go_on};
 
-/// Voxels whose distances differ by less than this number of sides of a voxel go in the same turns.
+/// Distance range of one turn, in voxel sides.
 const TURN: f64 = 0.5;
 
-/// Thins the lumen of a grid to lines of voxels with the same topology; returns their cells, rising. `lumen` lists the
-/// cells of lumen, `squares` holds their squared distances to the background (mm²).
-///
-/// # Errors
-/// [`lumencut_core::error::ErrorKind::Interrupted`] where `stop` says so.
+/// Thins to voxel lines of the same topology; returns their sorted cells, or `Interrupted`. `squares` are
+/// squared distances to background (mm²).
 pub(crate) fn thin(
     foreground: &mut Foreground,
     lumen: &[u32],
@@ -41,7 +38,7 @@ pub(crate) fn thin(
     Ok(front)
 }
 
-/// One turn from each of the six sides; whether any voxel went. Those that are left stay in `front`.
+/// One turn from each side; returns whether any voxel was removed.
 fn remove_from_all_sides(foreground: &mut Foreground, front: &mut Vec<u32>, stop: Stop) -> Result<bool> {
     let strides = foreground.strides();
     let mut removed = false;

@@ -1,4 +1,4 @@
-//! Which tracks lie beside each other and are about as wide: bone fills a neighbourhood, a vessel passes through it.
+//! Finds neighbouring tracks of similar width: bone fills a neighbourhood, a vessel passes through it.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -8,19 +8,16 @@ use crate::trace::find::track::Track;
 use lumencut_core::error::Result;
 use lumencut_core::stop::{Stop, go_on};
 
-/// Tracks are beside each other where a point of one is so near to a point of the other (mm).
+/// Maximum distance of neighbours (mm).
 const NEAR: f64 = 12.0;
 
-/// And where their radii differ by no more than this factor.
+/// Maximum ratio of their radii.
 const ALIKE: f64 = 2.2;
 
-/// Of each track a point is looked at after so much of its length (mm).
+/// Sampling distance along a track (mm).
 const STEP: f64 = 2.0;
 
-/// For each track the numbers of those beside it, rising, without itself and without those that `counts` leaves out.
-///
-/// # Errors
-/// [`lumencut_core::error::ErrorKind::Interrupted`].
+/// Sorted numbers of the neighbours of each track that `counts` includes.
 pub(crate) fn beside(tracks: &[Track], counts: &[bool], stop: Stop) -> Result<Vec<Vec<usize>>> {
     let radii: Vec<f64> = tracks.iter().map(Track::radius).collect();
     let places: Vec<Vec<DVec3>> = tracks.par_iter().map(spread_out).collect();
@@ -48,7 +45,6 @@ pub(crate) fn beside(tracks: &[Track], counts: &[bool], stop: Stop) -> Result<Ve
     (0..tracks.len()).into_par_iter().map(around).collect()
 }
 
-/// Points of a track, some way apart.
 fn spread_out(track: &Track) -> Vec<DVec3> {
     let mut places = vec![track.points[0].place];
     let mut walked = 0.0;

@@ -1,4 +1,4 @@
-//! Where an end of a track may be linked with another track, the cheapest place first.
+//! Possible link targets of an end, the cheapest first.
 
 use crate::trace::find::links::ends::{End, may_link};
 use crate::trace::find::links::link::Link;
@@ -7,76 +7,72 @@ use crate::trace::find::point_grid::PointGrid;
 use crate::trace::find::scan::Scan;
 use crate::trace::find::track::{Track, TrackPoint};
 
-/// How far from an end the middle of another track may lie: so many radii, and so much beyond (mm).
+/// Maximum distance to the centre of another track: radii plus mm.
 const REACH: f64 = 2.5;
 const REACH_BEYOND: f64 = 26.0;
 
-/// How far its wall may lie: so many radii, but at least so many voxels, and at most so much (mm).
+/// Maximum distance to its wall: radii, at least this many voxels, at most this many mm.
 const WALL: f64 = 3.0;
 const WALL_VOXELS: f64 = 4.0;
 const FARTHEST_WALL: f64 = 8.0;
 
-/// An end lies within another track up to this many of its radii, and a voxel beyond.
+/// An end lies inside another track up to this many of its radii plus a voxel.
 const INSIDE: f64 = 1.15;
 
-/// The lowest level along a link.
+/// Minimum level along a link.
 const LEVEL: f64 = 0.45;
 
-/// How much a turn and another level make a link longer.
+/// Extra length of a link for a turn or a different level.
 const TURN: f64 = 0.5;
 
-/// An end is narrow with a radius of less than so many voxels.
+/// Radius (voxels) below which an end is narrow.
 const NARROW: f64 = 2.5;
 
-/// At how many places of the same track the way there is looked at.
+/// Places tried per track.
 const TRIES: usize = 3;
 
-/// What a link must be like.
 pub(crate) struct Limits {
-    /// The least confidence of both tracks.
+    /// Minimum confidence of both tracks.
     pub confidence: f64,
-    /// The least cosine of its turn, but where the end lies within the other track.
+    /// Minimum cosine, unless the end lies inside the other track.
     pub turn: f64,
-    /// By which part of their contrast both levels may differ.
+    /// Maximum difference of levels (share of the contrast).
     pub unlike: f64,
-    /// How much of that difference counts for a narrow end at a brighter track: it is darker than its lumen.
+    /// Factor of that difference for a narrow end at a brighter track, because it is darker than its lumen.
     pub narrow: f64,
 }
 
-/// Limits for the first link of each end: turns of 60°.
+/// For the first link of an end: turns up to 60°.
 pub(crate) const OPEN_ENDS: Limits = Limits { confidence: 0.3, turn: 0.5, unlike: 0.5, narrow: 1.0 };
 
-/// Limits for links with another tree: turns of 45°.
+/// For links to another tree: turns up to 45°.
 pub(crate) const BETWEEN_TREES: Limits =
     Limits { confidence: 0.6, turn: std::f64::consts::FRAC_1_SQRT_2, unlike: 0.4, narrow: 0.5 };
 
-/// The points of all tracks that take part in links, found by where they lie.
+/// Points of all linkable tracks, by position.
 pub(crate) struct Landings<'a, 'v> {
     scan: &'a Scan<'v>,
     tracks: &'a [Track],
-    /// By width: tracks that are wide are found from afar.
+    /// By width, because wide tracks are reached from farther away.
     widths: Vec<Width>,
 }
 
-/// The points whose radii lie between a power of two and the next one.
+/// Points with radii between two powers of two.
 struct Width {
     widest: f64,
     grid: PointGrid,
-    /// The track of each, and its number there.
     points: Vec<[usize; 2]>,
 }
 
-/// The exponents of those powers of two (mm).
+/// Exponents of the powers of two (mm).
 const WIDTHS: std::ops::RangeInclusive<i32> = -3..=6;
 
-/// A place that may be landed on, before the way there was looked at.
 struct Place {
     link: Link,
     end: WayEnd,
 }
 
 impl<'a, 'v> Landings<'a, 'v> {
-    /// The points of tracks.
     pub(crate) fn new(scan: &'a Scan<'v>, tracks: &'a [Track]) -> Self {
         let all = || {
             let linked = tracks.iter().enumerate().filter(|(_, track)| may_link(track));
@@ -93,7 +89,7 @@ impl<'a, 'v> Landings<'a, 'v> {
         Self { scan, tracks, widths: WIDTHS.map(of_width).filter(|width| !width.points.is_empty()).collect() }
     }
 
-    /// Tells of each point whose wall is nearer to a place than `wall` and that itself is nearer than `reach` (mm).
+    /// Visits points closer than `reach` whose wall is closer than `wall` (mm).
     pub(crate) fn near(
         &self,
         place: glam::DVec3,
@@ -113,7 +109,7 @@ impl<'a, 'v> Landings<'a, 'v> {
         }
     }
 
-    /// The links that an end may have, the cheapest one first and one for each track.
+    /// Links of an end, the cheapest first, one per track.
     pub(crate) fn of<'b>(&'b self, end: &'b End, limits: &Limits) -> impl Iterator<Item = Link> + 'b {
         let places = if self.tracks[end.of[0]].confidence < limits.confidence {
             Vec::new()
@@ -138,7 +134,6 @@ impl<'a, 'v> Landings<'a, 'v> {
         })
     }
 
-    /// The places that an end may be linked with, the cheapest one first.
     fn places(&self, end: &End, limits: &Limits) -> Vec<Place> {
         let wall = (WALL * end.radius).max(WALL_VOXELS * self.scan.side).min(FARTHEST_WALL);
         let mut places = Vec::new();
@@ -152,7 +147,7 @@ impl<'a, 'v> Landings<'a, 'v> {
         places
     }
 
-    /// A point as a place to link an end with, unless limits speak against that.
+    /// None if the limits exclude it.
     fn place(&self, end: &End, limits: &Limits, to: [usize; 2], away: f64) -> Option<Place> {
         let point: &TrackPoint = &self.tracks[to[0]].points[to[1]];
         let is_inside = away <= INSIDE * point.radius + self.scan.side;

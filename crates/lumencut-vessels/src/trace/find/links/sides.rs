@@ -1,4 +1,5 @@
-//! Links from the side of a track to a wider one of another tree, as where a short trunk divides into two arms that are one track.
+//! Links from the side of a track to a wider track of another tree, as where a short trunk divides into two
+//! arms tracked as one.
 
 use std::collections::BTreeMap;
 
@@ -13,28 +14,25 @@ use crate::trace::find::track::{Track, TrackPoint};
 use lumencut_core::error::Result;
 use lumencut_core::stop::{Stop, go_on};
 
-/// The least confidence of both tracks, and the least radius of the narrower one (voxels).
+/// Minimum confidence of both, and minimum radius of the narrower (voxels).
 const CONFIDENCE: f64 = 0.7;
 const LEAST_RADIUS: f64 = 1.5;
 
-/// How far apart both walls may be: so many radii of the narrower track, and at most so much (mm).
+/// Maximum distance of the walls: radii of the narrower track, and mm.
 const WALLS: f64 = 3.0;
 const FARTHEST_WALL: f64 = 12.0;
 
-/// By which part of their contrast both levels may differ, and the lowest level along the link.
+/// Maximum difference of levels (share of the contrast), and minimum level on the way.
 const UNLIKE: f64 = 0.3;
 const LEVEL: f64 = 0.7;
 
-/// Tracks that run side by side are an artery and its vein: the cosine between them is at most this.
+/// Maximum cosine: parallel tracks are an artery and its vein.
 const SIDE_BY_SIDE: f64 = 0.8;
 
-/// At how many places of a pair of trees the way is looked at.
+/// Places tried per pair of trees.
 const TRIES: usize = 8;
 
-/// The links from sides that each pair of trees may have: the shortest one.
-///
-/// # Errors
-/// [`lumencut_core::error::ErrorKind::Interrupted`].
+/// The shortest side link of each pair of trees.
 pub(crate) fn side_links(
     scan: &Scan,
     tracks: &[Track],
@@ -66,7 +64,6 @@ pub(crate) fn side_links(
     Ok(links.into_iter().flatten().collect())
 }
 
-/// What is needed to look at the sides of tracks.
 struct Sides<'a, 'v> {
     scan: &'a Scan<'v>,
     tracks: &'a [Track],
@@ -76,7 +73,7 @@ struct Sides<'a, 'v> {
 }
 
 impl Sides<'_, '_> {
-    /// The shortest link from a point to each other tree, before its way was looked at.
+    /// Shortest link to each other tree, before checking the way.
     fn nearest(&self, from: [usize; 2]) -> Vec<Link> {
         let point = self.point(from);
         let mut best: Vec<Link> = Vec::new();
@@ -100,7 +97,6 @@ impl Sides<'_, '_> {
         best
     }
 
-    /// Whether a point may be linked with one of a wider track, by what both are like.
     fn may_join(&self, from: [usize; 2], to: [usize; 2]) -> bool {
         let [narrow, wide] = [from, to].map(|of| self.point(of));
         let unlike = (narrow.level - wide.level).abs() / narrow.contrast.max(wide.contrast);
@@ -110,7 +106,7 @@ impl Sides<'_, '_> {
             && narrow.direction.dot(wide.direction).abs() <= SIDE_BY_SIDE
     }
 
-    /// The first of the shortest links of a pair of trees that runs through lumen.
+    /// First of the shortest links that runs through lumen.
     fn first_of_lumen(&self, links: &[Link]) -> Option<Link> {
         let mut links = links.to_vec();
         links.sort_unstable_by(Link::order);

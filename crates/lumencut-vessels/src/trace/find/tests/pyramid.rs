@@ -3,7 +3,6 @@ use crate::trace::find::made::with_scan;
 
 const SIZE: [usize; 3] = [84, 80, 76];
 
-/// The levels of a scan of voxels of 1 mm with the values of places (mm).
 fn levels(value: impl Fn(DVec3) -> f64, range: [f64; 2], work: impl Fn(&Pyramid)) {
     with_scan(SIZE, 1.0, value, |scan| {
         let grid = Grid::over(scan.voxels, 0.5);
