@@ -10,7 +10,7 @@ use lumencut_core::volume::{Real, Volume, Voxel};
 use lumencut_core::with_voxels;
 
 /// Reads voxel values for tracing and measuring.
-pub trait VoxelSource: Sync {
+pub(crate) trait VoxelSource: Sync {
     /// Values of a cube of voxels, i fastest; NaN outside the volume.
     fn cube(&self, first: [i32; 3], side: usize, values: &mut [f32]);
     /// Trilinear value at a continuous index; NaN more than half a voxel beyond the outermost centres.
@@ -90,7 +90,7 @@ impl<'a> Voxels<'a> {
     }
 
     /// Trilinear value at a continuous index; NaN outside.
-    pub fn at_index(&self, index: DVec3) -> f32 {
+    pub(crate) fn at_index(&self, index: DVec3) -> f32 {
         self.source.at(index)
     }
 
@@ -100,7 +100,7 @@ impl<'a> Voxels<'a> {
     }
 
     /// Whether the volume has values as negative as fat and air in HU; reads a subset of the rows.
-    pub fn has_negative(&self) -> bool {
+    pub(crate) fn has_negative(&self) -> bool {
         let voxels: usize = self.size.iter().product();
         *self.negative.get_or_init(|| self.source.goes_below(NEGATIVE, voxels.div_ceil(MOST_VOXELS).max(1)))
     }

@@ -18,13 +18,13 @@ pub fn variance_of(fwhm: f64) -> f64 {
 }
 
 /// Full width at half maximum of a Gaussian with this variance.
-pub fn fwhm_of(variance: f64) -> f64 {
+pub(crate) fn fwhm_of(variance: f64) -> f64 {
     (8.0 * LN_2 * variance).sqrt()
 }
 
 /// The blur of a volume.
 #[derive(Clone, Copy, Debug)]
-pub struct Blur {
+pub(crate) struct Blur {
     point_spread: f64,
     /// Sum of the outer products of the voxel sides (mm²).
     voxel: DMat3,
@@ -32,28 +32,28 @@ pub struct Blur {
 
 impl Blur {
     /// `sides` has the voxel sides as columns.
-    pub fn new(fwhm: f64, sides: DMat3) -> Self {
+    pub(crate) fn new(fwhm: f64, sides: DMat3) -> Self {
         Self { point_spread: variance_of(fwhm), voxel: sides * sides.transpose() }
     }
 
     /// In-plane covariance of voxel values (mm²).
-    pub fn of_voxels(&self, place: &Place) -> DMat2 {
+    pub(crate) fn of_voxels(&self, place: &Place) -> DMat2 {
         self.in_plane(place, AVERAGING)
     }
 
     /// In-plane covariance of interpolated values (mm²).
-    pub fn interpolated(&self, place: &Place) -> DMat2 {
+    pub(crate) fn interpolated(&self, place: &Place) -> DMat2 {
         self.in_plane(place, AVERAGING + INTERPOLATION)
     }
 
     /// In-plane FWHM of voxel values, averaged over directions (mm).
-    pub fn width(&self, place: &Place) -> f64 {
+    pub(crate) fn width(&self, place: &Place) -> f64 {
         fwhm_of(self.of_voxels(place).determinant().sqrt())
     }
 
     /// Variance along the vessel (mm²) of voxels weighted by their distance to the plane, up to `thickness`
     /// mm.
-    pub fn along(&self, place: &Place, thickness: f64) -> f64 {
+    pub(crate) fn along(&self, place: &Place, thickness: f64) -> f64 {
         let voxel = place.normal.dot(self.voxel * place.normal) * AVERAGING;
         // t²/6 is the variance of a triangular weight.
         self.point_spread + voxel + thickness * thickness / 6.0

@@ -14,7 +14,7 @@ use glam::{DMat2, DVec2};
 use lumencut_core::math::lanes::FAN;
 
 /// Number of shape parameters: centre (2), mean semi-axis, stretch (2).
-pub const SHAPE: usize = 5;
+pub(crate) const SHAPE: usize = 5;
 
 /// Maximum distance of boundary nodes in standard deviations of the blur; keeps the error of the rule below
 /// 0.001 %.
@@ -76,12 +76,13 @@ impl Ellipse {
     }
 
     /// Diameter of a circle of the same area (mm).
-    pub fn equivalent_diameter(&self) -> f64 {
+    pub(crate) fn equivalent_diameter(&self) -> f64 {
         2.0 * (self.area() / PI).max(0.0).sqrt()
     }
 
+    /// The ellipse with its semi-axes times a factor.
     #[must_use]
-    pub(crate) fn scaled(&self, by: f64) -> Self {
+    pub fn scaled(&self, by: f64) -> Self {
         Self { center: self.center, mean: self.mean * by, stretch: self.stretch * by }
     }
 
@@ -147,7 +148,7 @@ pub struct Boundary {
 
 /// A blurred ellipse at sixteen points.
 #[derive(Clone, Copy, Debug)]
-pub struct Blurred {
+pub(crate) struct Blurred {
     /// From 0 outside to 1 inside.
     pub value: [f32; FAN],
     /// Derivatives (1/mm), in the order of [`Ellipse::parameters`].
@@ -189,7 +190,7 @@ impl Boundary {
     /// instruction set and code size counts.
     #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     #[cfg_attr(target_arch = "wasm32", inline(never))]
-    pub fn blurred(&self, x: &[f32; FAN], y: &[f32; FAN]) -> Blurred {
+    pub(crate) fn blurred(&self, x: &[f32; FAN], y: &[f32; FAN]) -> Blurred {
         let [xx, xy, yy] = self.whitening;
         let mut place = [[0.0; FAN]; 2];
         for l in 0..FAN {

@@ -2,7 +2,7 @@
 
 use std::marker::PhantomData;
 
-use super::ellipse::{Boundary, Ellipse, SHAPE, Whitening};
+use super::ellipse::{Ellipse, SHAPE, Whitening};
 use super::least_squares::{Minimum, Normal, minimum, solved, variance};
 use super::model::{Model, ThreeLevels, TwoLevels};
 use super::parameters::{BACKGROUND, HARMONICS, LUMEN, PLAIN, SECTORS, THICKNESS, WALL, WALLED};
@@ -27,14 +27,14 @@ const EVENLY_FALLING: f64 = 2.0 / 3.0;
 
 /// Prior knowledge, as means and standard deviations; levels are shares.
 #[derive(Clone, Copy, Debug)]
-pub struct Expected<'a> {
+pub(crate) struct Expected<'a> {
     pub lumen: [f64; 2],
     pub background: [f64; 2],
     /// Standard deviation of the relative difference of the semi-axes, around 0.
     pub stretch: f64,
     pub noise: f64,
     /// Whether `noise` is a guess; the typical residual may then replace it.
-    pub is_guessed: bool,
+    pub(crate) is_guessed: bool,
     /// None where the wall cannot be separated from the surroundings.
     pub wall: Option<KnownWall>,
     /// Set if the uncertainty of the diameter is wanted.
@@ -43,7 +43,7 @@ pub struct Expected<'a> {
 
 /// Sources of uncertainty beyond the section itself.
 #[derive(Clone, Copy, Debug)]
-pub struct Unsure<'a> {
+pub(crate) struct Unsure<'a> {
     pub texture: &'a Texture,
     /// Blur with the point spread wider by its standard deviation; None if it is known.
     pub wider: Option<Whitening>,
@@ -59,14 +59,14 @@ const SIDES: [f64; HARMONICS] = [0.3, 0.3, 0.15, 0.15, 0.1, 0.1];
 const TRUSTED: (f64, [f64; 2]) = (1.0, [0.15, 2.0]);
 
 #[derive(Clone, Copy, Debug)]
-pub struct Fit {
+pub(crate) struct Fit {
     pub ellipse: Ellipse,
     /// Mean and standard deviation, as shares.
     pub lumen: [f64; 2],
     pub background: f64,
     pub wall: Option<Wall>,
     /// Root mean square of the residuals, as a share: the noise, if the lumen is an ellipse.
-    pub missed: f64,
+    pub(crate) missed: f64,
     /// Standard deviation of the equivalent diameter (mm); NaN if not requested.
     pub uncertainty: f64,
     pub parts: Parts,
@@ -79,7 +79,7 @@ pub struct Fit {
 
 impl Fit {
     /// Fits from `start`; None if there are too few samples or no ellipse fits.
-    pub fn new(
+    pub(crate) fn new(
         samples: &Samples,
         whitening: Whitening,
         start: &Ellipse,
@@ -114,7 +114,7 @@ impl Fit {
 
     /// [`Fit::missed`] of the fit from `start`, without the second weighting; None where [`Fit::new`] returns
     /// None.
-    pub fn missed_by(
+    pub(crate) fn missed_by(
         samples: &Samples,
         whitening: Whitening,
         start: &Ellipse,
@@ -134,7 +134,7 @@ impl Fit {
     }
 
     /// Residuals of the samples.
-    pub fn missing(&self, samples: &Samples, whitening: Whitening) -> Vec<[f32; FAN]> {
+    pub(crate) fn missing(&self, samples: &Samples, whitening: Whitening) -> Vec<[f32; FAN]> {
         let levels = [self.lumen[0], self.background];
         match &self.wall {
             Some(wall) => missing(samples, &ThreeLevels::of(&self.ellipse, wall, levels, whitening)),
@@ -144,15 +144,11 @@ impl Fit {
 
     /// Adds the difference of the diameters of two equally plausible fits to the uncertainty.
     #[must_use]
-    pub fn or(mut self, other: &Self) -> Self {
+    pub(crate) fn or(mut self, other: &Self) -> Self {
         let apart = self.ellipse.equivalent_diameter() - other.ellipse.equivalent_diameter();
         self.parts.surroundings = self.parts.surroundings.hypot(apart);
         self.uncertainty = self.parts.total();
         self
-    }
-
-    pub fn boundary(&self, whitening: Whitening) -> Boundary {
-        Boundary::new(&self.ellipse, whitening)
     }
 }
 

@@ -2,7 +2,7 @@
 
 /// Normal equations at some parameters.
 #[derive(Clone, Copy, Debug)]
-pub struct Normal<const N: usize> {
+pub(crate) struct Normal<const N: usize> {
     pub cost: f64,
     /// Products of the derivatives by each pair of parameters.
     pub matrix: [[f64; N]; N],
@@ -11,12 +11,13 @@ pub struct Normal<const N: usize> {
 }
 
 impl<const N: usize> Normal<N> {
-    pub fn zero() -> Self {
+    #[cfg(test)]
+    pub(crate) fn zero() -> Self {
         Self { cost: 0.0, matrix: [[0.0; N]; N], slope: [0.0; N] }
     }
 
     /// Adds a prior: the squared residual of a linear combination, in standard deviations.
-    pub fn expect(&mut self, by: &[f64; N], missing: f64, deviation: f64) {
+    pub(crate) fn expect(&mut self, by: &[f64; N], missing: f64, deviation: f64) {
         let weight = 1.0 / (deviation * deviation);
         self.cost += weight * missing * missing;
         for a in (0..N).filter(|a| by[*a] != 0.0) {
@@ -29,7 +30,7 @@ impl<const N: usize> Normal<N> {
 }
 
 #[derive(Clone, Copy, Debug)]
-pub struct Minimum<const N: usize> {
+pub(crate) struct Minimum<const N: usize> {
     pub at: [f64; N],
     pub normal: Normal<N>,
 }

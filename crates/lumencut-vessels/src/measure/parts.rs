@@ -37,9 +37,8 @@ impl Parts {
         [noise, point_spread, wall, lumen, surroundings].map(|part| part * part).iter().sum::<f64>().sqrt()
     }
 
-    /// The parts times a factor.
     #[must_use]
-    pub fn scaled(&self, by: f64) -> Self {
+    pub(crate) fn scaled(&self, by: f64) -> Self {
         self.map(|part| part * by)
     }
 
@@ -98,7 +97,7 @@ impl Part {
 
 /// Standard deviation of a weighted sum of diameters of one vessel. Errors of point spread, wall and lumen
 /// level are common to all places and add with their signs; noise and surroundings are independent.
-pub fn deviation_of_sum(diameters: &[(f64, Parts)]) -> f64 {
+pub(crate) fn deviation_of_sum(diameters: &[(f64, Parts)]) -> f64 {
     let together =
         |part: Part| diameters.iter().map(|(weight, parts)| weight * part.of(parts)).sum::<f64>().powi(2);
     let apart =

@@ -46,7 +46,7 @@ impl Place {
 
 /// A vessel by its arc length, with planes across it.
 #[derive(Clone, Debug)]
-pub struct Track {
+pub(crate) struct Track {
     path: CenterlinePath,
     /// The smoothed line that gives the directions.
     quiet: CenterlinePath,
@@ -60,7 +60,7 @@ impl Track {
     ///
     /// # Errors
     /// [`ErrorKind::VesselTree`] for a vessel without length.
-    pub fn new(vessel: &Vessel, radius: Option<f64>) -> Result<Self> {
+    pub(crate) fn new(vessel: &Vessel, radius: Option<f64>) -> Result<Self> {
         let smoothing = (0.5 * radius.unwrap_or(0.0)).clamp(SMOOTHING[0], SMOOTHING[1]);
         let path = CenterlinePath::new(vessel, 0.0)?;
         let distinct = Vessel::new(path.points().to_vec(), None)?;
@@ -77,7 +77,7 @@ impl Track {
     }
 
     /// The plane at an arc length (mm).
-    pub fn at(&self, at: f64) -> Place {
+    pub(crate) fn at(&self, at: f64) -> Place {
         let frame = self.frames.at(self.along_quiet(at));
         let right = if self.is_seen_along { -frame.across } else { frame.across };
         Place { at, origin: self.path.at(at), axes: [right, frame.ahead], normal: frame.tangent }
@@ -87,7 +87,7 @@ impl Track {
     ///
     /// # Errors
     /// [`ErrorKind::Settings`] for an invalid step, or one that needs more than 20,000 sections.
-    pub fn places(&self, step: f64) -> Result<Vec<Place>> {
+    pub(crate) fn places(&self, step: f64) -> Result<Vec<Place>> {
         if !(step > 0.0 && step.is_finite()) {
             let expected = "a number above 0 mm";
             return Err(Error::new(ErrorKind::Settings, "step", format!("{step} mm"), expected));

@@ -98,7 +98,7 @@ pub struct Profile {
 
 impl Profile {
     /// `noise` is in the volume's unit.
-    pub fn new(
+    pub(crate) fn new(
         places: &[Place],
         sections: &[Section],
         scale: &Scale,

@@ -24,14 +24,14 @@ pub(crate) struct Ray {
     /// Start of anything else (neighbour, calcium, metal); infinite if none.
     pub limit: f64,
     /// Start of material too bright for lumen.
-    pub bright_at: Option<f64>,
+    pub(crate) bright_at: Option<f64>,
     /// Largest share within a millimetre of that; 0 if none.
     pub brightest: f64,
     /// Where the profile crosses midway between the lumen level and `brightest`, going up and coming down;
     /// equal if nothing is bright.
     pub rim: [f64; 2],
     /// Where the ray leaves the volume.
-    pub outside_at: Option<f64>,
+    pub(crate) outside_at: Option<f64>,
 }
 
 impl Ray {

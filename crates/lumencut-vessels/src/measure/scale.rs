@@ -29,7 +29,7 @@ const RIM_SHARE: f64 = 0.1;
 
 /// Maps values of a volume to shares: 0 outside the vessel, 1 in its lumen.
 #[derive(Clone, Copy, Debug)]
-pub struct Scale {
+pub(crate) struct Scale {
     /// Level outside the vessel.
     pub outside: f64,
     /// Lumen level minus outside level; negative for dark lumens.
@@ -37,11 +37,11 @@ pub struct Scale {
 }
 
 impl Scale {
-    pub fn share(&self, value: f64) -> f64 {
+    pub(crate) fn share(&self, value: f64) -> f64 {
         (value - self.outside) / self.contrast
     }
 
-    pub fn value(&self, share: f64) -> f64 {
+    pub(crate) fn value(&self, share: f64) -> f64 {
         self.outside + share * self.contrast
     }
 
@@ -50,7 +50,7 @@ impl Scale {
     ///
     /// # Errors
     /// [`ErrorKind::Measuring`] if lumen and surroundings look alike.
-    pub fn of(voxels: &Voxels, places: &[Place], radius: Option<f64>) -> Result<Self> {
+    pub(crate) fn of(voxels: &Voxels, places: &[Place], radius: Option<f64>) -> Result<Self> {
         let step = 0.5 * voxels.sampling_side;
         let reach = radius.map_or(REACH, |radius| 2.5 * radius + 3.0);
         let rings = rings(voxels, places, step, (reach / step).ceil() as usize);

@@ -89,9 +89,9 @@ impl Known {
 
 /// A measured section.
 #[derive(Clone, Debug)]
-pub struct Section {
+pub(crate) struct Section {
     /// None if no lumen was found.
-    pub fit: Option<Fit>,
+    pub(crate) fit: Option<Fit>,
     /// Wall points (mm, LPS), one per ray; empty without a lumen.
     pub contour: Vec<DVec3>,
     pub flags: u32,
@@ -100,12 +100,12 @@ pub struct Section {
 }
 
 impl Section {
-    pub fn none() -> Self {
+    pub(crate) fn none() -> Self {
         Self { fit: None, contour: Vec::new(), flags: NO_EDGE, bounds: [f64::NAN; 2] }
     }
 
     /// Scales the lumen by a factor.
-    pub fn scale(&mut self, by: f64) {
+    pub(crate) fn scale(&mut self, by: f64) {
         let middle = self.contour.iter().sum::<DVec3>() / self.contour.len().max(1) as f64;
         for point in &mut self.contour {
             *point = middle + (*point - middle) * by;

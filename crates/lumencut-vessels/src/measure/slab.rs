@@ -15,7 +15,7 @@ const MOST: [usize; 2] = [448, 160];
 
 /// Selection of voxels.
 #[derive(Clone, Copy, Debug)]
-pub struct Window {
+pub(crate) struct Window {
     /// Centre (mm in the plane).
     pub center: DVec2,
     /// Radius (mm).
@@ -26,7 +26,7 @@ pub struct Window {
 
 /// Voxels in groups of sixteen; padding has weight 0.
 #[derive(Clone, Debug, Default)]
-pub struct Samples {
+pub(crate) struct Samples {
     /// In-plane position (mm).
     pub x: Vec<[f32; FAN]>,
     pub y: Vec<[f32; FAN]>,
@@ -48,7 +48,7 @@ struct Sample {
 
 impl Samples {
     /// Collects the voxels of a window that `keep` accepts.
-    pub fn gather(
+    pub(crate) fn gather(
         voxels: &Voxels,
         scale: &Scale,
         place: &Place,

@@ -19,13 +19,13 @@ use lumencut_core::math::statistics::median;
 use lumencut_core::named::Named;
 
 /// A reference is the median of the sections within this distance (mm).
-pub const REFERENCE_REACH: f64 = 1.5;
+pub(crate) const REFERENCE_REACH: f64 = 1.5;
 
 /// A distal vessel below this share of the vessel on the other side of the stenosis is itself narrowed.
-pub const NARROWED: f64 = 0.5;
+pub(crate) const NARROWED: f64 = 0.5;
 
 /// The same limit for a comparison vessel, such as the contralateral one (Bartlett et al. 2006, AJNR 27:632).
-pub const NARROWED_BESIDE: f64 = 0.87;
+pub(crate) const NARROWED_BESIDE: f64 = 0.87;
 
 /// Range of the other side of a stenosis (mm from it).
 const OTHER_SIDE: [f64; 2] = [3.0, 50.0];
@@ -160,7 +160,7 @@ impl Profile {
     }
 
     /// Parts of the standard deviation at an arc length (mm), interpolated.
-    pub fn uncertainty_at(&self, at: f64) -> Parts {
+    pub(crate) fn uncertainty_at(&self, at: f64) -> Parts {
         let (place, ends) = self.sections_around(at);
         let [a, b] = ends.map(|n| &self.uncertainty_parts[n]);
         a.with(b, |a, b| place.between([a, b]))
@@ -201,7 +201,7 @@ impl Profile {
     ///
     /// # Errors
     /// [`ErrorKind::Measuring`] for a place beyond the vessel or without such sections.
-    pub fn reference_at(&self, at: f64) -> Result<f64> {
+    pub(crate) fn reference_at(&self, at: f64) -> Result<f64> {
         self.check_place("reference of the stenosis", at)?;
         let around = |n: &usize| (self.arc_length[*n] - at).abs() <= REFERENCE_REACH;
         let mut widths = self.widths((0..self.len()).filter(around));
@@ -236,7 +236,7 @@ impl Profile {
     ///
     /// # Errors
     /// [`ErrorKind::Measuring`].
-    pub fn check_place(&self, subject: &str, at: f64) -> Result<()> {
+    pub(crate) fn check_place(&self, subject: &str, at: f64) -> Result<()> {
         let length = self.arc_length[self.len() - 1];
         // Tolerates rounding of lengths.
         if at >= -ALONG_LINE && at <= length + ALONG_LINE {

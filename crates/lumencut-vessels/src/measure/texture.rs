@@ -19,13 +19,13 @@ const LARGEST: f32 = 4.0;
 
 /// Autocorrelation of the noise by the absolute offsets along the grid axes.
 #[derive(Clone, Debug)]
-pub struct Texture {
+pub(crate) struct Texture {
     correlation: [[[f32; FAR]; FAR]; FAR],
 }
 
 /// Products of residual pairs by offset.
 #[derive(Clone, Debug)]
-pub struct Pairs {
+pub(crate) struct Pairs {
     products: [[[f64; FAR]; FAR]; FAR],
     count: [[[f64; FAR]; FAR]; FAR],
     /// Sum and number of the products of distant pairs.
@@ -33,7 +33,7 @@ pub struct Pairs {
 }
 
 impl Pairs {
-    pub fn new(samples: &Samples, missing: &[[f32; FAN]], noise: f32) -> Self {
+    pub(crate) fn new(samples: &Samples, missing: &[[f32; FAN]], noise: f32) -> Self {
         let mut all = Self { products: Default::default(), count: Default::default(), far: [0.0; 2] };
         let mut each = Vec::with_capacity(samples.count);
         for (n, misses) in missing.iter().enumerate() {
@@ -62,7 +62,7 @@ impl Pairs {
     }
 
     #[must_use]
-    pub fn with(mut self, other: &Self) -> Self {
+    pub(crate) fn with(mut self, other: &Self) -> Self {
         self.far = [self.far[0] + other.far[0], self.far[1] + other.far[1]];
         for i in 0..FAR {
             for j in 0..FAR {
@@ -190,13 +190,13 @@ pub(crate) fn independent_variance(weights: &[[f32; FAN]]) -> f64 {
 
 impl Texture {
     /// Independent noise.
-    pub fn white() -> Self {
+    pub(crate) fn white() -> Self {
         let mut correlation = [[[0.0; FAR]; FAR]; FAR];
         correlation[0][0][0] = 1.0;
         Self { correlation }
     }
 
-    pub fn of(pairs: &Pairs) -> Self {
+    pub(crate) fn of(pairs: &Pairs) -> Self {
         let mut all = Self::white();
         // The fit absorbs the slowest noise of a section, which lowers all correlations equally. Far pairs
         // are independent, so they show that offset.
@@ -220,7 +220,7 @@ impl Texture {
     }
 
     /// Factor by which correlation raises the variance of wall estimates over the width of the blur (mm).
-    pub fn inflation(&self, sides: DMat3, width: f64) -> f64 {
+    pub(crate) fn inflation(&self, sides: DMat3, width: f64) -> f64 {
         const SIGNS: [f64; 2] = [1.0, -1.0];
         let mut sum = 0.0;
         for i in 0..FAR {
@@ -248,7 +248,7 @@ impl Texture {
     }
 
     /// Variance of a weighted sum of noise of variance 1; at least a tenth of the independent one.
-    pub fn variance(&self, samples: &Samples, weights: &[[f32; FAN]]) -> f64 {
+    pub(crate) fn variance(&self, samples: &Samples, weights: &[[f32; FAN]]) -> f64 {
         let mut each: Vec<([i16; 3], f32)> = weights
             .iter()
             .zip(&samples.voxel)

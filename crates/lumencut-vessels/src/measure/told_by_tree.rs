@@ -9,5 +9,5 @@ pub struct ToldByTree {
     /// Point spread of the scan.
     pub spread: PointSpread,
     /// Wall levels of the vessels that show them.
-    pub walls: Vec<ToldWall>,
+    pub(crate) walls: Vec<ToldWall>,
 }

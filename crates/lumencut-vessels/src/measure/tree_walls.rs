@@ -12,7 +12,7 @@ const APART: [f64; 6] = [0.16, 0.32, 0.48, 0.64, 0.8, 0.96];
 
 /// Wall level from the sections of a vessel, without the prior.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ToldWall {
+pub(crate) struct ToldWall {
     /// Number of the vessel in its tree.
     pub vessel: usize,
     /// Level and standard deviation, in the volume's unit.
@@ -30,7 +30,7 @@ pub struct PooledWall {
 
 /// Wall level expected from the other vessels of a tree. Vessels that share part of the line are skipped,
 /// because they have the same voxels.
-pub fn wall_beside(
+pub(crate) fn wall_beside(
     walls: &[ToldWall],
     tree: &[Vessel],
     vessel: &Vessel,

@@ -23,11 +23,11 @@ const MIDDLE: [f64; 2] = [0.4, 1.6];
 const LEAST_THICKNESS: f64 = 1e-4;
 
 #[derive(Clone, Copy, Debug)]
-pub struct Wall {
+pub(crate) struct Wall {
     /// Level as a share, and standard deviation.
     pub level: Level,
     /// Log of the thickness (mm), and standard deviation.
-    pub log_thickness: Level,
+    pub(crate) log_thickness: Level,
     /// Change of log thickness per level: a thin, bright wall looks like a thick one.
     pub slope: f64,
     /// Harmonics of the surroundings, as shares; see [`super::model::ThreeLevels`].
@@ -37,7 +37,7 @@ pub struct Wall {
 }
 
 impl Wall {
-    pub fn new(minimum: &Minimum<WALLED>, origin: DVec2) -> Option<Self> {
+    pub(crate) fn new(minimum: &Minimum<WALLED>, origin: DVec2) -> Option<Self> {
         let [level, thickness] = [WALL, LOG_THICKNESS];
         let of = |n: usize| solved(&minimum.normal.matrix, &unit(n));
         let (by_level, by_thickness) = (of(level)?, of(thickness)?);
@@ -52,41 +52,41 @@ impl Wall {
         })
     }
 
-    pub fn assumed(level: Level, log_thickness: Level, origin: DVec2) -> Self {
+    pub(crate) fn assumed(level: Level, log_thickness: Level, origin: DVec2) -> Self {
         Self { level, log_thickness, slope: 0.0, sectors: [0.0; HARMONICS], origin }
     }
 
     /// Log thickness from the same voxels if the wall level (a share) is known.
-    pub fn log_thickness_at(&self, level: f64) -> Level {
+    pub(crate) fn log_thickness_at(&self, level: f64) -> Level {
         let [mean, deviation] = self.log_thickness;
         let square = deviation.powi(2) - (self.slope * self.level[1]).powi(2);
         [mean + self.slope * (level - self.level[0]), square.max(LEAST_THICKNESS).sqrt()]
     }
 
-    pub fn thickness(&self) -> f64 {
+    pub(crate) fn thickness(&self) -> f64 {
         self.log_thickness[0].exp()
     }
 }
 
 /// Prior knowledge of a wall.
 #[derive(Clone, Copy, Debug)]
-pub struct KnownWall {
+pub(crate) struct KnownWall {
     pub level: Level,
     /// None if only the lumen width gives it.
-    pub log_thickness: Option<Level>,
+    pub(crate) log_thickness: Option<Level>,
     /// See [`Wall::slope`]; `log_thickness` applies at `level`.
     pub slope: f64,
 }
 
 impl KnownWall {
     /// From a level in the volume's unit.
-    pub fn of(level: Level, scale: &Scale) -> Self {
+    pub(crate) fn of(level: Level, scale: &Scale) -> Self {
         let share = [scale.share(level[0]), level[1] / scale.contrast.abs()];
         Self { level: share, log_thickness: None, slope: 0.0 }
     }
 
     /// Log thickness (mm) around a lumen.
-    pub fn log_thickness(&self, lumen: &Ellipse) -> Level {
+    pub(crate) fn log_thickness(&self, lumen: &Ellipse) -> Level {
         self.log_thickness.unwrap_or_else(|| beforehand(lumen))
     }
 }

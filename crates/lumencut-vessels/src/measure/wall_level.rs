@@ -86,7 +86,7 @@ impl WallSource {
 }
 
 /// Whether a level from other vessels is plausible for a wall here.
-pub fn is_below_lumen(wall: &PooledWall, scale: &Scale) -> bool {
+pub(crate) fn is_below_lumen(wall: &PooledWall, scale: &Scale) -> bool {
     scale.share(wall.level[0]) <= 1.0 - BELOW_LUMEN
 }
 
@@ -94,7 +94,7 @@ pub fn is_below_lumen(wall: &PooledWall, scale: &Scale) -> bool {
 ///
 /// # Errors
 /// [`ErrorKind::Settings`] for a level as bright as the lumen.
-pub fn expected(
+pub(crate) fn expected(
     voxels: &Voxels,
     scale: &Scale,
     request: WallRequest,

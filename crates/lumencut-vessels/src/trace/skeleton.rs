@@ -44,7 +44,7 @@ const MOST_CELLS: usize = u32::MAX as usize;
 pub const PARENT_RADII: f64 = 2.0;
 
 /// Parameters of skeletonization.
-pub struct Skeletonization<'a> {
+pub(crate) struct Skeletonization<'a> {
     /// Minimum length of a branch, in radii of its parent.
     pub parent_radii: f64,
     /// Maximum distance between neighbouring points (mm).
@@ -58,10 +58,10 @@ pub struct Skeletonization<'a> {
 }
 
 /// Relative duration per lumen voxel of the steps: cavities and components, distances, thinning, lines.
-pub const COSTS: [usize; 4] = [2, 3, 6, 4];
+pub(crate) const COSTS: [usize; 4] = [2, 3, 6, 4];
 
 /// Vessels of lumen voxels and findings.
-pub struct Skeleton {
+pub(crate) struct Skeleton {
     /// Vessels; those that meet share end points, equal to the bit. Empty if no part is longer than wide.
     pub vessels: Vec<MaskVessel>,
     /// Number of filled cavities, and of their voxels.
@@ -79,7 +79,7 @@ const JOINED: f64 = 1.5;
 ///
 /// # Errors
 /// [`ErrorKind::Volume`] for a box that is too large; [`ErrorKind::Interrupted`].
-pub fn skeleton(mut foreground: Foreground, skeleton: &Skeletonization) -> Result<Skeleton> {
+pub(crate) fn skeleton(mut foreground: Foreground, skeleton: &Skeletonization) -> Result<Skeleton> {
     let stop = skeleton.stop;
     if foreground.cells.len() > MOST_CELLS {
         let found = format!("{:?} voxels in the box around the lumen", foreground.size);

@@ -55,7 +55,11 @@ pub fn check(voxels: &Voxels, clicks: &Clicks) -> Result<()> {
 }
 
 /// Rejects a click outside the volume.
-pub fn check_place(voxels: &Voxels, point: DVec3, subject: impl Fn() -> (String, Clicked)) -> Result<()> {
+pub(crate) fn check_place(
+    voxels: &Voxels,
+    point: DVec3,
+    subject: impl Fn() -> (String, Clicked),
+) -> Result<()> {
     let wrong = |found: String, expected: String| {
         let (subject, clicked) = subject();
         Err(Error::new(ErrorKind::Tracing, subject, found, expected).about(clicked))

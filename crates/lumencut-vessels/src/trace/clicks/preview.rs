@@ -33,7 +33,7 @@ pub struct Sought<'a> {
 
 /// Fronts of a click.
 #[derive(Debug)]
-pub struct Live {
+pub(crate) struct Live {
     click: DVec3,
     region: Region,
     fronts: [Front; 2],
@@ -41,7 +41,7 @@ pub struct Live {
 
 impl Live {
     /// Reuses the known region if it fits the click; None if the click is not in lumen.
-    pub fn new(
+    pub(crate) fn new(
         voxels: &Voxels,
         sought: &Sought,
         surroundings: Option<Surroundings>,
@@ -64,12 +64,12 @@ impl Live {
     }
 
     /// Whether these are the fronts of the click of `sought`.
-    pub fn is_from(&self, sought: &Sought) -> bool {
+    pub(crate) fn is_from(&self, sought: &Sought) -> bool {
         self.click == sought.between[0] && self.region.stoppers == sought.stoppers
     }
 
     /// The path, if found before `stop`.
-    pub fn way(&mut self, voxels: &Voxels, sought: &Sought, stop: Stop) -> Option<Vec<DVec3>> {
+    pub(crate) fn way(&mut self, voxels: &Voxels, sought: &Sought, stop: Stop) -> Option<Vec<DVec3>> {
         let Self { region, fronts, .. } = self;
         voxels.voxel_at(sought.between[1])?;
         let target = start(voxels, region, sought.between[1]);

@@ -89,7 +89,7 @@ const LEAST: f64 = 0.05;
 pub(crate) struct Shape {
     level: f64,
     /// Longest over shortest diameter at half level.
-    pub elongation: f64,
+    pub(crate) elongation: f64,
     /// Spread inside, as a share of the vessel contrast.
     spread: f64,
     is_marrow: bool,

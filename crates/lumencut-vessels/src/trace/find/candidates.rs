@@ -54,12 +54,12 @@ pub(crate) struct Candidate {
     pub direction: DVec3,
     pub radius: f64,
     /// Flux response, a contrast in the unit of the volume.
-    pub response: f64,
+    pub(crate) response: f64,
     /// Ball radius of that response.
-    pub flux_radius: f64,
+    pub(crate) flux_radius: f64,
     /// Shares of rays with a wall about one radius away, and with half of the contrast lost.
     pub closure: f64,
-    pub contrast_share: f64,
+    pub(crate) contrast_share: f64,
 }
 
 /// Minimum requirements of a tube, in the unit of the volume.

@@ -41,7 +41,7 @@ pub enum NoVessel {
 }
 
 /// Minimum confidence of a sure vessel.
-pub const SURE: f64 = 0.7;
+pub(crate) const SURE: f64 = 0.7;
 
 impl TrackDoubt {
     /// Every reason.

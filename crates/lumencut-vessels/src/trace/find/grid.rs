@@ -18,8 +18,8 @@ pub(crate) struct Grid {
     /// Voxel side (mm).
     pub side: f64,
     /// World position (LPS, mm) of a grid position; (0, 0, 0) is the first voxel centre.
-    pub world_from_grid: DAffine3,
-    pub grid_from_world: DAffine3,
+    pub(crate) world_from_grid: DAffine3,
+    pub(crate) grid_from_world: DAffine3,
 }
 
 impl Grid {

@@ -26,7 +26,7 @@ pub fn outside(seed: DVec3) -> Error {
 }
 
 /// Error for a seed in no vessel, with its value, the nearest vessel point, and its distance (mm).
-pub fn not_here(seed: DVec3, value: f64, nearest: DVec3, distance: f64) -> Error {
+pub(crate) fn not_here(seed: DVec3, value: f64, nearest: DVec3, distance: f64) -> Error {
     let found = format!("no vessel here; the nearest one is {distance:.1} mm away, at {}", in_words(nearest));
     let expected = "a point within a vessel";
     let error = Error::new(ErrorKind::Tracing, format!("seed {}", in_words(seed)), found, expected);
@@ -55,7 +55,7 @@ pub fn no_whole_vessel(click: DVec3, value: f64, reason: NoVessel) -> Error {
 }
 
 /// Error for a seed whose part has only doubtful vessels; `doubt` is the reason of the first.
-pub fn only_doubtful(seed: DVec3, value: f64, doubt: &str) -> Error {
+pub(crate) fn only_doubtful(seed: DVec3, value: f64, doubt: &str) -> Error {
     let found = format!("a vessel there that is doubtful: {doubt}");
     let error = Error::new(ErrorKind::Tracing, format!("seed {}", in_words(seed)), found, "one that is sure");
     error.mend("trace between two points along it").at(seed, value)

@@ -50,7 +50,7 @@ pub(crate) struct Section {
     /// Share of rays with a wall about one radius away.
     pub closure: f64,
     /// Share of rays that lose at least half of the contrast.
-    pub contrast_share: f64,
+    pub(crate) contrast_share: f64,
 }
 
 /// Two unit vectors perpendicular to a direction.

@@ -6,7 +6,7 @@ use crate::trace::find::quantiles::{lower_median, median};
 
 /// A point of a track.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TrackPoint {
+pub(crate) struct TrackPoint {
     /// Centre (mm, LPS).
     pub place: DVec3,
     /// Unit vector along the tube.
@@ -20,12 +20,12 @@ pub struct TrackPoint {
     /// Share of rays with a wall about one radius away.
     pub closure: f64,
     /// Whether its section is that of a tube.
-    pub is_good: bool,
+    pub(crate) is_good: bool,
 }
 
 /// A tube.
 #[derive(Clone, Debug)]
-pub struct Track {
+pub(crate) struct Track {
     /// At least two.
     pub points: Vec<TrackPoint>,
     /// Confidence that it is a vessel, 0 to 1.
@@ -61,7 +61,7 @@ pub enum TrackDoubt {
 
 impl Track {
     /// In the unit of the points.
-    pub fn length(&self) -> f64 {
+    pub(crate) fn length(&self) -> f64 {
         length(&self.points)
     }
 
@@ -71,11 +71,11 @@ impl Track {
 }
 
 /// In the unit of the points.
-pub fn length(points: &[TrackPoint]) -> f64 {
+pub(crate) fn length(points: &[TrackPoint]) -> f64 {
     points.windows(2).map(|pair| pair[0].place.distance(pair[1].place)).sum()
 }
 
 /// Lower median; 0 if empty.
-pub fn usual<'p>(points: impl IntoIterator<Item = &'p TrackPoint>, of: fn(&TrackPoint) -> f64) -> f64 {
+pub(crate) fn usual<'p>(points: impl IntoIterator<Item = &'p TrackPoint>, of: fn(&TrackPoint) -> f64) -> f64 {
     lower_median(&mut points.into_iter().map(of).collect::<Vec<_>>()).unwrap_or(0.0)
 }

@@ -59,12 +59,12 @@ const BEHIND: f64 = 4.0;
 
 /// Data for tracking. Lengths in finest voxels.
 pub(crate) struct Tracker<'a> {
-    pub pyramid: &'a Pyramid,
+    pub(crate) pyramid: &'a Pyramid,
     pub looked_at: Range<usize>,
     pub paint: &'a Paint,
     /// Levels of the painted tracks.
     pub levels: &'a [f64],
-    pub floors: Floors,
+    pub(crate) floors: Floors,
 }
 
 #[derive(Clone, Copy)]

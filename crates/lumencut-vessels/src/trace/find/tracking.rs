@@ -52,10 +52,10 @@ const MOST_LOOKED_AT: usize = 128;
 
 /// Data for tracking candidates.
 pub(crate) struct Tracking<'a> {
-    pub pyramid: &'a Pyramid,
+    pub(crate) pyramid: &'a Pyramid,
     /// Level range.
     pub looked_at: Range<usize>,
-    pub floors: Floors,
+    pub(crate) floors: Floors,
     pub stop: Stop<'a>,
     pub judge: &'a (dyn Fn(Vec<TrackPoint>) -> Track + Sync),
     pub stages: Stages<'a>,

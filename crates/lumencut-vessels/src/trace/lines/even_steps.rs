@@ -8,7 +8,7 @@ use lumencut_core::math::arc_length::{LinePlace, arc_lengths, point_at};
 const TINY: f64 = 1e-6;
 
 /// Positions at even steps of at most `step` mm from start to end, at least two.
-pub fn even_places(points: &[DVec3], step: f64) -> Vec<LinePlace> {
+pub(crate) fn even_places(points: &[DVec3], step: f64) -> Vec<LinePlace> {
     let lengths = arc_lengths(points);
     let total = lengths[lengths.len() - 1];
     let parts = (total / step).ceil().max(1.0) as usize;

@@ -30,7 +30,7 @@ pub struct LumenSection {
     /// Radius (mm).
     pub radius: f64,
     /// Quality, 0 to 1.
-    pub trust: f64,
+    pub(crate) trust: f64,
     /// Median value near the centre.
     pub value: f64,
     /// Share of walls brighter than the lumen, such as bone and stents.

@@ -44,12 +44,12 @@ impl LumenModel {
     }
 
     /// Whether a value is bone, calcium or metal.
-    pub fn is_far_above(&self, value: f32) -> bool {
+    pub(crate) fn is_far_above(&self, value: f32) -> bool {
         f64::from(value) >= self.far_above()
     }
 
     /// Standard deviation of the membership due to noise, between tissue and lumen.
-    pub fn noise_of_membership(&self) -> f64 {
+    pub(crate) fn noise_of_membership(&self) -> f64 {
         self.noise / (0.55 * self.contrast())
     }
 

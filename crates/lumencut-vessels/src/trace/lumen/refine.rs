@@ -50,7 +50,7 @@ pub fn refined(voxels: &Voxels, model: &LumenModel, way: &[DVec3], stop: Stop) -
 ///
 /// # Errors
 /// [`lumencut_core::error::ErrorKind::Interrupted`].
-pub fn refined_near(
+pub(crate) fn refined_near(
     voxels: &Voxels,
     model: &LumenModel,
     line: &Centerline,

@@ -43,7 +43,7 @@ pub fn lumen_at(volume: &Volume, place: DVec3) -> Option<SeenLumen> {
 }
 
 /// As [`lumen_at`] with known surroundings.
-pub fn lumen_in(voxels: &Voxels, surroundings: &Surroundings, place: DVec3) -> Option<SeenLumen> {
+pub(crate) fn lumen_in(voxels: &Voxels, surroundings: &Surroundings, place: DVec3) -> Option<SeenLumen> {
     let model = surroundings.model_at(voxels, place)?;
     let probe = Probe { voxels, model: &model, rays: RAYS };
     let mut seen: Option<(LumenSection, DVec3)> = None;

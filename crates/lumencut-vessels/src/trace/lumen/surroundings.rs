@@ -111,7 +111,7 @@ impl Surroundings {
     }
 
     /// Model at one place; None where [`Surroundings::model`] rejects it.
-    pub fn model_at(&self, voxels: &Voxels, place: DVec3) -> Option<LumenModel> {
+    pub(crate) fn model_at(&self, voxels: &Voxels, place: DVec3) -> Option<LumenModel> {
         let value = value_at(voxels, place);
         let hit = self.hit(voxels, place, value);
         let is_lumen = self.mistaken(value).is_none() && self.unlike(&hit, hit.lumen).is_none();
@@ -122,13 +122,13 @@ impl Surroundings {
     ///
     /// # Errors
     /// [`ErrorKind::Tracing`] for air, fat, soft tissue and bone in HU, and for NaN.
-    pub fn check_alone(&self, voxels: &Voxels, click: DVec3) -> Result<()> {
+    pub(crate) fn check_alone(&self, voxels: &Voxels, click: DVec3) -> Result<()> {
         let value = value_at(voxels, click);
         self.check(voxels, click, value, self.mistaken(value))
     }
 
     /// Moves rejected clicks to adjacent lumen, which the user meant. Other clicks stay, even if rejected.
-    pub fn snapped(&self, voxels: &Voxels, clicks: &[DVec3]) -> Vec<DVec3> {
+    pub(crate) fn snapped(&self, voxels: &Voxels, clicks: &[DVec3]) -> Vec<DVec3> {
         let is_taken = |place: DVec3| self.mistaken(value_at(voxels, place)).is_none();
         let moved = clicks.iter().map(|click| self.taken(voxels, *click, is_taken));
         let hit = |place: DVec3| self.hit(voxels, place, value_at(voxels, place));

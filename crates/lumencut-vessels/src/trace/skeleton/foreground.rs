@@ -11,7 +11,7 @@ use lumencut_core::stop::{Stop, go_on};
 use lumencut_core::volume::{Volume, Voxels};
 
 /// Background in [`Foreground::cells`].
-pub const BACKGROUND: u8 = 0;
+pub(crate) const BACKGROUND: u8 = 0;
 /// Lumen in [`Foreground::cells`].
 pub const LUMEN: u8 = 1;
 

@@ -21,7 +21,7 @@ pub(crate) struct Graph {
     /// None if removed.
     pub branches: Vec<Option<Branch>>,
     /// Branches at each node, once per end.
-    pub incident: Vec<Vec<usize>>,
+    pub(crate) incident: Vec<Vec<usize>>,
 }
 
 impl Graph {

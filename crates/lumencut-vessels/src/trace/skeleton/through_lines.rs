@@ -11,7 +11,7 @@ pub(crate) struct ThroughLine {
     pub points: Vec<DVec3>,
     /// Nodes on the line, with their point numbers.
     pub knots: Vec<Knot>,
-    pub is_closed: bool,
+    pub(crate) is_closed: bool,
 }
 
 #[derive(Clone, Copy, Debug)]

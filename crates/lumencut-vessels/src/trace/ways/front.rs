@@ -148,7 +148,7 @@ impl Front {
     }
 
     /// Whether a voxel was reached.
-    pub fn has_come_to(&self, target: [i32; 3]) -> bool {
+    pub(crate) fn has_come_to(&self, target: [i32; 3]) -> bool {
         self.find(target).is_some_and(|(block, voxel)| self.known[block].way[voxel].is_finite())
     }
 

@@ -29,14 +29,14 @@ const NOISE_LEFT: f64 = 0.23;
 const DEAREST: f64 = (1.0 + WALL) * (1.0 + OFF_MIDDLE) / (LEAST_MEMBERSHIP * LEAST_MEMBERSHIP);
 
 /// Code of forbidden voxels; other codes rise with the cost.
-pub const FORBIDDEN: u8 = 0;
+pub(crate) const FORBIDDEN: u8 = 0;
 
 /// Mean membership below which a voxel is not lumen.
-pub const WEAK: f64 = 0.2;
+pub(crate) const WEAK: f64 = 0.2;
 /// Mean membership below which lumen is thin.
-pub const THIN: f64 = 0.75;
+pub(crate) const THIN: f64 = 0.75;
 /// Membership well within lumen.
-pub const FULL: f64 = 0.9;
+pub(crate) const FULL: f64 = 0.9;
 
 /// Whether paths must stay in lumen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -77,7 +77,7 @@ pub struct Stopper {
 }
 
 /// Cost codes of a block.
-pub type BlockCosts = Arc<[u8; BLOCK]>;
+pub(crate) type BlockCosts = Arc<[u8; BLOCK]>;
 
 /// Costs of the blocks used so far, one byte per voxel.
 #[derive(Clone, Debug)]
@@ -97,7 +97,7 @@ impl Region {
     }
 
     /// Costs of the block at a place, computed on demand.
-    pub fn costs_of(&mut self, voxels: &Voxels, place: usize) -> BlockCosts {
+    pub(crate) fn costs_of(&mut self, voxels: &Voxels, place: usize) -> BlockCosts {
         if let Some(number) = self.made.find(place) {
             return Arc::clone(&self.made[number]);
         }
@@ -107,12 +107,12 @@ impl Region {
     }
 
     /// Cost code of a voxel.
-    pub fn code_of(&mut self, voxels: &Voxels, voxel: [i32; 3]) -> u8 {
+    pub(crate) fn code_of(&mut self, voxels: &Voxels, voxel: [i32; 3]) -> u8 {
         self.costs_of(voxels, self.made.place_of(voxel))[index_of(voxel)]
     }
 
     /// Smallest code with a membership below `limit`.
-    pub fn code_below(&self, limit: f64) -> u8 {
+    pub(crate) fn code_below(&self, limit: f64) -> u8 {
         let least = self.strictness.least_membership();
         let membership = least + (1.0 - least) * limit;
         code_of((1.0 + 0.8 * OFF_MIDDLE) / (membership * membership))

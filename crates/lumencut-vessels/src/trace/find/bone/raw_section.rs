@@ -61,9 +61,9 @@ const MARROW_RADIUS: f64 = 1.5;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct RawSection {
     pub level: f64,
-    pub elongation: f64,
+    pub(crate) elongation: f64,
     pub spread: f64,
-    pub is_marrow: bool,
+    pub(crate) is_marrow: bool,
 }
 
 impl RawSection {

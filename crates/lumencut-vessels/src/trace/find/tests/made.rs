@@ -54,7 +54,7 @@ pub fn away(place: DVec3, line: &[DVec3]) -> f64 {
 }
 
 /// A straight track in steps of 0.5 mm.
-pub fn straight_track(from: DVec3, to: DVec3, radius: f64) -> Track {
+pub(crate) fn straight_track(from: DVec3, to: DVec3, radius: f64) -> Track {
     let count = (2.0 * from.distance(to)).round();
     let point = |n: usize| TrackPoint {
         place: from.lerp(to, n as f64 / count),
@@ -76,6 +76,6 @@ pub fn turned(mut track: Track) -> Track {
     track
 }
 
-pub fn with_threads<T: Send>(count: usize, work: impl FnOnce() -> T + Send) -> T {
+pub(crate) fn with_threads<T: Send>(count: usize, work: impl FnOnce() -> T + Send) -> T {
     rayon::ThreadPoolBuilder::new().num_threads(count).build().expect("threads").install(work)
 }

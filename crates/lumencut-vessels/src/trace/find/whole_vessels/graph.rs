@@ -19,7 +19,7 @@ pub(crate) struct WayPoint {
     pub confidence: f64,
     /// For a link, the less sure track.
     pub track: usize,
-    pub is_link: bool,
+    pub(crate) is_link: bool,
 }
 
 #[derive(Clone, Debug)]
@@ -31,11 +31,11 @@ pub(crate) struct Edge {
 
 pub(crate) struct Graph {
     pub places: Vec<DVec3>,
-    pub incident: Vec<Vec<usize>>,
+    pub(crate) incident: Vec<Vec<usize>>,
     /// Track pieces first, in order.
     pub edges: Vec<Edge>,
     /// Edge range of each track.
-    pub of_track: Vec<[usize; 2]>,
+    pub(crate) of_track: Vec<[usize; 2]>,
 }
 
 impl Graph {

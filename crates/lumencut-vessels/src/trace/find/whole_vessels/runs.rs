@@ -34,7 +34,7 @@ pub(crate) struct Runs {
     /// Each after the run it leaves, except those met from the side.
     pub runs: Vec<Run>,
     /// The run that passes each node.
-    pub owners: Vec<usize>,
+    pub(crate) owners: Vec<usize>,
 }
 
 const NONE: usize = usize::MAX;
