@@ -1,7 +1,4 @@
-//! Measures the lumen of a vessel: cross-sections, diameters corrected for blur, stenoses, lengths and
-//! angles.
-//!
-//! Described in `docs/method/measuring.md`.
+//! Measures the lumen of a vessel. Described in `docs/method/measuring.md`.
 
 pub(crate) mod all_sections;
 pub(crate) mod along;

@@ -1,9 +1,7 @@
-//! Traces centerlines in a volume or a mask.
+//! Traces centerlines in a volume or a mask. Described in `docs/method/tracing.md`.
 //!
-//! Modules, each of which needs only those before it: [`lines`] is arithmetic along a line; [`lumen`]
-//! recognizes lumen across a line; [`ways`] finds cheapest paths through voxels; [`skeleton`] thins lumen
-//! voxels to lines. [`clicks`], [`find`] and [`mask`] are the entry points. Described in
-//! `docs/method/tracing.md`.
+//! Each module needs only those before it: [`lines`], [`lumen`], [`ways`], [`skeleton`]; then the entry
+//! points [`clicks`], [`find`] and [`mask`].
 
 pub mod clicks;
 pub mod find;

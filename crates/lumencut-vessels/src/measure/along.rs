@@ -1,8 +1,7 @@
 //! Corrects areas for the blur along the vessel.
 //!
 //! Where the width changes, blur mixes a section with its neighbours. To first order, the measured area is
-//! the true area plus half of the blur variance times the second derivative of the area: some percent at a
-//! short stenosis.
+//! the true area plus half of the blur variance times the second derivative of the area.
 
 use super::sections::Section;
 use lumencut_core::math::same_place::REPEATED_POINT;

@@ -1,5 +1,4 @@
-//! Bounds of a diameter next to calcium or metal: both look larger than they are and hide the edge of the
-//! lumen.
+//! Bounds of a diameter next to calcium or metal, which look larger than they are and hide the edge.
 
 use std::f64::consts::TAU;
 

@@ -51,8 +51,7 @@ impl Blur {
         fwhm_of(self.of_voxels(place).determinant().sqrt())
     }
 
-    /// Variance along the vessel (mm²) of voxels weighted by their distance to the plane, up to `thickness`
-    /// mm.
+    /// Variance along the vessel (mm²) of voxels weighted by distance to the plane, up to `thickness` mm.
     pub(crate) fn along(&self, place: &Place, thickness: f64) -> f64 {
         let voxel = place.normal.dot(self.voxel * place.normal) * AVERAGING;
         // t²/6 is the variance of a triangular weight.

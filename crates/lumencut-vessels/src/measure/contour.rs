@@ -9,8 +9,7 @@ use super::rays::{RAYS, Ray, direction};
 use lumencut_core::math::lanes::{FAN, Isa, Kernel, dispatch};
 use lumencut_core::math::statistics::median;
 
-/// Maximum distance of the wall from the ellipse: a share of the radius, or a length (mm); farther crossings
-/// are another structure.
+/// Maximum distance of the wall from the ellipse (share of the radius, or mm); farther, it is not the wall.
 const FARTHEST: (f64, f64) = (0.5, 0.5);
 
 pub(crate) trait Shares: Sync {
@@ -89,8 +88,7 @@ pub(crate) fn wall_by_rays(rays: &[Ray], width: f64) -> Option<Vec<f64>> {
     Some(quiet(&quiet(&walls, |_| middle), |_| middle))
 }
 
-/// Inner edge of a bright rim. A stent strut is thinner than its blurred image, so the blur is subtracted
-/// from its width.
+/// Inner edge of a bright rim; a strut is thinner than its blurred image, so the blur is subtracted.
 fn within_rim([begins, ends]: [f64; 2], width: f64) -> f64 {
     let seen = ends - begins;
     let true_width = (seen * seen - width * width).max(0.0).sqrt();

@@ -30,10 +30,7 @@ pub struct CrossSection {
 }
 
 impl CrossSection {
-    /// Samples the plane of `place` over a square of `size` mm.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Settings`] for an invalid size or pixel spacing.
+    /// Samples a square of `size` mm. [`ErrorKind::Settings`] for an invalid size or pixel spacing.
     pub fn new(volume: &Volume, place: Place, size: f64, pixel_spacing: f64) -> Result<Self> {
         SIDE.check("size of the cross-section", size)?;
         SIDE.check("pixel_spacing of the cross-section", pixel_spacing)?;
@@ -57,11 +54,8 @@ impl CrossSection {
     }
 }
 
-/// Plane of a section at an arc length (mm). With `profile` it is the plane of the nearest measured section,
-/// in which its contour lies; without, the plane follows [`Track`].
-///
-/// # Errors
-/// [`ErrorKind::Measuring`] for an arc length beyond the vessel or the profile of another vessel;
+/// Plane of a section at an arc length (mm): with `profile` the plane of the nearest measured section,
+/// otherwise by [`Track`]. [`ErrorKind::Measuring`] for a wrong arc length or profile;
 /// [`ErrorKind::VesselTree`] for a vessel without length.
 pub fn section_place(vessel: &Vessel, at: f64, profile: Option<&Profile>) -> Result<Place> {
     let length = vessel.arc_length().last().copied().unwrap_or(0.0);

@@ -16,14 +16,12 @@ use lumencut_core::math::lanes::FAN;
 /// Number of shape parameters: centre (2), mean semi-axis, stretch (2).
 pub(crate) const SHAPE: usize = 5;
 
-/// Maximum distance of boundary nodes in standard deviations of the blur; keeps the error of the rule below
-/// 0.001 %.
+/// Maximum distance of nodes in blur standard deviations; keeps the error below 0.001 %.
 const NODE_DISTANCE: f64 = 1.3;
 
 const FEWEST_NODES: usize = 12;
 
-/// Squared distance (in blur standard deviations) beyond which the exponential of a node, 1e-14, vanishes in
-/// single precision.
+/// Squared distance (blur standard deviations) from which exp, 1e-14, vanishes in single precision.
 const FAR_AWAY: f32 = 64.0;
 
 /// Enough for a lumen whose radius is 40 times the blur.
@@ -129,8 +127,7 @@ impl Whitening {
     }
 }
 
-/// A node of the whitened boundary. Tangent and outward movement per parameter include the node's share of
-/// the boundary, over 2 π.
+/// A node of the whitened boundary; vectors include the node's share of the boundary, over 2 π.
 #[derive(Clone, Copy, Debug)]
 struct Node {
     place: [f32; 2],
@@ -186,8 +183,7 @@ impl Boundary {
         }
     }
 
-    /// Value and derivatives at sixteen points (mm). On the web it is not inlined, because there is only one
-    /// instruction set and code size counts.
+    /// Value and derivatives at sixteen points (mm); not inlined on the web, to save code size.
     #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     #[cfg_attr(target_arch = "wasm32", inline(never))]
     pub(crate) fn blurred(&self, x: &[f32; FAN], y: &[f32; FAN]) -> Blurred {

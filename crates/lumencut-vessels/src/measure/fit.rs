@@ -21,8 +21,7 @@ const TUKEY: f64 = 5.0;
 /// Maximum steps before and after reweighting.
 const STEPS: [usize; 2] = [12, 8];
 
-/// Weights fall linearly with the distance from the plane, so the noise of the weighted mean is smaller than
-/// the weights imply, by this factor.
+/// Linear weights reduce the noise of the weighted mean by this factor below what they imply.
 const EVENLY_FALLING: f64 = 2.0 / 3.0;
 
 /// Prior knowledge, as means and standard deviations; levels are shares.
@@ -54,8 +53,7 @@ pub(crate) struct Unsure<'a> {
 /// Standard deviations of the surroundings per harmonic, as shares: tissue differs from side to side.
 const SIDES: [f64; HARMONICS] = [0.3, 0.3, 0.15, 0.15, 0.1, 0.1];
 
-/// Limits of the fit: the centre moves at most this many radii, and the size stays within these factors of
-/// the start.
+/// Limits: the centre moves at most this many radii, and the size stays within these factors.
 const TRUSTED: (f64, [f64; 2]) = (1.0, [0.15, 2.0]);
 
 #[derive(Clone, Copy, Debug)]
@@ -72,8 +70,7 @@ pub(crate) struct Fit {
     pub parts: Parts,
     /// Share of directions in which the wall is unobstructed.
     pub free: f64,
-    /// Second solution: set when restarting the fit from its own result leads elsewhere, so the lumen is
-    /// ambiguous.
+    /// Second solution: set when restarting the fit from its own result leads elsewhere (ambiguous lumen).
     pub other: Option<Ellipse>,
 }
 
@@ -112,8 +109,7 @@ impl Fit {
         })
     }
 
-    /// [`Fit::missed`] of the fit from `start`, without the second weighting; None where [`Fit::new`] returns
-    /// None.
+    /// [`Fit::missed`] of the fit from `start`, without the second weighting.
     pub(crate) fn missed_by(
         samples: &Samples,
         whitening: Whitening,

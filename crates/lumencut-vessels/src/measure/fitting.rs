@@ -18,8 +18,7 @@ use lumencut_core::math::statistics::median;
 /// Voxels count up to this many blur widths beyond the wall.
 const BEYOND: f64 = 1.5;
 
-/// Prior of the relative difference of the semi-axes for wide lumens, and for lumens as narrow as the blur,
-/// whose shape is invisible.
+/// Prior of the relative difference of the semi-axes: wide lumens, and those as narrow as the blur.
 const STRETCH: (f64, f64) = (0.4, 0.06);
 
 /// Minimum share of directions with an unobstructed wall.
@@ -74,8 +73,7 @@ impl Bench<'_, '_> {
         let cleared = self.cleared(place, known)?;
         let seen = self.level_seen(place, known, |point| cleared.obstacles.keeps(point));
         let expected = Expected {
-            // For a sharp wall, a smaller ellipse with a higher level fits as well; the visible level
-            // decides.
+            // For a sharp wall, a smaller ellipse with a higher level fits as well.
             lumen: seen.filter(|seen| seen[1] < known.lumen[1]).unwrap_or(known.lumen),
             background: [0.0, 0.5],
             stretch: stretch(2.0 * known.ellipse.mean, self.blur.width(place)),

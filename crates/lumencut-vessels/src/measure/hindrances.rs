@@ -5,8 +5,7 @@ use std::f64::consts::PI;
 use super::flags::{CALCIUM, IRREGULAR, LEFT_OUT, METAL, NEIGHBOR};
 use super::profile::Profile;
 
-/// The measured lumen differs from that of the previous section: it lies elsewhere, or has another level and
-/// width.
+/// The lumen differs from that of the previous section in position, level or width.
 pub const CHANGE_OF_LUMEN: u32 = 1 << 16;
 /// Another lumen lies next to an irregular wall, as at the flap of a dissection.
 pub const FLAP: u32 = 1 << 17;
@@ -26,8 +25,7 @@ const JUMP: f64 = 0.5;
 const OTHER: (f64, f64) = (1.4, 0.25);
 
 impl Profile {
-    /// Reasons not to suggest each section, as bits (flags and those above); 0 if none. Changes of lumen and
-    /// flaps extend by one diameter.
+    /// Reasons not to suggest each section, as bits. Changes of lumen and flaps extend by one diameter.
     pub fn hindrances(&self) -> Vec<u32> {
         let mut found: Vec<u32> = (0..self.len()).map(|n| self.flags[n] & FLAGGED | self.unsure(n)).collect();
         let measured: Vec<usize> = (0..self.len()).filter(|n| self.area[*n].is_finite()).collect();

@@ -35,8 +35,7 @@ pub(crate) struct Minimum<const N: usize> {
     pub normal: Normal<N>,
 }
 
-/// Minimizes from `start` in at most `steps` steps. `evaluate` returns None for invalid parameters; the
-/// result is None if `start` is invalid.
+/// Minimizes from `start` in at most `steps` steps; `evaluate` returns None for invalid parameters.
 pub(crate) fn minimum<const N: usize>(
     start: [f64; N],
     steps: usize,

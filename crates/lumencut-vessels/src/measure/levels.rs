@@ -1,8 +1,7 @@
 //! The lumen level along a vessel.
 //!
 //! A lumen narrower than two blur widths peaks below its level, so level and width cannot be separated in one
-//! section. Wider sections nearby give the level; in a vessel that is narrow everywhere, all sections are
-//! fitted with a common level.
+//! section. Wider sections nearby give the level; otherwise all sections share one.
 
 use rayon::prelude::*;
 
@@ -14,8 +13,7 @@ use super::sections::{Bench, Known, noise};
 use lumencut_core::error::Result;
 use lumencut_core::stop::{Stop, go_on};
 
-/// A section gives the level if its standard deviation (a share) is at most this, and at least this many
-/// sections must do so.
+/// Maximum standard deviation (share), and minimum number, of sections that give the level.
 const TELLS: (f64, usize) = (0.05, 3);
 
 /// Maximum number of sections fitted with a common level.

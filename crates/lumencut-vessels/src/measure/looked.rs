@@ -77,10 +77,6 @@ pub(crate) struct Looked {
 }
 
 impl Looked {
-    /// # Errors
-    /// [`ErrorKind::Measuring`] for a vessel outside the volume or without a lumen, [`ErrorKind::Settings`]
-    /// for an invalid step or wall, [`ErrorKind::VesselTree`] for a vessel without length,
-    /// [`ErrorKind::Interrupted`].
     pub(crate) fn new(voxels: &Voxels, vessel: &Vessel, request: &MeasureRequest) -> Result<Self> {
         let first = Track::new(vessel, None)?.places(request.step)?;
         let known = known_radius(vessel);
@@ -198,8 +194,7 @@ impl Looked {
         estimated(&bench, voxels.world_from_index.matrix3, &fitted.places, &fits, stop)
     }
 
-    /// Level of the wall (in the volume's unit) from this vessel's sections alone, without the prior. None if
-    /// walls are not visible.
+    /// Wall level (in the volume's unit) without the prior; None if walls are not visible.
     pub(crate) fn wall_level(&self, voxels: &Voxels, fwhm: f64, stop: Stop) -> Result<Option<Level>> {
         let Some(known) = self.wall else { return Ok(None) };
         let FirstFits { hidden, fits, texture, .. } = self.kept_fits(voxels, fwhm, stop)?;
@@ -213,9 +208,6 @@ impl Looked {
     }
 
     /// Measures the profile with the findings of the tree.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Measuring`] for a vessel without a lumen, [`ErrorKind::Interrupted`].
     pub(crate) fn profile(
         &self,
         voxels: &Voxels,

@@ -23,9 +23,6 @@ pub(crate) struct MeasuredPart {
 impl MeasuredPart {
     /// The measurable part; `radius` is the approximate radius (mm), if known. If the whole vessel has no
     /// wall, it is the longest run of pieces of 10 mm with a wall.
-    ///
-    /// # Errors
-    /// The error of the whole vessel ([`Scale::of`]) if no stretch of 20 mm has a wall.
     pub(crate) fn of(voxels: &Voxels, places: &[Place], radius: Option<f64>) -> Result<Self> {
         let whole = Scale::of(voxels, places, radius);
         match whole {

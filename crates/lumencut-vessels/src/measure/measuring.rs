@@ -29,12 +29,9 @@ const ASSUMED: f64 = 0.2;
 /// Maximum number of vessels, the widest ones, that estimate point spread and wall level.
 const MOST_ASKED: usize = 8;
 
-/// Measures the profile of a vessel.
-///
-/// # Errors
-/// [`ErrorKind::Measuring`] for a vessel outside the volume or without a lumen, [`ErrorKind::Settings`] for
-/// an invalid step or point spread, [`ErrorKind::VesselTree`] for a vessel without length,
-/// [`ErrorKind::Interrupted`].
+/// Measures the profile of a vessel. Errors: [`ErrorKind::Measuring`] for a vessel outside the volume or
+/// without a lumen, [`ErrorKind::Settings`] for an invalid step or point spread, [`ErrorKind::VesselTree`]
+/// for a vessel without length, [`ErrorKind::Interrupted`].
 pub fn measure(volume: &Volume, vessel: &Vessel, request: &MeasureRequest) -> Result<Profile> {
     request.check()?;
     let voxels = Voxels::new(volume);
@@ -52,10 +49,7 @@ pub fn measure(volume: &Volume, vessel: &Vessel, request: &MeasureRequest) -> Re
     looked.profile(&voxels, vessel, request, found)
 }
 
-/// As [`measure`], with the result of [`told_by_tree`] instead of computing it again.
-///
-/// # Errors
-/// As [`measure`].
+/// As [`measure`], with the result of [`told_by_tree`] instead of computing it again. Errors: As [`measure`].
 pub fn measure_under(
     told: ToldByTree,
     volume: &Volume,
@@ -66,9 +60,7 @@ pub fn measure_under(
     Looked::new(&voxels, vessel, request)?.profile(&voxels, vessel, request, told)
 }
 
-/// Estimates the point spread (unless given) and the wall levels on the widest vessels of a tree.
-///
-/// # Errors
+/// Estimates the point spread (unless given) and the wall levels on the widest vessels of a tree. Errors:
 /// [`ErrorKind::Settings`] for an invalid width, [`ErrorKind::Interrupted`].
 pub fn told_by_tree(volume: &Volume, request: &MeasureRequest) -> Result<ToldByTree> {
     TreeMeasuring::new(volume, request)?.told(request.stop)
@@ -82,8 +74,7 @@ pub struct TreeMeasuring<'a, 'v> {
 }
 
 impl<'a, 'v> TreeMeasuring<'a, 'v> {
-    /// # Errors
-    /// [`ErrorKind::Settings`] for an invalid point spread or wall.
+    /// Errors: [`ErrorKind::Settings`] for an invalid point spread or wall.
     pub fn new(volume: &Volume<'v>, request: &MeasureRequest<'a>) -> Result<Self> {
         request.check()?;
         let looked = request.tree.iter().map(|_| OnceLock::new()).collect();
@@ -91,9 +82,6 @@ impl<'a, 'v> TreeMeasuring<'a, 'v> {
     }
 
     /// See [`told_by_tree`].
-    ///
-    /// # Errors
-    /// [`ErrorKind::Interrupted`].
     pub fn told(&self, stop: Stop) -> Result<ToldByTree> {
         let request = MeasureRequest { stop, ..self.request };
         let spread = match request.fwhm {
@@ -104,10 +92,7 @@ impl<'a, 'v> TreeMeasuring<'a, 'v> {
         Ok(ToldByTree { spread, walls })
     }
 
-    /// Measures vessel number `n` of the tree.
-    ///
-    /// # Errors
-    /// As [`measure`].
+    /// Measures vessel number `n` of the tree. Errors: As [`measure`].
     pub fn profile(&self, n: usize, told: ToldByTree, stop: Stop) -> Result<Profile> {
         let request = MeasureRequest { stop, ..self.request };
         self.looked(n, &request)?.profile(&self.voxels, &request.tree[n], &request, told)

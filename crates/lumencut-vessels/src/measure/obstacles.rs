@@ -18,8 +18,8 @@ const BESIDE: f64 = 1.5;
 const LEAST_RAYS: usize = 3;
 const ALL_AROUND: usize = RAYS * 3 / 5;
 
-/// Separate struts are a stent if this many rays in all, and in each quarter, meet something bright: calcium
-/// lies on one or two sides.
+/// Struts are a stent if this many rays in all, and per quarter, are bright; calcium lies on one or two
+/// sides.
 const LATTICE: [usize; 2] = [RAYS * 2 / 5, RAYS / 16];
 
 /// Share above which bright material is metal: four times the contrast above the lumen level.

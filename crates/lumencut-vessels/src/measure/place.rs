@@ -55,11 +55,7 @@ pub(crate) struct Track {
 }
 
 impl Track {
-    /// Smooths directions by a Gaussian whose standard deviation is half of `radius` (mm), from 1 to 8 mm; 1
-    /// mm if the radius is unknown.
-    ///
-    /// # Errors
-    /// [`ErrorKind::VesselTree`] for a vessel without length.
+    /// Smooths directions by a Gaussian of half of `radius` (1 to 8 mm; 1 mm if unknown).
     pub(crate) fn new(vessel: &Vessel, radius: Option<f64>) -> Result<Self> {
         let smoothing = (0.5 * radius.unwrap_or(0.0)).clamp(SMOOTHING[0], SMOOTHING[1]);
         let path = CenterlinePath::new(vessel, 0.0)?;
@@ -84,9 +80,6 @@ impl Track {
     }
 
     /// Planes from start to end, at most `step` mm apart.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Settings`] for an invalid step, or one that needs more than 20,000 sections.
     pub(crate) fn places(&self, step: f64) -> Result<Vec<Place>> {
         if !(step > 0.0 && step.is_finite()) {
             let expected = "a number above 0 mm";

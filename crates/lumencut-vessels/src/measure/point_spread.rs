@@ -24,8 +24,7 @@ const FREE: f64 = 0.95;
 const LEAST_MISSED: f64 = 1.5;
 const ROUND: f64 = 1.35;
 
-/// Search range: multiples of the smallest and of the largest voxel side, and the maximum share of the
-/// section's width.
+/// Search range: multiples of the smallest and largest voxel side; maximum share of a section's width.
 const RANGE: [f64; 2] = [0.3, 3.0];
 const SHARE: f64 = 0.5;
 
@@ -35,8 +34,7 @@ const AGREED: f64 = 0.15;
 /// Minimum relative standard deviation: sections share walls and noise.
 const LEAST_SPREAD: f64 = 0.03;
 
-/// Minimum distance of the first and last section, in point spreads, because neighbouring sections share
-/// voxels.
+/// Minimum extent of the sections in point spreads, because neighbours share voxels.
 const STRETCH: f64 = 3.0;
 
 /// Rounds of the search.

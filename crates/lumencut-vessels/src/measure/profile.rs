@@ -61,8 +61,7 @@ pub struct Profile {
     pub wall: Vec<[f64; 2]>,
     /// Equivalent diameter of the outer wall and its standard deviation (mm); NaN like `wall`.
     pub diameter_outer: Vec<[f64; 2]>,
-    /// Equivalent diameter (mm) without, and with, everything at the wall that is brighter than lumen; NaN if
-    /// nothing is.
+    /// Equivalent diameter (mm) without, and with, everything at the wall brighter than lumen; otherwise NaN.
     pub bounds: Vec<[f64; 2]>,
     /// Flags; see [`super::flags`].
     pub flags: Vec<u32>,

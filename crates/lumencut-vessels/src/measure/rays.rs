@@ -27,8 +27,7 @@ pub(crate) struct Ray {
     pub(crate) bright_at: Option<f64>,
     /// Largest share within a millimetre of that; 0 if none.
     pub brightest: f64,
-    /// Where the profile crosses midway between the lumen level and `brightest`, going up and coming down;
-    /// equal if nothing is bright.
+    /// Where the profile crosses midway between lumen level and `brightest`, going up and coming down.
     pub rim: [f64; 2],
     /// Where the ray leaves the volume.
     pub(crate) outside_at: Option<f64>,

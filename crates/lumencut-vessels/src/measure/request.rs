@@ -24,8 +24,7 @@ pub struct MeasureRequest<'a> {
 }
 
 impl MeasureRequest<'_> {
-    /// # Errors
-    /// [`ErrorKind::Settings`] for an invalid wall or point spread.
+    /// Errors: [`ErrorKind::Settings`] for an invalid wall or point spread.
     pub fn check(&self) -> Result<()> {
         self.wall.check()?;
         let Some(fwhm) = self.fwhm else { return Ok(()) };

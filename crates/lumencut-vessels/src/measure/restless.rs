@@ -1,13 +1,11 @@
-//! Finds sharp turns of a line, as at a hook or a jump to another vessel, where section planes intersect
-//! inside the lumen.
+//! Finds sharp turns of a line, where section planes intersect inside the lumen.
 
 use super::flags::RESTLESS_LINE;
 use super::place::Place;
 use super::sections::Section;
 use lumencut_core::math::statistics::median;
 
-/// Maximum turn within one diameter (degrees). At 115° a bend is as sharp as its inner wall allows; real
-/// vessels turn by up to 70°.
+/// Maximum turn within one diameter (degrees); the geometric limit is 115°, real vessels reach 70°.
 pub(crate) const SHARP: f64 = 75.0;
 
 pub(crate) fn flag_restless(places: &[Place], sections: &mut [Section]) {

@@ -79,8 +79,7 @@ fn start(rays: &Rays, place: &Place, search: f64) -> Option<DVec2> {
     best.map(|(_, point)| point)
 }
 
-/// Step of the search grid (mm). It never has more points than the volume has voxels, even if a file states a
-/// huge radius.
+/// Step of the search grid (mm), limited to as many points as voxels, whatever radius a file states.
 fn search_step(voxels: &Voxels, search: f64) -> f64 {
     let count: f64 = voxels.size.iter().map(|n| *n as f64).product();
     voxels.sampling_side.max(2.0 * search / count.sqrt())

@@ -22,8 +22,7 @@ const STEEP: f64 = 0.4;
 /// The surroundings are searched up to this distance beyond the wall (mm).
 const BEYOND: f64 = 1.5;
 
-/// Maximum width of a rim (mm), and how far values beyond it must fall below the lumen, as a share of its
-/// excess.
+/// Maximum width of a rim (mm), and minimum depth beyond it as a share of its excess over lumen.
 const RIM: f64 = 4.0;
 const RIM_SHARE: f64 = 0.1;
 
@@ -45,11 +44,7 @@ impl Scale {
         self.outside + share * self.contrast
     }
 
-    /// Scale from the medians of rings around all sections. `radius` is the approximate radius (mm), if
-    /// known.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Measuring`] if lumen and surroundings look alike.
+    /// Scale from the medians of rings around all sections; `radius` (mm) is approximate.
     pub(crate) fn of(voxels: &Voxels, places: &[Place], radius: Option<f64>) -> Result<Self> {
         let step = 0.5 * voxels.sampling_side;
         let reach = radius.map_or(REACH, |radius| 2.5 * radius + 3.0);

@@ -16,13 +16,12 @@ const STAYS: f64 = 0.05;
 /// Maximum number of restarts.
 const ROUNDS: usize = 3;
 
-/// Two fits show the same lumen if their sizes differ by at most this factor, and their centres by at most
-/// this share of the radius.
+/// Two fits show the same lumen within this ratio of sizes and this distance of centres (radii).
 const SAME: (f64, f64) = (1.6, 0.6);
 
 impl Bench<'_, '_> {
-    /// Fits and restarts until the result stays; otherwise reports a second solution. A restart that jumps to
-    /// another lumen is discarded.
+    /// Restarts the fit until it stays; otherwise reports a second solution. Jumps to another lumen are
+    /// discarded.
     pub(crate) fn settled(&self, place: &Place, known: &Known) -> Option<Fit> {
         let least = STAYS * self.blur.width(place);
         let first = self.fit(place, known)?;

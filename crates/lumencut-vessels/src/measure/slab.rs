@@ -110,8 +110,7 @@ pub(crate) fn thickness(voxels: &Voxels, place: &Place) -> f64 {
     [sides.x_axis, sides.y_axis, sides.z_axis].iter().map(|side| side.dot(place.normal).abs()).sum()
 }
 
-/// Range of voxels of a row within `thickness` of the plane; the distance is `z` at the first voxel and grows
-/// by `dz`.
+/// Voxels of a row within `thickness` of the plane; the distance starts at `z` and grows by `dz`.
 fn within(z: f64, dz: f64, thickness: f64, count: i32) -> Option<(i32, i32)> {
     let last = f64::from(count - 1);
     if dz.abs() < 1e-9 {
@@ -122,8 +121,7 @@ fn within(z: f64, dz: f64, thickness: f64, count: i32) -> Option<(i32, i32)> {
     (low <= high).then_some((low as i32, high as i32))
 }
 
-/// Keeps about `most` samples by their pseudo-random number, so that a slightly different window selects
-/// nearly the same voxels.
+/// Keeps about `most` samples, nearly the same ones for a slightly different window.
 fn thinned(samples: Vec<Sample>, most: usize) -> Vec<Sample> {
     if samples.len() <= most {
         return samples;
@@ -132,8 +130,7 @@ fn thinned(samples: Vec<Sample>, most: usize) -> Vec<Sample> {
     samples.into_iter().filter(|sample| sample.key <= limit).collect()
 }
 
-/// Pseudo-random number of a voxel: indices times large primes (Teschner et al. 2003), mixed by the last
-/// steps of MurmurHash3.
+/// Pseudo-random number of a voxel (primes of Teschner et al. 2003, final mix of MurmurHash3).
 fn key([i, j, k]: [i32; 3]) -> u32 {
     let [i, j, k] =
         [(i, 73_856_093), (j, 19_349_663), (k, 83_492_791)].map(|(n, by)| (n as u32).wrapping_mul(by));

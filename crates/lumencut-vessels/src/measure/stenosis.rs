@@ -1,11 +1,9 @@
 //! Stenoses at places named by the caller.
 //!
-//! - NASCET: 1 - narrowest / normal distal diameter (NASCET 1991, doi:10.1056/NEJM199108153250701).
+//! - NASCET: 1 - narrowest / normal distal diameter (NASCET 1991, doi:10.1056/NEJM199108153250701). It does
+//!   not apply beyond a near-occlusion, where the distal vessel is narrowed (Fox et al. 2005, AJNR 26:2086).
 //! - ECST: 1 - narrowest / assumed original diameter (ECST 1998, doi:10.1016/S0140-6736(97)09292-1).
 //! - Area: 1 - narrowest / normal area.
-//!
-//! Beyond a near-occlusion the distal vessel itself is narrowed, so NASCET does not apply (Fox et al. 2005,
-//! AJNR 26:2086).
 
 use std::f64::consts::PI;
 
@@ -93,12 +91,9 @@ pub struct Stenosis {
 }
 
 impl Profile {
-    /// Grades the stenosis at an arc length (mm).
-    ///
-    /// # Errors
-    /// [`ErrorKind::Measuring`] for places beyond the vessel or not measured; references that are narrower
-    /// than the stenosis, both on one side, or within one diameter; a missing original diameter; NASCET at a
-    /// near-occlusion.
+    /// Grades the stenosis at an arc length (mm). Errors: [`ErrorKind::Measuring`] for places beyond the
+    /// vessel or not measured; references that are narrower than the stenosis, both on one side, or within
+    /// one diameter; a missing original diameter; NASCET at a near-occlusion.
     pub fn stenosis(&self, at: f64, method: Method, compared: &Compared) -> Result<Stenosis> {
         let (diameter, uncertainty) = self.diameter_at(at)?;
         let references = compared
@@ -140,10 +135,7 @@ impl Profile {
         })
     }
 
-    /// Diameter and its standard deviation at an arc length (mm), interpolated. Between a section that counts
-    /// and one that does not, the first is used.
-    ///
-    /// # Errors
+    /// Diameter and standard deviation at an arc length (mm), interpolated between sections that count.
     /// [`ErrorKind::Measuring`] for a place beyond the vessel or not measured.
     pub fn diameter_at(&self, at: f64) -> Result<(f64, f64)> {
         self.check_place("place on the vessel", at)?;
@@ -198,9 +190,6 @@ impl Profile {
     }
 
     /// Median diameter around an arc length (mm), of the sections that count.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Measuring`] for a place beyond the vessel or without such sections.
     pub(crate) fn reference_at(&self, at: f64) -> Result<f64> {
         self.check_place("reference of the stenosis", at)?;
         let around = |n: &usize| (self.arc_length[*n] - at).abs() <= REFERENCE_REACH;
@@ -233,9 +222,6 @@ impl Profile {
     }
 
     /// Checks that an arc length lies on the vessel.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Measuring`].
     pub(crate) fn check_place(&self, subject: &str, at: f64) -> Result<()> {
         let length = self.arc_length[self.len() - 1];
         // Tolerates rounding of lengths.

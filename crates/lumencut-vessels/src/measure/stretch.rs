@@ -32,19 +32,14 @@ pub struct CArm {
 }
 
 impl Profile {
-    /// Length between two arc lengths (mm).
-    ///
-    /// # Errors
-    /// [`ErrorKind::Measuring`] for places beyond the vessel, or the same place twice.
+    /// Length between two arc lengths (mm). [`ErrorKind::Measuring`] for wrong or equal places.
     pub fn stretch(&self, [from, to]: [f64; 2]) -> Result<Stretch> {
         self.check_stretch([from, to])?;
         let straight = self.point_at(from).distance(self.point_at(to));
         Ok(Stretch { length: (to - from).abs(), straight })
     }
 
-    /// Direction from one arc length to another (mm): that of the line fitted to the section centres.
-    ///
-    /// # Errors
+    /// Direction from one arc length to another (mm): that of the line fitted to the section centres. Errors:
     /// [`ErrorKind::Measuring`] for places beyond the vessel, or the same place twice.
     pub fn direction(&self, [from, to]: [f64; 2]) -> Result<DVec3> {
         self.check_stretch([from, to])?;
@@ -65,19 +60,13 @@ impl Profile {
         })
     }
 
-    /// Angle between two segments (radians); 0 if they run in the same direction.
-    ///
-    /// # Errors
-    /// As [`Profile::direction`].
+    /// Angle between two segments (radians); 0 for the same direction.
     pub fn angle_between(&self, first: [f64; 2], second: [f64; 2]) -> Result<f64> {
         Ok(self.direction(first)?.angle_between(self.direction(second)?))
     }
 
     /// C-arm angles that show a segment in full length: at rotation `lao` (radians) if given, otherwise with
-    /// the smallest turn.
-    ///
-    /// # Errors
-    /// As [`Profile::direction`], and for a rotation at which no angulation does.
+    /// the smallest turn. Errors: As [`Profile::direction`], and for a rotation at which no angulation does.
     pub fn c_arm(&self, stretch: [f64; 2], lao: Option<f64>) -> Result<CArm> {
         let along = self.direction(stretch)?;
         match lao {
@@ -108,8 +97,7 @@ impl Profile {
     }
 }
 
-/// Direction from the patient to the detector (LPS): (sin α cos β, -cos α cos β, sin β) for LAO α and cranial
-/// β.
+/// Direction to the detector (LPS): (sin α cos β, -cos α cos β, sin β) for LAO α and cranial β.
 pub fn towards_detector(CArm { lao, cranial }: CArm) -> DVec3 {
     DVec3::new(lao.sin() * cranial.cos(), -lao.cos() * cranial.cos(), cranial.sin())
 }

@@ -28,8 +28,8 @@ const BESIDE: f64 = 1.0;
 const ROUND: [f64; 2] = [1.3, 2.0];
 const NEIGHBOURS: (f64, usize, f64) = (2.5, 4, 0.1);
 
-/// A place is the tapering end of a vessel if the vessel is wider by the first factor on one side and nowhere
-/// by the second on the other.
+/// A tapering end: the vessel is wider by the first factor on one side, and nowhere by the second on the
+/// other.
 const THIN_END: [f64; 2] = [1.25, 1.1];
 
 /// Sections on each side for a median width, because single ones may be outliers.
@@ -45,9 +45,8 @@ pub struct Spot {
 }
 
 impl Profile {
-    /// Narrowest place (median of three sections) without [`Profile::hindrances`] that is not the tapering
-    /// end. None if no section qualifies ([`Profile::none_safe`]) or the vessel only tapers
-    /// ([`Profile::thin_end`]).
+    /// Narrowest place (median of three sections) without [`Profile::hindrances`], except a tapering end.
+    /// None if there is none ([`Profile::none_safe`], [`Profile::thin_end`]).
     pub fn narrowest(&self) -> Option<Spot> {
         let spots = self.safe_spots();
         let narrowest = spots.iter().copied().min_by(thinner)?;
@@ -139,10 +138,7 @@ impl Profile {
     /// Suggested references before and after an arc length (mm): the nearest places at least their own
     /// diameter away, with parallel walls, typical width, not narrower than the place, and without
     /// [`Profile::hindrances`]. They lie before the next branch or step of the calibre, unless neither side
-    /// has such a place.
-    ///
-    /// # Errors
-    /// [`lumencut_core::error::ErrorKind::Measuring`] for a place beyond the vessel.
+    /// has such a place. Errors: [`ErrorKind::Measuring`] for a place beyond the vessel.
     pub fn suggested_references(&self, at: f64) -> Result<[Option<Spot>; 2]> {
         self.check_place("place on the vessel", at)?;
         let normal = self.normal_places(at);
@@ -195,8 +191,7 @@ impl Profile {
         offered.min_by(|a, b| away(a.at).total_cmp(&away(b.at))).copied()
     }
 
-    /// Median diameter around a section with parallel walls, if all sections count and `but` is not among
-    /// them.
+    /// Median diameter around a section with parallel walls; None if `but` is among them.
     fn parallel(&self, n: usize, but: f64) -> Option<f64> {
         let here = self.arc_length[n];
         let (reach, share) = PARALLEL;

@@ -1,7 +1,6 @@
 //! The spatial correlation of image noise.
 //!
-//! CT kernels correlate the noise of neighbouring voxels, so a mean is less certain than with independent
-//! noise.
+//! CT kernels correlate neighbouring voxels, so a mean is less certain than with independent noise.
 
 use glam::{DMat3, DVec3};
 
@@ -76,8 +75,7 @@ impl Pairs {
     }
 }
 
-/// Visits each pair of near voxels once, with their offset. Sorting along the longest axis skips most distant
-/// pairs.
+/// Visits each pair of near voxels with their offset; sorting along the longest axis skips most others.
 fn for_near_pairs<T: Copy>(samples: &mut [([i16; 3], T)], mut visit: impl FnMut([usize; 3], T, T)) {
     let axis = put_in_order(samples);
     for (n, (voxel, value)) in samples.iter().enumerate() {

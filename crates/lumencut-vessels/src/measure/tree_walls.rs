@@ -28,8 +28,7 @@ pub struct PooledWall {
     pub vessels: usize,
 }
 
-/// Wall level expected from the other vessels of a tree. Vessels that share part of the line are skipped,
-/// because they have the same voxels.
+/// Wall level expected from other vessels, except those that share voxels.
 pub(crate) fn wall_beside(
     walls: &[ToldWall],
     tree: &[Vessel],

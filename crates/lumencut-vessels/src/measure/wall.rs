@@ -12,8 +12,7 @@ use super::pooled::Level;
 use super::scale::Scale;
 use super::terms::unit;
 
-/// Expected thickness: this factor times √diameter (mm), and the standard deviation of its logarithm (range
-/// 0.3 to 3 mm).
+/// Expected thickness: factor of √diameter (mm), and standard deviation of its logarithm.
 const THICKNESS: [f64; 2] = [0.45, 0.5];
 
 /// Range of the expected thickness (mm): wide arteries do not have thicker walls without limit.

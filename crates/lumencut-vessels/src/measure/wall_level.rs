@@ -35,8 +35,7 @@ pub enum WallRequest {
 }
 
 impl WallRequest {
-    /// # Errors
-    /// [`ErrorKind::Settings`] for an invalid level or standard deviation.
+    /// Errors: [`ErrorKind::Settings`] for an invalid level or standard deviation.
     pub fn check(&self) -> Result<()> {
         let Self::Level([level, deviation]) = self else { return Ok(()) };
         LEVEL.check("wall", *level)?;
@@ -91,9 +90,6 @@ pub(crate) fn is_below_lumen(wall: &PooledWall, scale: &Scale) -> bool {
 }
 
 /// The expected wall of a vessel and its source.
-///
-/// # Errors
-/// [`ErrorKind::Settings`] for a level as bright as the lumen.
 pub(crate) fn expected(
     voxels: &Voxels,
     scale: &Scale,

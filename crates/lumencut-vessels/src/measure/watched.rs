@@ -9,10 +9,7 @@ use lumencut_core::vessel_tree::Vessel;
 const PASSES: f64 = 3.0;
 
 /// Measures vessels in sections `step` mm apart and reports progress as one of the expected views. `measure`
-/// receives the stop function to use.
-///
-/// # Errors
-/// Those of `measure`.
+/// receives the stop function to use. Errors: Those of `measure`.
 pub fn watched<T>(
     progress: Option<&Progress>,
     (vessels, step): (&[Vessel], f64),

@@ -1,7 +1,4 @@
-//! Finds all vessels of an angiography without a seed: tubes are tracked, judged, linked into trees, and
-//! ranked.
-//!
-//! The thresholds are the same for all scans.
+//! Finds all vessels of an angiography without a seed. The thresholds are the same for all scans.
 
 pub(crate) mod bone;
 pub(crate) mod candidates;
@@ -56,9 +53,6 @@ pub struct FindRequest<'a> {
 }
 
 /// All vessels of a volume in connected parts, the most important first.
-///
-/// # Errors
-/// [`lumencut_core::error::ErrorKind::Interrupted`].
 pub fn find_vessels(volume: &Volume, request: &FindRequest) -> Result<Trees> {
     let voxels = &Voxels::new(volume);
     let trees = trees(voxels, None, request)?;
@@ -66,9 +60,6 @@ pub fn find_vessels(volume: &Volume, request: &FindRequest) -> Result<Trees> {
 }
 
 /// All vessels of a volume; around a seed (mm, LPS) outside all of them, fainter ones are found too.
-///
-/// # Errors
-/// [`lumencut_core::error::ErrorKind::Interrupted`].
 pub fn trees(voxels: &Voxels, seed: Option<DVec3>, request: &FindRequest) -> Result<Trees> {
     let stages = Stages::begin(request.progress);
     let Some(tubes::Tubes { scan, tracks, shapes }) = tubes::tubes(voxels, seed, request, stages)? else {

@@ -45,11 +45,8 @@ pub struct TracedMask {
     pub pieces: usize,
 }
 
-/// Traces the lumen of a mask.
-///
-/// # Errors
-/// [`ErrorKind::Volume`] for a mask without lumen or background, with fractional values, of one slice, or
-/// with no part longer than wide; [`ErrorKind::Interrupted`].
+/// Traces the lumen of a mask. Errors: [`ErrorKind::Volume`] for a mask without lumen or background, with
+/// fractional values, of one slice, or with no part longer than wide; [`ErrorKind::Interrupted`].
 pub fn trace_mask(mask: &Volume, request: &MaskRequest) -> Result<TracedMask> {
     let begin = |step: usize| {
         if let Some(progress) = request.progress {

@@ -76,9 +76,6 @@ pub(crate) struct Skeleton {
 const JOINED: f64 = 1.5;
 
 /// Skeletonizes lumen voxels.
-///
-/// # Errors
-/// [`ErrorKind::Volume`] for a box that is too large; [`ErrorKind::Interrupted`].
 pub(crate) fn skeleton(mut foreground: Foreground, skeleton: &Skeletonization) -> Result<Skeleton> {
     let stop = skeleton.stop;
     if foreground.cells.len() > MOST_CELLS {
@@ -158,8 +155,7 @@ fn attach(line: &mut ThroughLine, node_place: &[Option<DVec3>], on_other: [Optio
     }
 }
 
-/// Leads a line from its exit of another lumen, `radius` mm from `place`, in one bend to `place`. Points from
-/// `next` stay.
+/// Leads a line from its exit of another lumen, `radius` mm from `place`, in one bend to `place`.
 fn lead_in(points: &mut [DVec3], end: usize, place: DVec3, radius: f64, next: usize) {
     let last = points.len() - 1;
     let from_end = |n: usize| if end == 0 { n } else { last - n };

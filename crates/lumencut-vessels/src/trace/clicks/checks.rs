@@ -17,8 +17,7 @@ pub struct Clicks {
     pub stoppers: Vec<Stopper>,
     /// Whether to bridge stretches without lumen of any length.
     pub bridge: bool,
-    /// Existing vessels, which stay unchanged: new ones that meet them end at their points. Their confidence
-    /// is not used.
+    /// Existing vessels, which stay unchanged: new ones end at their points. Confidence is not used.
     pub beside: Vec<Centerline>,
 }
 

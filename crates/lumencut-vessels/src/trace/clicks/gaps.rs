@@ -17,8 +17,7 @@ const LONGEST_TURN: f64 = 1.2;
 /// Thickest wall between two vessels that a path might cross (mm).
 const LONGEST_WALL: f64 = 5.0;
 
-/// Definition of a turn: distances from a gap between which the direction is taken (mm), and the cosine
-/// limit.
+/// A turn: distances from a gap between which the direction is taken (mm), and the cosine limit.
 struct Turn {
     beside: [f64; 2],
     least: f64,

@@ -29,9 +29,6 @@ struct Junction {
 
 /// Cuts each vessel where it leaves or enters an earlier one and joins it to one of its points, equal to the
 /// bit. Vessels in `beside` are earlier than all.
-///
-/// # Errors
-/// [`ErrorKind::Tracing`] for a vessel that runs within earlier ones from end to end.
 pub(crate) fn joined(beside: &[Centerline], lines: Vec<Traced>) -> Result<Vec<Traced>> {
     let mut whole: Vec<Traced> = Vec::with_capacity(lines.len());
     for (n, line) in lines.into_iter().enumerate() {

@@ -13,8 +13,7 @@ use lumencut_core::stop::Stop;
 /// Maximum voxels of a front; fronts are kept while the pointer moves.
 const MOST_VOXELS: usize = 4_000_000;
 
-/// Factors of the straight distance in the two searches. The first is fast; if it crosses a wall, the second
-/// finds the cheapest path.
+/// Factors of the straight distance: a fast search, and the exact one for when it crosses a wall.
 const PULLS: [f32; 2] = [1.5, 1.0];
 
 /// Smoothing rounds that hide the steps between voxels.

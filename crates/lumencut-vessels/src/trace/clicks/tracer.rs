@@ -54,11 +54,8 @@ struct Search<'a, 'v> {
 
 impl Tracer {
     /// Traces all vessels of `clicks`, in order; a later vessel that meets an earlier one ends at one of its
-    /// points. Every call must use the same volume.
-    ///
-    /// # Errors
-    /// [`lumencut_core::error::ErrorKind::Tracing`] for clicks outside lumen, or without lumen between them;
-    /// [`lumencut_core::error::ErrorKind::Interrupted`].
+    /// points. Every call must use the same volume. Errors: [`ErrorKind::Tracing`] for clicks outside lumen,
+    /// or without lumen between them; [`ErrorKind::Interrupted`].
     pub fn trace(
         &mut self,
         volume: &Volume,
@@ -102,12 +99,8 @@ impl Tracer {
         way
     }
 
-    /// Checks a first click alone: everything rejected here is also rejected by [`Tracer::trace`]. Every call
-    /// must use the traced volume.
-    ///
-    /// # Errors
-    /// [`lumencut_core::error::ErrorKind::Tracing`] for a click outside the volume, or whose value alone
-    /// excludes lumen.
+    /// Checks a first click alone, as [`Tracer::trace`] would in the same volume. [`ErrorKind::Tracing`] for
+    /// a click outside the volume, or whose value excludes lumen.
     pub fn check_click(&self, volume: &Volume, click: DVec3) -> Result<()> {
         let voxels = &Voxels::new(volume);
         check_place(voxels, click, || (format!("point {}", in_words(click)), Clicked::Single))?;

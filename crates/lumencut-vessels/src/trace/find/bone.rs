@@ -22,14 +22,12 @@ use lumencut_core::stop::{Stop, go_on};
 /// Quantile of a track's elongations: low, because junctions and touching veins lengthen single sections.
 const ELONGATION_SHARE: f64 = 0.3;
 
-/// Weights in a neighbourhood: maximum length (mm), factor of the track itself, and minimum confidence of
-/// others.
+/// Weights in a neighbourhood: maximum length (mm), factor of the track itself, minimum confidence.
 const LONGEST: f64 = 40.0;
 const ITSELF: f64 = 2.0;
 const LEAST_COUNTED: f64 = 0.3;
 
-/// Neighbours raise the elongation e of a track to at most 1.5 + 2 (e - 1), so that round arteries next to
-/// bone stay.
+/// Neighbours raise an elongation e to at most 1.5 + 2 (e - 1): round arteries next to bone stay.
 const NEIGHBOURS: [f64; 2] = [1.5, 2.0];
 
 /// Start and width of the doubts by elongation and by spread, and their maximum.
@@ -68,8 +66,7 @@ const EVEN: [f64; 2] = [0.10, 0.06];
 const ALIKE: [f64; 2] = [0.18, 0.10];
 const SEEN: [f64; 2] = [2.0, 4.0];
 
-/// Above this radius (mm) such a lumen must also be round (range of elongations), because bodies of even
-/// tissue are not.
+/// Above this radius (mm) such a lumen must be round, unlike bodies of even tissue.
 const ROUND: f64 = 7.0;
 const ELONGATED_BODY: [f64; 2] = [1.9, 1.5];
 
@@ -118,8 +115,7 @@ pub(crate) fn shapes(
     tracks.par_iter().map(of_track).collect()
 }
 
-/// Refines vessel level and contrast from sure, round, even tracks, because the first pass includes bone.
-/// None without such tracks.
+/// Refines vessel level and contrast from sure, round, even tracks: the first pass includes bone.
 pub(crate) fn lumen_level(scan: &Scan, tracks: &[Track], shapes: &[Option<Shape>]) -> Option<[f64; 2]> {
     let is_lumen = |track: &Track, shape: &Shape| {
         let is_even = !shape.is_marrow && shape.spread <= LUMEN_SPREAD;
@@ -227,8 +223,7 @@ fn judge(scan: &Scan, track: &mut Track, shape: Shape) {
     track.confidence = (track.confidence * (1.0 - lost)).max(if is_lumen { FLAT_LUMEN_LEFT } else { 0.0 });
 }
 
-/// Degree to which non-tubular sections interrupt a wide track, 0 to 1. Vertebral bodies and even tissue are
-/// no tubes where they meet.
+/// How much a wide track is interrupted, 0 to 1: vertebral bodies are no tubes where they meet.
 fn broken(scan: &Scan, track: &Track) -> f64 {
     let good = track.points.iter().filter(|point| point.is_good).count() as f64 / track.points.len() as f64;
     ramp(-good, -UNBROKEN[1], -UNBROKEN[0]) * ramp(track.radius() / scan.side, BROAD[0], BROAD[1])

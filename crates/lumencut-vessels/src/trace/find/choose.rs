@@ -20,11 +20,8 @@ struct Near {
 }
 
 /// Vessels of the part that contains a seed (mm, LPS), found as without it; outside all of them, fainter ones
-/// around it are found too.
-///
-/// # Errors
-/// Those of [`trees`]; [`lumencut_core::error::ErrorKind::Tracing`] for a seed outside the volume, in no
-/// vessel, or in a part without a sure vessel.
+/// around it are found too. Errors: Those of [`trees`]; [`ErrorKind::Tracing`] for a seed outside the volume,
+/// in no vessel, or in a part without a sure vessel.
 pub fn find_from(volume: &Volume, seed: DVec3, request: &FindRequest) -> Result<Trees> {
     let voxels = Voxels::new(volume);
     if !seed.is_finite() || voxels.voxel_at(seed).is_none() {
@@ -43,10 +40,7 @@ pub fn find_from(volume: &Volume, seed: DVec3, request: &FindRequest) -> Result<
 }
 
 /// The part with the vessel nearest to a seed in radii, preferring parts with a sure vessel. `voxel` (mm) is
-/// the minimum reach of a seed.
-///
-/// # Errors
-/// The nearest vessel point and its distance (mm) if none is in reach.
+/// the minimum reach of a seed. Errors: The nearest vessel point and its distance (mm) if none is in reach.
 pub fn part_at(trees: &Trees, seed: DVec3, voxel: f64) -> std::result::Result<usize, (DVec3, f64)> {
     let sure_parts: Vec<usize> =
         trees.vessels.iter().filter(|vessel| vessel.doubt.is_none()).map(|vessel| vessel.part).collect();
@@ -55,10 +49,7 @@ pub fn part_at(trees: &Trees, seed: DVec3, voxel: f64) -> std::result::Result<us
 }
 
 /// The vessel nearest to a place in radii, preferring those accepted by `comes_first`. `voxel` (mm) is the
-/// minimum reach.
-///
-/// # Errors
-/// The nearest vessel point and its distance (mm) if none is in reach.
+/// minimum reach. Errors: The nearest vessel point and its distance (mm) if none is in reach.
 pub fn vessel_at(
     trees: &Trees,
     place: DVec3,

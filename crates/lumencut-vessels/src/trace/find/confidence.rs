@@ -35,13 +35,11 @@ const MOST_SECTIONS: usize = 60;
 /// Range of radii (voxels) over which a tube counts as wide.
 const WIDE: [f64; 2] = [2.5, 5.5];
 
-/// Search distance for bone (radii plus voxels), and its minimum excess over the vessel level (share of the
-/// contrast).
+/// Search distance for bone (radii plus voxels); its excess over the vessel level (share of the contrast).
 const BONE_REACH: [f64; 2] = [1.5, 1.5];
 const BONE: f64 = 0.4;
 const BRIGHT_INSIDE: f64 = 0.5;
-/// Range of level differences (shares of the contrast) up to which a wide tube may have bright walls, as in a
-/// stent.
+/// Range of level differences (shares of the contrast) that excuses bright walls, as in a stent.
 const STENT_INSIDE: [f64; 2] = [0.25, 0.55];
 
 /// Surroundings of a track.

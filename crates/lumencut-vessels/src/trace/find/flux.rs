@@ -8,8 +8,7 @@ use std::sync::OnceLock;
 
 use lumencut_core::math::lanes::{Isa, Kernel, dispatch};
 
-/// Ball radii (voxels): the finest level uses the first three, the coarsest the last three, others the middle
-/// two.
+/// Ball radii (voxels): the first three on the finest level, the last three on the coarsest, else the middle.
 pub(crate) const RADII: [f64; 4] = [1.0, 1.5, 2.1, 3.0];
 
 /// Gaussian of 0.7 voxels.

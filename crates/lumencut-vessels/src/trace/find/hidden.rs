@@ -1,5 +1,4 @@
-//! Tracks tubes hidden in wide tracks that are no vessels: a track through bone is wider than the arteries
-//! that touch it.
+//! Tracks narrow tubes hidden in wide tracks that are no vessels, such as arteries at bone.
 
 use glam::DVec3;
 

@@ -1,8 +1,7 @@
 //! Links open ends of tracks to other tracks, which joins them into trees.
 //!
-//! Each end is linked to the cheapest place ahead on another track. Then ends and sides are linked to other
-//! trees only, with stricter limits: where two trees leave one short trunk, their nearest ends belong to
-//! themselves.
+//! Each end is linked to the cheapest place ahead. Then ends and sides are linked to other trees only, with
+//! stricter limits: where two trees leave one short trunk, their nearest ends belong together.
 
 pub(crate) mod bridges;
 pub(crate) mod ends;

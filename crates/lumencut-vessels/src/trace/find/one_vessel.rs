@@ -13,10 +13,8 @@ const SAME: f64 = 1e-6;
 
 /// The vessel that contains a click (mm, LPS), nearest in radii, sure before doubtful. It starts on an
 /// existing vessel (`beside`) if its ancestors lead to one, otherwise where it leaves its parent. It ends at
-/// its own end or where it enters an existing vessel. `voxel` is the voxel side (mm).
-///
-/// # Errors
-/// [`NoVessel`] for a click in no vessel, or in an existing one.
+/// its own end or where it enters an existing vessel. `voxel` is the voxel side (mm). Errors: [`NoVessel`]
+/// for a click in no vessel, or in an existing one.
 pub fn one_vessel(
     trees: &Trees,
     click: DVec3,

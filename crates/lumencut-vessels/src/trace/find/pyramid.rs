@@ -1,5 +1,4 @@
-//! The clamped volume in isotropic voxels at several resolutions, so that every vessel is a few voxels wide
-//! somewhere.
+//! The clamped volume at several resolutions, so that every vessel is a few voxels wide somewhere.
 
 use std::ops::Range;
 

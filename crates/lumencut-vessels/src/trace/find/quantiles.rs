@@ -1,7 +1,6 @@
 //! Medians and quantiles that are members of the values.
 //!
-//! The core's versions interpolate. With those, the dissection of one test patient falls into other trees;
-//! see `docs/method/tracing.md`.
+//! With the core's interpolating versions, the dissection of one test patient falls into other trees.
 
 /// Nearest-rank quantile; None if empty.
 pub(crate) fn quantile(values: &mut [f64], share: f64) -> Option<f64> {

@@ -22,12 +22,10 @@ const LONG_AND_ROUND: [[f64; 2]; 2] = [[10.0, 1.5], [6.0, 1.25]];
 /// Share of the diagonal that counts as long for any width, because a small volume shows no more.
 const LONG_OF_DIAGONAL: f64 = 0.5;
 
-/// Upper level (HU) of blood without contrast medium and of muscle. A limit of 120 HU would lose CTs with
-/// arteries of 115 HU.
+/// Upper level (HU) of plain blood and muscle; 120 HU would lose CTs with arteries of 115 HU.
 const BLOOD: f64 = 75.0;
 
-/// Whether sure, long, round tracks reach the minimum total length, and, in CT, vessels are brighter than
-/// plain blood.
+/// Whether sure, long, round tracks reach the minimum length and, in CT, exceed plain blood.
 pub(crate) fn is_angiography(scan: &Scan, tracks: &[Track], shapes: &[Option<Shape>]) -> bool {
     let diagonal = diagonal(scan.voxels);
     let length = |(track, shape): (&Track, &Option<Shape>)| {

@@ -25,8 +25,7 @@ const LEAST_OF_CONTRAST: f64 = 0.4;
 const NEAR_WALL: f64 = 0.55;
 const FAR_WALL: f64 = 1.6;
 
-/// Farther walls are clamped to this many radii, so that a branch or missing wall does not move the centre
-/// farther.
+/// Farther walls are clamped to this many radii, so that a branch cannot move the centre.
 const FARTHEST: f64 = 1.5;
 
 /// Maximum radius (finest voxels) of a tube whose rays may end at bone.

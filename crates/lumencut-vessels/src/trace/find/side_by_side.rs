@@ -27,8 +27,7 @@ const COARSE_LEVELS: usize = 2;
 /// Minimum confidence.
 const LEAST_CONFIDENCE: f64 = 0.5;
 
-/// New parts of a track: minimum distance from the wide axis (its radii), minimum length (own radii), and
-/// minimum share within a distance.
+/// New parts: minimum distance from the wide axis (its radii), minimum length (own radii), share within.
 const BESIDE: f64 = 0.33;
 const LEAST_RADII: f64 = 3.0;
 const LEAST_WITHIN: f64 = 0.3;

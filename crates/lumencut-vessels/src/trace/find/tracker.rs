@@ -29,8 +29,7 @@ const MOST_SHIFT: [f64; 2] = [0.6, 0.4];
 /// Maximum radius (mm).
 const WIDEST: f64 = 22.0;
 
-/// Maximum level difference and minimum contrast relative to the running contrast; minimum contrast in
-/// multiples of the noise.
+/// Maximum level difference and minimum contrast (running contrast); minimum contrast (noise).
 const LEVEL: f64 = 0.45;
 const CONTRAST: f64 = 0.45;
 const NOISES: f64 = 3.0;
@@ -86,8 +85,7 @@ enum Seen {
 type Look = fn(&Level, DVec3, DVec3, f64) -> Section;
 
 impl Tracker<'_> {
-    /// Track points through a candidate (finest voxels), at most `most_steps` per direction; None if its
-    /// section is not good.
+    /// Track points through a candidate (finest voxels), at most `most_steps` per direction.
     pub(crate) fn track(&self, from: &Candidate, most_steps: usize) -> Option<Vec<TrackPoint>> {
         let level = self.pyramid.level_for(from.radius, &self.looked_at);
         let section = Section::look(level, from.place, from.direction, from.radius);

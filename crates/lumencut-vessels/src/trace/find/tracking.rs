@@ -1,5 +1,4 @@
-//! Turns candidates into tracks, the most promising first: each is followed, judged and painted, so that no
-//! tube is found twice.
+//! Tracks candidates, the most promising first, and paints them, so that no tube is found twice.
 
 use std::collections::VecDeque;
 use std::ops::Range;
@@ -36,16 +35,14 @@ const WIDE: f64 = 4.0;
 /// Painted radius of a rejected track (voxels).
 const THIN: f64 = 1.0;
 
-/// A candidate inside a darker track needs this share of the vessel contrast and at most this radius
-/// (voxels).
+/// Minimum contrast (share) and maximum radius (voxels) of a candidate inside a darker track.
 const OVER_CONTRAST: f64 = 0.5;
 const OVER_RADIUS: f64 = 5.0;
 
 /// Candidates tracked in parallel before painting.
 const BATCH: usize = 32;
 
-/// Candidates closer than this multiple of their radii plus voxels are tracked in sequence; maximum number
-/// searched for independent ones.
+/// Candidates closer than this (radii, voxels) are tracked in sequence; maximum searched for others.
 const NEAR_RADII: f64 = 4.0;
 const NEAR_VOXELS: f64 = 8.0;
 const MOST_LOOKED_AT: usize = 128;

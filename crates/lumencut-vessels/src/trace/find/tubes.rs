@@ -21,8 +21,7 @@ use crate::voxels::Voxels;
 use lumencut_core::error::Result;
 use lumencut_core::stop::Stop;
 
-/// Scans with values below the first limit (HU) are clamped at the second: fat, lung and air carry no
-/// information.
+/// Scans with values below the first limit (HU) are clamped at the second: fat, lung and air.
 const AIR: f64 = -200.0;
 const WATER: f64 = 0.0;
 
@@ -30,8 +29,7 @@ const WATER: f64 = 0.0;
 const BRIGHTEST: f64 = 0.999;
 const SAMPLES: usize = 400_000;
 
-/// Upper clamp of the second pass above the vessel level (share of the contrast), so that struts, calcium and
-/// bone look no brighter than a vessel.
+/// Upper clamp of the second pass above the vessel level (share), against struts, calcium and bone.
 const ABOVE: f64 = 0.25;
 
 /// Assumed contrast of the first pass, as a share of the value range.

@@ -16,9 +16,7 @@ const MOST_PAIRS: usize = usize::MAX >> (usize::BITS - 32);
 /// Pairs between two checks of `stop`.
 const PAIRS_BETWEEN_STOPS: usize = 1 << 24;
 
-/// Connections between two lines as point indices, from the starts to the ends.
-///
-/// # Errors
+/// Connections between two lines as point indices, from the starts to the ends. Errors:
 /// [`ErrorKind::VesselTree`] for a line without points or too many pairs; [`ErrorKind::Interrupted`].
 pub fn correspondence(first: &[DVec3], second: &[DVec3], stop: Stop) -> Result<Vec<[usize; 2]>> {
     let (rows, columns) = (first.len(), second.len());

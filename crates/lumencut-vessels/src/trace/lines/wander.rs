@@ -11,11 +11,8 @@ const LEAST_STRAIGHT: f64 = 0.6;
 /// Minimum window on each side (mm), because lines of thin vessels are no smoother than voxels.
 const LEAST_REACH: f64 = 2.0;
 
-/// Marks points where the line turns more tightly than its vessel is wide.
-///
-/// # Source
-/// Own: the centerline of a tube of radius r bends with a radius of at least r, or the tube would intersect
-/// itself.
+/// Marks points where the line turns more tightly than its vessel is wide. Own criterion: a tube of radius r
+/// bends with a radius of at least r, or it would intersect itself.
 pub fn wandering(line: &Centerline) -> Vec<bool> {
     let (points, lengths) = (&line.points, arc_lengths(&line.points));
     let last = points.len() - 1;

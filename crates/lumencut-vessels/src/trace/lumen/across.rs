@@ -6,8 +6,7 @@ use crate::trace::lumen::directions::half_sphere;
 use crate::trace::lumen::own_axis::{DIRECTIONS, OwnLumen};
 use crate::voxels::Voxels;
 
-/// A path runs across if the lumen along it is at most this many widths and less than this share of the
-/// lumen's length.
+/// A path runs across if its lumen is at most this many widths and less than this share of the length.
 const MOST_WIDTHS: f64 = 1.3;
 const LEAST_SHARE: f64 = 0.6;
 

@@ -14,8 +14,7 @@ const OUTSIDE: f64 = 1.5;
 /// Maximum radius of a lumen (mm).
 pub const WIDEST: f64 = 45.0;
 
-/// Smaller eigenvalue of the wall directions: at most the first if the wall shows on two sides only, about
-/// the second if a quarter is missing.
+/// Smaller eigenvalue of the wall directions if the wall shows on two sides only, and if a quarter lacks.
 const TWO_SIDED: f64 = 0.25;
 const ROUND: f64 = 0.38;
 
@@ -48,8 +47,7 @@ pub struct Probe<'a, 'v> {
 }
 
 impl Probe<'_, '_> {
-    /// Lumen around `center` in the plane of two directions; `guess` is its approximate radius (mm), if
-    /// known.
+    /// Lumen around `center` in the plane of two directions; `guess` is about its radius (mm).
     pub fn look(&self, center: DVec3, across: [DVec3; 2], guess: Option<f64>) -> Option<LumenSection> {
         let step = self.step(guess);
         let lumen = self.local_lumen(center, across, guess)?;
@@ -81,8 +79,7 @@ impl Probe<'_, '_> {
         })
     }
 
-    /// Wall-to-wall distance through a place along a direction (mm), at most `reach` per side; None if a wall
-    /// is missing.
+    /// Wall-to-wall distance along a direction (mm), at most `reach` per side; None if a wall is missing.
     pub fn chord(&self, place: DVec3, direction: DVec3, reach: f64) -> Option<f64> {
         let lumen = f64::from(self.voxels.at(place));
         let side = |way| self.wall(place, way, lumen, self.step(None), reach).map(|(length, _)| length);
@@ -111,8 +108,7 @@ impl Probe<'_, '_> {
         is_lumen.then_some(f64::from(median))
     }
 
-    /// Distance to the wall and whether it is bright: the crossing midway between local lumen and outside,
-    /// darker or brighter.
+    /// Distance to the wall (midway between lumen and outside) and whether that is brighter.
     fn wall(
         &self,
         center: DVec3,
@@ -185,8 +181,7 @@ impl Circle {
         1.4826 * away[away.len() / 2]
     }
 
-    /// Whether points lie on all sides, 0 to 1. A vessel cut lengthwise shows two sides only and does not
-    /// locate the centre along it.
+    /// Whether points lie on all sides, 0 to 1; a vessel cut lengthwise shows two sides only.
     fn roundness(&self, points: &[[f64; 2]]) -> f64 {
         let [mut xx, mut xy, mut yy, mut all] = [0.0; 4];
         for p in points {

@@ -26,12 +26,9 @@ const NEARLY: f64 = 0.9;
 /// Minimum radius in voxels; narrower lumens show surrounding tissue at the centre.
 const LEAST_VOXELS: f64 = 2.0;
 
-/// Index of a lasting, sudden change of lumen brightness; None if there is none, or only gradual fading of
-/// contrast medium.
-///
-/// # Source
-/// Own: two lines of common slope are fitted to the values along 15 mm (or two radii) before and after a
-/// place. The step must be at least a quarter of the contrast and three times the noise.
+/// Index of a lasting, sudden change of lumen brightness. Own method: two lines of common slope are fitted to
+/// the values along 15 mm (or two radii) before and after a place. The step must be at least a quarter of the
+/// contrast and three times the noise.
 pub fn level_change(voxels: &Voxels, line: &Centerline) -> Option<usize> {
     let along = Along::new(voxels, line);
     let steps = (0..line.points.len()).filter_map(|n| Some((n, along.step_at(n)?)));

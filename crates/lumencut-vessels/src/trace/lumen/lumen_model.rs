@@ -83,8 +83,7 @@ pub(crate) fn noise_of(neighbours: &[f32]) -> f64 {
     if steps.is_empty() { 0.0 } else { quantile(&steps, 0.25) / 0.451 }
 }
 
-/// Tissue level: upper quartile of the sorted values darker than midway between their median and the lumen;
-/// biased upwards for safety.
+/// Upper quartile of the sorted values darker than midway between their median and the lumen.
 pub(crate) fn tissue_level(tissue: &[f32], clicks: &[f64]) -> f64 {
     let median = quantile(tissue, 0.5);
     let values: Vec<f64> = clicks.iter().copied().filter(|value| value.is_finite()).collect();

@@ -72,8 +72,7 @@ fn depths(volume: &Volume, from: DVec3, along: DVec3) -> Option<(f64, f64)> {
     (near < far).then_some((near, far))
 }
 
-/// Bright stretches of a ray, the highest ones, in order. A stretch ends halfway down to the higher of the
-/// minima on its two sides.
+/// Highest bright stretches of a ray, in order, down to half of their height.
 fn bright(values: &[f32]) -> Vec<Bright> {
     let least = (TIMES_NOISE * noise_of(values)) as f32;
     let mut found: Vec<Bright> = (0..values.len())

@@ -1,5 +1,4 @@
-//! Axis and extent of the lumen around a place, for vessels that are hardly longer than wide in a scan of few
-//! slices, where no tube is found.
+//! Axis and extent of a lumen hardly longer than wide, in a scan of few slices.
 
 use std::f64::consts::PI;
 
@@ -52,8 +51,7 @@ impl<'a, 'v> OwnLumen<'a, 'v> {
         self.reach(direction, most) + self.reach(-direction, most)
     }
 
-    /// Both ends of a lumen cut off by the scan, along its axis; None if the lumen is not longer than wide or
-    /// ends within the scan.
+    /// Ends of a lumen cut off by the scan, along its axis; None if it is not longer than wide.
     pub fn cut_ends(&self) -> Option<[DVec3; 2]> {
         let axis = self.axis();
         let reaches = [-1.0, 1.0].map(|side| self.reach(axis * side, REACH));

@@ -37,9 +37,6 @@ const STRETCH: f64 = 2.0;
 const UNSEEN: f64 = 0.1;
 
 /// Centres a path in its lumen.
-///
-/// # Errors
-/// [`lumencut_core::error::ErrorKind::Interrupted`].
 pub fn refined(voxels: &Voxels, model: &LumenModel, way: &[DVec3], stop: Stop) -> Result<Centerline> {
     let points = in_even_steps(way, 2.0 * STEP);
     let line = Centerline { radius: vec![0.0; points.len()], confidence: vec![0.0; points.len()], points };
@@ -47,9 +44,6 @@ pub fn refined(voxels: &Voxels, model: &LumenModel, way: &[DVec3], stop: Stop) -
 }
 
 /// Centres a line whose radii are known, in half of the rounds.
-///
-/// # Errors
-/// [`lumencut_core::error::ErrorKind::Interrupted`].
 pub(crate) fn refined_near(
     voxels: &Voxels,
     model: &LumenModel,
@@ -108,8 +102,7 @@ fn moved(probe: &Probe, line: &Centerline, round: usize) -> Centerline {
     Centerline { points: moved, radius, confidence: trust }
 }
 
-/// Rejects sections whose centres do not advance along the line; otherwise it would fold back, as where a
-/// branch begins within a wider vessel.
+/// Rejects sections whose centres do not advance; the line would fold back, as at a branch.
 fn unfolded(points: &[DVec3], sections: &[Option<LumenSection>], trust: &[f64], lengths: &[f64]) -> Vec<f64> {
     let mut left = trust.to_vec();
     for i in 0..points.len() {

@@ -8,13 +8,11 @@ use crate::trace::lumen::lumen_model::{
 use crate::voxels::Voxels;
 use lumencut_core::error::{Clicked, Error, ErrorKind, Result};
 
-/// A volume is in HU if at least this share of voxels is below the limit: fat and air are negative, unlike MR
-/// values.
+/// A volume is in HU if this share of voxels is below the limit: fat and air are negative in CT only.
 const HOUNSFIELD_SHARE: f64 = 0.01;
 const HOUNSFIELD_LIMIT: f64 = -50.0;
 
-/// HU below which there is air, fat, and tissue or blood without contrast medium; above the last, bone, metal
-/// or calcium.
+/// HU below which there is air, fat, tissue or plain blood; above the last, bone, metal or calcium.
 const AIR: f64 = -400.0;
 const FAT: f64 = -20.0;
 const SOFT_TISSUE: f64 = 100.0;
@@ -87,11 +85,8 @@ impl Surroundings {
         self.tissue
     }
 
-    /// Lumen model of the clicks.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Tracing`] for a click outside lumen: of inconsistent clicks the least lumen-like, in
-    /// doubt the later one.
+    /// Lumen model of the clicks. Errors: [`ErrorKind::Tracing`] for a click outside lumen: of inconsistent
+    /// clicks the least lumen-like, in doubt the later one.
     pub fn model(&self, voxels: &Voxels, clicks: &[DVec3]) -> Result<LumenModel> {
         for click in clicks {
             self.check_alone(voxels, *click)?;
@@ -119,9 +114,6 @@ impl Surroundings {
     }
 
     /// Rejects a click whose own value excludes lumen.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Tracing`] for air, fat, soft tissue and bone in HU, and for NaN.
     pub(crate) fn check_alone(&self, voxels: &Voxels, click: DVec3) -> Result<()> {
         let value = value_at(voxels, click);
         self.check(voxels, click, value, self.mistaken(value))
@@ -246,8 +238,7 @@ pub fn are_hounsfield(voxels: &Voxels) -> bool {
     dark > 0 && dark as f64 >= HOUNSFIELD_SHARE * samples.len() as f64
 }
 
-/// Drops contrast-filled blood from sorted values (HU): near the heart it dominates, and its noise would pass
-/// for tissue.
+/// Drops contrast-filled blood from sorted values (HU), whose noise would pass for tissue.
 fn without_blood<'a>(around: &'a [f32], clicks: &[f64]) -> &'a [f32] {
     let lumen = clicks.iter().copied().filter(|value| value.is_finite()).fold(f64::MAX, f64::min);
     let is_mostly_blood = quantile(around, 0.5) > SOFT_TISSUE && lumen < f64::MAX;

@@ -1,5 +1,4 @@
-//! Refines centre and radius of a mask vessel from grey values, because a mask gives both only to half a
-//! voxel.
+//! Refines a mask vessel from grey values, because a mask is exact only to half a voxel.
 
 use std::f64::consts::TAU;
 
@@ -40,11 +39,7 @@ pub struct GreyValues<'a, 'v> {
 }
 
 impl GreyValues<'_, '_> {
-    /// Refines a vessel (points mm LPS, radii mm). None if the volume does not show it, or shows it
-    /// elsewhere.
-    ///
-    /// # Errors
-    /// [`lumencut_core::error::ErrorKind::Interrupted`].
+    /// Refines a vessel (mm, LPS); None if the volume does not show it there.
     pub fn refined(&self, points: &[DVec3], radius: &[f64]) -> Result<Option<Centerline>> {
         let Some(model) = self.model(points, radius) else { return Ok(None) };
         let line = refined(self.voxels, &model, points, self.stop)?;

@@ -52,8 +52,7 @@ pub(crate) fn parted(vessel: &MaskVessel, mask: &Volume, labels: Option<&[i64]>)
     runs.into_iter().enumerate().map(part).collect()
 }
 
-/// Runs of one label, each starting at the last point of the previous one. Points outside the lumen (filled
-/// cavities) take the previous label.
+/// Runs of one label that share end points. Points outside the lumen take the previous label.
 fn runs(vessel: &MaskVessel, mask: &Volume, labels: Option<&[i64]>) -> Vec<LabelRun> {
     let is_lumen = |label: &i64| *label != 0 && labels.is_none_or(|labels| labels.contains(label));
     let at = |n: usize| {

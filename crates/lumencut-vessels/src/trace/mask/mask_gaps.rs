@@ -23,11 +23,7 @@ pub struct Gap {
     pub is_bridged: bool,
 }
 
-/// Minimum spanning set of gaps that connects all components, narrowest first. A gap leads from an end to
-/// another end or a wall.
-///
-/// # Errors
-/// [`lumencut_core::error::ErrorKind::Interrupted`].
+/// Minimum spanning set of gaps between all components, each from an end to an end or a wall.
 pub(crate) fn gaps(vessels: &[MaskVessel], stop: Stop) -> Result<Vec<Gap>> {
     let piece_of = piece_of(vessels);
     let mut narrowest: HashMap<[usize; 2], Gap> = HashMap::new();

@@ -92,8 +92,7 @@ fn way_inwards(radius: impl Fn(f64) -> f64, step: f64, limit: f64) -> f64 {
     way.min(limit)
 }
 
-/// Extends the first point to the wall, straight from one radius before it; gives up at most `most` mm of the
-/// line.
+/// Extends the first point to the wall, straight from one radius before, giving up at most `most` mm.
 pub(crate) fn lead_to_cap(points: &mut Vec<DVec3>, lumen: &Lumen, most: f64) {
     let ways = arc_lengths(points);
     let whole = ways[ways.len() - 1];

@@ -17,9 +17,6 @@ const CELLS_BETWEEN_STOPS: usize = 1 << 16;
 
 /// Squared distance (mm²) from each cell of `lumen` (sorted) to the nearest background centre; 0 in
 /// background. Sheared grids, where axis distances do not add up, use a k-d tree.
-///
-/// # Errors
-/// [`lumencut_core::error::ErrorKind::Interrupted`].
 pub fn squared_distances(foreground: &Foreground, lumen: &[u32], stop: Stop) -> Result<Vec<f32>> {
     let mut squares = vec![0.0; foreground.cells.len()];
     if is_sheared(foreground) {

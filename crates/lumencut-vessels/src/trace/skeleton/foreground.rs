@@ -1,5 +1,4 @@
-//! The lumen of a mask in its own grid: a box with a border of background, independent of the storage order
-//! of the mask.
+//! The lumen of a mask in its own grid with a border, independent of the storage order.
 
 use std::ops::Range;
 
@@ -28,11 +27,9 @@ pub struct Foreground {
 impl Foreground {
     /// Voxels of `mask` with a value in `labels`, or any but 0 without labels.
     ///
-    /// Each axis is flipped so that the lumen's centroid lies in its second half; on a tie it points to the
-    /// left, the back or the head. A mask stored the other way round therefore gives the same centerlines.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Volume`] for fractional values, a single slice, or if no voxel or every voxel is lumen.
+    /// Each axis is flipped so that the lumen's centroid lies in its second half (on a tie: left, back,
+    /// head), so a mirrored storage order gives the same result. [`ErrorKind::Volume`] for fractional values,
+    /// a single slice, or if no voxel or every voxel is lumen.
     pub fn new(mask: &Volume, labels: Option<&[i64]>, stop: Stop) -> Result<Self> {
         if mask.size().contains(&1) {
             let found = format!("{:?} voxels along i, j, k", mask.size());

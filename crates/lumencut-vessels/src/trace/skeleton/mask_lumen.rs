@@ -13,8 +13,7 @@ const RAYS: usize = 24;
 /// Maximum ray in medians of all rays, where a branch leaves.
 const LONGEST_RAY: f64 = 1.5;
 
-/// Lumen share at the wall. Slightly below a half, so that symmetric points between voxels do not depend on
-/// rounding.
+/// Lumen share at the wall; below a half, so that symmetric points do not depend on rounding.
 const WALL: f64 = 0.499;
 
 pub(crate) struct Lumen<'a> {

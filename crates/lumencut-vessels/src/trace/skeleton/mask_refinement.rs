@@ -18,9 +18,8 @@ const NARROWER: f64 = 0.2;
 /// Minimum number of points to refine.
 const FEWEST: usize = 5;
 
-/// Refines the vessel. Near ends in other vessels, whose sections would show those, the line stays; over one
-/// radius it blends into the refined line. Points are at most `step` mm apart. Returns the errors of
-/// `refine`.
+/// Refines the vessel. Near ends in other vessels the line stays; over one radius it blends into the refined
+/// line. Points are at most `step` mm apart.
 pub(crate) fn refined(
     line: Centerline,
     is_free: [bool; 2],

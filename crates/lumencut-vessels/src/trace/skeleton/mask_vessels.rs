@@ -45,8 +45,7 @@ impl MaskVessel {
     }
 }
 
-/// Sorts components by length; within each, from the free end of the widest vessel outwards, orienting each
-/// vessel in that direction.
+/// Sorts and orients vessels: longest component first, from the free end of the widest vessel outwards.
 pub fn outwards(vessels: Vec<MaskVessel>) -> Vec<MaskVessel> {
     let mut at_node: HashMap<usize, Vec<usize>> = HashMap::new();
     for (number, vessel) in vessels.iter().enumerate() {

@@ -85,8 +85,7 @@ fn significance(graph: &Graph, lumen: &Lumen, number: usize, parent_radii: f64) 
     Some(by_parent.max(by_itself))
 }
 
-/// Parent radius at a junction: the widest other branch, one radius away, where the junction does not widen
-/// it.
+/// Radius of the widest other branch, one radius from the junction, where that does not widen it.
 fn parent_radius(graph: &Graph, lumen: &Lumen, number: usize, junction: usize) -> f64 {
     let at_junction = lumen.radius_at_cell(graph.nodes[junction]);
     let others = graph.incident[junction].iter().filter(|&&other| other != number);

@@ -18,8 +18,7 @@ struct Runs {
     first_of_row: Vec<u32>,
 }
 
-/// Fills background that is not face-connected to the outside; returns the number of cavities and cells, or
-/// `Interrupted`.
+/// Fills background not face-connected to the outside; returns the number of cavities and cells.
 pub(crate) fn fill_cavities(foreground: &mut Foreground, stop: Stop) -> Result<[usize; 2]> {
     let mut runs = Runs::of(foreground, BACKGROUND, 0, stop)?;
     // The border is background, so the first run is the outside.

@@ -2,8 +2,7 @@
 //!
 //! Pudney, "Distance-Ordered Homotopic Thinning", Computer Vision and Image Understanding 72(3), 1998,
 //! doi:10.1006/cviu.1998.0680. Voxels at about the same distance are removed in turns from the six sides, so
-//! that a vessel two voxels wide is thinned before it is shortened. A voxel with one neighbour is an end and
-//! stays.
+//! that a vessel two voxels wide is thinned before it is shortened. A voxel with one neighbour stays.
 
 use crate::trace::skeleton::foreground::{BACKGROUND, Foreground, LUMEN};
 use crate::trace::skeleton::simple_point::Neighbourhood;
@@ -13,8 +12,7 @@ use lumencut_core::stop::{Stop, go_on};
 /// Distance range of one turn, in voxel sides.
 const TURN: f64 = 0.5;
 
-/// Thins to voxel lines of the same topology; returns their sorted cells, or `Interrupted`. `squares` are
-/// squared distances to background (mm²).
+/// Thins to sorted cells of voxel lines; `squares` are squared distances to background (mm²).
 pub(crate) fn thin(
     foreground: &mut Foreground,
     lumen: &[u32],

@@ -1,5 +1,4 @@
-//! A front that grows through the lumen: Dijkstra's algorithm with buckets and the straight distance to the
-//! target as its lower bound.
+//! A front: Dijkstra's algorithm with buckets and the straight distance to the target as lower bound.
 //!
 //! Neighbours are the 26 around a voxel, with world distances, so any affine grid works.
 
@@ -54,8 +53,7 @@ pub struct Reach {
     pub longest_gap: Option<f64>,
     /// Maximum number of voxels.
     pub most_voxels: usize,
-    /// Weight of the straight distance to the target: 1 finds the cheapest path; more is faster, with a path
-    /// up to that factor more expensive.
+    /// Weight of the straight distance: 1 finds the cheapest path; more is faster, by that factor worse.
     pub pull: f32,
 }
 

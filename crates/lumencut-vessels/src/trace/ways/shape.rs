@@ -13,8 +13,7 @@ const RIDGE: f64 = 0.6;
 /// Minimum membership of a ridge.
 const FAINT: f64 = 0.05;
 
-/// Second derivative of the membership in a wall. If it falls across by more than the second share of that,
-/// it is the throat of a stenosis.
+/// Second derivative of the membership in a wall; a fall across by the second share marks a throat.
 const DIP: f64 = 0.1;
 const THROAT: f64 = 0.3;
 

@@ -28,8 +28,7 @@ const TISSUE_SHARE: f64 = 0.3;
 /// Maximum ray length: the smaller of two, each in radii plus mm.
 const REACH: [[f64; 2]; 2] = [[3.0, 4.0], [6.0, 1.5]];
 
-/// A lumen within the first share of the vessel level ends at the darkest place before bone, which exceeds
-/// that level by the second share.
+/// A lumen within the first share of the vessel level ends before bone, which exceeds it by the second.
 const ALIKE: f64 = 0.15;
 const BONE: f64 = 0.4;
 
@@ -47,9 +46,8 @@ const QUARTILES: f64 = 1.35;
 const CORTEX: [f64; 2] = [0.8, 2.5];
 const CORTEX_BEYOND: f64 = 2.0;
 
-/// Marrow in a cortex: this share of rays is brighter than inside by a share of the contrast or multiples of
-/// the noise; the inside is darker than vessels by the first share and uneven, or darker by the second share;
-/// minimum radius in voxels.
+/// Marrow in a cortex: a share of rays is brighter than inside (share of the contrast, multiple of the
+/// noise); the inside is dark and uneven, or very dark; minimum radius in voxels.
 const CORTEX_SHARE: f64 = 0.7;
 const CORTEX_ABOVE: f64 = 0.15;
 const CORTEX_NOISE: f64 = 3.0;
@@ -173,8 +171,7 @@ fn length(ray: &mut Ray, level: f64, last: usize) -> f64 {
     out.saturating_sub(1) as f64 + if share.is_finite() { share.clamp(0.0, 1.0) } else { 0.0 }
 }
 
-/// Ray length (steps) to the darkest place in the outer half before bone; None if no bone, or `level` is
-/// crossed first.
+/// Ray length (steps) to the darkest place in the outer half before bone, if any.
 fn to_bone(ray: &mut Ray, level: f64, bone: f64, last: usize) -> Option<f64> {
     let first = (0..=last).find(|n| !(level..=bone).contains(&ray.value(*n)))?;
     let values: Vec<f64> = (0..=first).map(|n| ray.value(n)).collect();

@@ -1,5 +1,4 @@
-//! Links from the side of a track to a wider track of another tree, as where a short trunk divides into two
-//! arms tracked as one.
+//! Links from the side of a track to a wider track of another tree, as where a trunk divides in two.
 
 use std::collections::BTreeMap;
 

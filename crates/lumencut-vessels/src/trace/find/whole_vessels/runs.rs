@@ -1,5 +1,4 @@
-//! Divides the graph into runs: each follows the straightest and widest edges from the root outwards; other
-//! edges start their own runs.
+//! Divides the graph into runs that follow the straightest and widest edges from the root outwards.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
