@@ -9,7 +9,6 @@ use lumencut_core::math::sampling::Grid;
 use lumencut_core::volume::{Real, Volume, Voxel};
 use lumencut_core::with_voxels;
 
-/// Reads voxel values for tracing and measuring.
 pub(crate) trait VoxelSource: Sync {
     /// Values of a cube of voxels, i fastest; NaN outside the volume.
     fn cube(&self, first: [i32; 3], side: usize, values: &mut [f32]);

@@ -26,7 +26,6 @@ pub(crate) fn bounds(rays: &[Ray], wall: impl Fn(usize) -> f64, width: f64) -> [
     [inner, outer].map(|radii| (self::area(&radii) / area).sqrt())
 }
 
-/// Area of the polygon with these radii (mm).
 fn area(radii: &[f64]) -> f64 {
     let triangle = 0.5 * (TAU / RAYS as f64).sin();
     (0..RAYS).map(|n| triangle * radii[n] * radii[(n + 1) % RAYS]).sum()

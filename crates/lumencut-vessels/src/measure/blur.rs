@@ -17,12 +17,10 @@ pub fn variance_of(fwhm: f64) -> f64 {
     fwhm * fwhm / (8.0 * LN_2)
 }
 
-/// Full width at half maximum of a Gaussian with this variance.
 pub(crate) fn fwhm_of(variance: f64) -> f64 {
     (8.0 * LN_2 * variance).sqrt()
 }
 
-/// The blur of a volume.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Blur {
     point_spread: f64,

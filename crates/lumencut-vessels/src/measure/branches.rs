@@ -58,13 +58,11 @@ impl Lumen {
     }
 }
 
-/// Whether two vessels share more than a single point.
 pub(crate) fn shares_line(one: &Vessel, other: &Vessel) -> bool {
     let is_there = |point: &&DVec3| other.points().iter().any(|there| there.distance(**point) < SAME_PLACE);
     one.points().iter().filter(is_there).nth(1).is_some()
 }
 
-/// Whether every point of `vessel` is a point of `whole`.
 fn is_part(vessel: &Vessel, whole: &Vessel) -> bool {
     let is_there = |point: &DVec3| whole.points().iter().any(|other| other.distance(*point) < SAME_PLACE);
     vessel.points().iter().all(is_there)

@@ -13,7 +13,6 @@ use lumencut_core::math::statistics::median;
 const FARTHEST: (f64, f64) = (0.5, 0.5);
 
 pub(crate) trait Shares: Sync {
-    /// Model values (shares) at sixteen points (mm).
     fn shares(&self, x: &[f32; FAN], y: &[f32; FAN]) -> [f32; FAN];
 }
 

@@ -73,7 +73,6 @@ impl Ellipse {
         PI * (self.mean * self.mean - self.stretch.length_squared())
     }
 
-    /// Diameter of a circle of the same area (mm).
     pub(crate) fn equivalent_diameter(&self) -> f64 {
         2.0 * (self.area() / PI).max(0.0).sqrt()
     }
@@ -143,7 +142,6 @@ pub struct Boundary {
     center: [f32; 2],
 }
 
-/// A blurred ellipse at sixteen points.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Blurred {
     /// From 0 outside to 1 inside.
@@ -247,7 +245,6 @@ fn circle(count: usize) -> &'static [(f64, f64)] {
     CIRCLES[count].get_or_init(|| (0..count).map(|n| (TAU * n as f64 * share).sin_cos()).collect())
 }
 
-/// Larger singular value of a matrix.
 fn longest(matrix: DMat2) -> f64 {
     let (x, y) = (matrix.x_axis, matrix.y_axis);
     let half = 0.5 * (x.length_squared() + y.length_squared());

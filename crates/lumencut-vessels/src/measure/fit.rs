@@ -40,7 +40,6 @@ pub(crate) struct Expected<'a> {
     pub unsure: Option<&'a Unsure<'a>>,
 }
 
-/// Sources of uncertainty beyond the section itself.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Unsure<'a> {
     pub texture: &'a Texture,
@@ -129,7 +128,6 @@ impl Fit {
         }
     }
 
-    /// Residuals of the samples.
     pub(crate) fn missing(&self, samples: &Samples, whitening: Whitening) -> Vec<[f32; FAN]> {
         let levels = [self.lumen[0], self.background];
         match &self.wall {
@@ -166,13 +164,11 @@ fn missing<M: Model<N>, const N: usize>(samples: &Samples, model: &M) -> Vec<[f3
     dispatch(Isa::widest(), Missing { samples, model })
 }
 
-/// Standard deviation of a linear combination of parameters.
 fn deviation<const N: usize>(minimum: &Minimum<N>, by: &[f64; N]) -> Option<f64> {
     let square = variance(&minimum.normal.matrix, by)?;
     square.is_finite().then(|| (square * EVENLY_FALLING).sqrt())
 }
 
-/// Derivatives of the equivalent diameter by the parameters.
 fn diameter_by<const N: usize>(ellipse: &Ellipse) -> [f64; N] {
     let diameter = ellipse.equivalent_diameter();
     let mut by = [0.0; N];

@@ -37,7 +37,6 @@ struct Cleared {
     obstacles: Obstacles,
 }
 
-/// A section ready to be fitted under any blur.
 pub(crate) struct Ready {
     place: Place,
     start: Ellipse,
@@ -46,7 +45,6 @@ pub(crate) struct Ready {
 }
 
 impl Ready {
-    /// [`Fit::missed`] under a blur.
     pub(crate) fn missed(&self, blur: &Blur) -> Option<f64> {
         let whitening = Whitening::new(blur.of_voxels(&self.place));
         Fit::missed_by(&self.cleared.samples, whitening, &self.start, &self.expected)
@@ -85,7 +83,6 @@ impl Bench<'_, '_> {
         Some(Ready { place: *place, start: known.ellipse, cleared, expected })
     }
 
-    /// Residual pairs of a fitted section, for the noise texture.
     pub(crate) fn pairs(&self, place: &Place, known: &Known, fit: &Fit) -> Option<Pairs> {
         let samples = self.cleared(place, known)?.samples;
         let missing = fit.missing(&samples, Whitening::new(self.blur.of_voxels(place)));
@@ -117,7 +114,6 @@ impl Bench<'_, '_> {
         Some(Cleared { samples, obstacles })
     }
 
-    /// Level in the middle of a lumen that is wide enough to show it.
     fn level_seen(&self, place: &Place, known: &Known, keep: impl Fn(DVec2) -> bool) -> Option<Level> {
         let ellipse = &known.ellipse;
         let peak =
@@ -142,7 +138,6 @@ impl Bench<'_, '_> {
     }
 }
 
-/// Prior of the relative difference of the semi-axes.
 fn stretch(diameter: f64, width: f64) -> f64 {
     let seen = ((diameter / width - 1.0) / 1.0).clamp(0.0, 1.0);
     STRETCH.1 + seen * (STRETCH.0 - STRETCH.1)

@@ -47,12 +47,10 @@ impl Profile {
         if self.uncertainty[n] <= UNSURE_SHARE * self.width(n) { 0 } else { UNSURE }
     }
 
-    /// Equivalent diameter (mm).
     fn width(&self, n: usize) -> f64 {
         2.0 * (self.area[n] / PI).sqrt()
     }
 
-    /// Whether two neighbouring sections show different lumens.
     fn is_change(&self, before: usize, n: usize) -> bool {
         let [a, b] = [self.width(before), self.width(n)];
         let way = self.center[n] - self.center[before];
@@ -64,7 +62,6 @@ impl Profile {
         sideways > if is_other { 0.5 * jump } else { jump }
     }
 
-    /// Sets a bit between two sections and `reach` mm beyond them.
     fn spread(&self, found: &mut [u32], [from, to]: [usize; 2], reach: f64, bit: u32) {
         let [low, high] = [self.arc_length[from] - reach, self.arc_length[to] + reach];
         let first = self.arc_length.partition_point(|at| *at < low);

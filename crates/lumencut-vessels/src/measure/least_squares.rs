@@ -1,6 +1,5 @@
 //! Nonlinear least squares with few parameters (Levenberg-Marquardt; Marquardt 1963, doi:10.1137/0111030).
 
-/// Normal equations at some parameters.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Normal<const N: usize> {
     pub cost: f64,

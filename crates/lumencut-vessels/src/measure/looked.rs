@@ -64,7 +64,6 @@ struct FirstFits {
     texture: Texture,
 }
 
-/// A vessel before its sections are fitted.
 pub(crate) struct Looked {
     part: MeasuredPart,
     scale: Scale,
@@ -157,7 +156,6 @@ impl Looked {
         (every, self.part(|n| n % every == 0))
     }
 
-    /// The vessel with a subset of its sections.
     fn part(&self, is_one: impl Fn(usize) -> bool) -> Self {
         let kept = || (0..self.places.len()).filter(|n| is_one(*n));
         Self {
@@ -186,7 +184,6 @@ impl Looked {
         self.places.iter().map(|place| place.at).collect()
     }
 
-    /// Estimates the point spread on this vessel.
     pub(crate) fn point_spread(&self, voxels: &Voxels, stop: Stop) -> Result<Told> {
         let (_, fitted) = self.fitted(voxels, assumed(voxels));
         let FirstFits { hidden, fits, .. } = self.kept_fits(voxels, assumed(voxels), stop)?;
@@ -207,7 +204,6 @@ impl Looked {
         Ok(told.map(|[mean, deviation]| [self.scale.value(mean), deviation * self.scale.contrast.abs()]))
     }
 
-    /// Measures the profile with the findings of the tree.
     pub(crate) fn profile(
         &self,
         voxels: &Voxels,
@@ -260,7 +256,6 @@ impl Looked {
         Ok(Profile { without_wall: self.part.left_out(&self.places), ..profile })
     }
 
-    /// Wall expected from other vessels, if any.
     fn wall_by_others(&self, told: &ToldByTree, tree: &[Vessel], vessel: &Vessel) -> Option<PooledWall> {
         let by_others = wall_beside(&told.walls, tree, vessel, self.wall_source.expected()?)?;
         is_below_lumen(&by_others, &self.scale).then_some(by_others)
@@ -294,7 +289,6 @@ impl Looked {
         self.places.first().map_or(1.0, |place| texture.inflation(sides, bench.blur.width(place)))
     }
 
-    /// Noise texture from the residuals of the fits.
     fn texture(&self, bench: &Bench, fits: &[Option<Fit>], noise: f64, stop: Stop) -> Result<Texture> {
         let every = fits.len().div_ceil(TEXTURE).max(1);
         let some: Vec<usize> = (0..fits.len()).step_by(every).collect();

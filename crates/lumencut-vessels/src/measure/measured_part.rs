@@ -12,7 +12,6 @@ const MOST_PIECES: usize = 40;
 /// Shorter stretches (in pieces) do not show the lumen reliably.
 const LEAST_PIECES: usize = 2;
 
-/// The measured range and its intensity scale.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct MeasuredPart {
     pub scale: Scale,

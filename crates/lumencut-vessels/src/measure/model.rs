@@ -18,7 +18,6 @@ pub(crate) struct Modelled<const N: usize> {
     pub by: [[f32; FAN]; N],
 }
 
-/// A section with `N` parameters under a blur.
 pub(crate) trait Model<const N: usize>: Sized + Sync {
     /// Directions are measured from `origin` (mm).
     fn new(at: &[f64; N], ellipse: &Ellipse, whitening: Whitening, origin: DVec2) -> Self;
@@ -30,7 +29,6 @@ pub(crate) trait Model<const N: usize>: Sized + Sync {
     fn modelled(&self, x: &[f32; FAN], y: &[f32; FAN]) -> Modelled<N>;
 }
 
-/// A lumen of one level in surroundings of another level.
 pub(crate) struct TwoLevels {
     boundary: Boundary,
     lumen: f32,
@@ -95,7 +93,6 @@ impl ThreeLevels {
         Self::new(&at, ellipse, whitening, wall.origin)
     }
 
-    /// The harmonics of the direction at a point.
     #[inline(always)]
     fn harmonics(&self, x: f32, y: f32) -> [f32; HARMONICS] {
         let (dx, dy) = (x - self.origin[0], y - self.origin[1]);

@@ -88,7 +88,6 @@ pub(crate) fn is_bright(ray: &Ray, wall: f64, width: f64) -> bool {
     ray.bright_at.is_some_and(|at| at < wall + BESIDE.max(width))
 }
 
-/// Whether bright rays are spread like the struts of a stent.
 fn is_lattice(is_bright: impl Fn(usize) -> bool) -> bool {
     let quarter = RAYS / 4;
     let counts: Vec<usize> =

@@ -44,7 +44,6 @@ impl Place {
     }
 }
 
-/// A vessel by its arc length, with planes across it.
 #[derive(Clone, Debug)]
 pub(crate) struct Track {
     path: CenterlinePath,
@@ -72,7 +71,6 @@ impl Track {
         self.path.length()
     }
 
-    /// The plane at an arc length (mm).
     pub(crate) fn at(&self, at: f64) -> Place {
         let frame = self.frames.at(self.along_quiet(at));
         let right = if self.is_seen_along { -frame.across } else { frame.across };
@@ -94,7 +92,6 @@ impl Track {
         Ok((0..=count as usize).map(|n| self.at(self.length() * n as f64 / count)).collect())
     }
 
-    /// Maps an arc length on the vessel to its smoothed line.
     fn along_quiet(&self, at: f64) -> f64 {
         let [own, quiet] = [self.path.arc_length(), self.quiet.arc_length()];
         LinePlace::at(&own[..own.len().min(quiet.len())], at).value(quiet)

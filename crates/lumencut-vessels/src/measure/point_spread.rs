@@ -40,7 +40,6 @@ const STRETCH: f64 = 3.0;
 /// Rounds of the search.
 const ROUNDS: usize = 14;
 
-/// An estimated point spread and its source.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct SharpEdges {
     pub fwhm: f64,
@@ -130,7 +129,6 @@ fn agreed(best: &mut [f64], [low, high]: [f64; 2]) -> std::result::Result<Level,
     }
 }
 
-/// Round, free, wide sections, spread evenly along the vessel.
 fn wide_sections(bench: &Bench, fits: &[Option<Fit>], noise: f64) -> Vec<usize> {
     let side = bench.rays.voxels.smallest_side;
     let mut wide: Vec<(f64, usize)> = (0..fits.len())

@@ -14,10 +14,8 @@ const WRONG: f64 = 0.3;
 /// Maximum number of sections.
 const MOST: usize = 500;
 
-/// A level and its standard deviation.
 pub(crate) type Level = [f64; 2];
 
-/// Pooled level at each arc length (mm).
 pub(crate) fn pooled(at: &[f64], levels: &[Option<Level>]) -> Vec<Level> {
     let every = levels.len().div_ceil(MOST).max(1);
     let mut told: Vec<(f64, Level)> =

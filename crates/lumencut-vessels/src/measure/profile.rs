@@ -96,7 +96,6 @@ pub struct Profile {
 }
 
 impl Profile {
-    /// `noise` is in the volume's unit.
     pub(crate) fn new(
         places: &[Place],
         sections: &[Section],
@@ -209,7 +208,6 @@ const THICKEST_TOLD: f64 = 3.0;
 /// No wall is reported in sections with these flags.
 const WALL_HIDDEN: u32 = LEFT_OUT | CALCIUM | METAL;
 
-/// Wall thickness and its standard deviation (mm).
 fn wall((section, flags): (&Section, &u32)) -> [f64; 2] {
     let told = section.fit.and_then(|fit| fit.wall);
     let is_told = |wall: &Wall| wall.log_thickness[1] <= WALL_TOLD && wall.thickness() < THICKEST_TOLD;
@@ -217,7 +215,6 @@ fn wall((section, flags): (&Section, &u32)) -> [f64; 2] {
     told.map_or([f64::NAN; 2], |wall| [wall.thickness(), wall.thickness() * wall.log_thickness[1]])
 }
 
-/// Equivalent outer diameter and its standard deviation (mm).
 fn outer((section, flags): (&Section, &u32)) -> [f64; 2] {
     let [thickness, unsure] = wall((section, flags));
     section.fit.map_or([f64::NAN; 2], |fit| {

@@ -54,14 +54,12 @@ pub(crate) struct Look {
     pub beyond: f64,
 }
 
-/// Unit vector of a ray in the plane.
 pub(crate) fn direction(ray: usize) -> DVec2 {
     static ALL: LazyLock<[DVec2; RAYS]> =
         LazyLock::new(|| std::array::from_fn(|n| DVec2::from_angle(TAU * n as f64 / RAYS as f64)));
     ALL[ray]
 }
 
-/// The volume as shares along lines.
 pub(crate) struct Rays<'a, 'v> {
     pub voxels: &'a Voxels<'v>,
     pub scale: Scale,
@@ -73,7 +71,6 @@ impl Rays<'_, '_> {
         self.scale.share(f64::from(self.voxels.at(place.point(point))))
     }
 
-    /// Sampling distance (mm).
     pub(crate) fn step(&self) -> f64 {
         SAMPLE * self.voxels.sampling_side
     }

@@ -85,7 +85,6 @@ fn search_step(voxels: &Voxels, search: f64) -> f64 {
     voxels.sampling_side.max(2.0 * search / count.sqrt())
 }
 
-/// Median of a few samples near a point, as a share.
 fn level(rays: &Rays, place: &Place, center: DVec2) -> f64 {
     let near = 0.5 * rays.voxels.sampling_side;
     let mut values = vec![rays.at(place, center)];

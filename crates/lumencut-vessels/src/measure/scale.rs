@@ -90,13 +90,11 @@ impl Scale {
     }
 }
 
-/// A value with three significant digits, for messages.
 pub(crate) fn in_words(value: f64) -> String {
     let decimals = (2.0 - value.abs().log10().floor()).clamp(0.0, 6.0);
     format!("{value:.*}", if value == 0.0 { 0 } else { decimals as usize })
 }
 
-/// Robust standard deviation of the values on the centerline.
 fn scatter(voxels: &Voxels, places: &[Place], lumen: f64) -> f64 {
     let values = places.iter().map(|place| f64::from(voxels.at(place.origin)));
     let mut off: Vec<f64> = values.filter(|value| value.is_finite()).map(|v| (v - lumen).abs()).collect();

@@ -48,7 +48,6 @@ const UNSURE: f64 = 0.5;
 /// Initial noise, as a share.
 const FIRST_NOISE: f64 = 0.1;
 
-/// The volume, its blur and priors, for measuring sections.
 pub(crate) struct Bench<'a, 'v> {
     pub rays: Rays<'a, 'v>,
     pub blur: Blur,
@@ -60,7 +59,6 @@ pub(crate) struct Bench<'a, 'v> {
     pub doubt: Option<Doubt>,
 }
 
-/// Sources of uncertainty common to all diameters of a scan.
 pub(crate) struct Doubt {
     pub texture: Texture,
     /// Blur with the point spread wider by its standard deviation; None if it is known.
@@ -69,7 +67,6 @@ pub(crate) struct Doubt {
     pub wall: Option<KnownWall>,
 }
 
-/// Prior knowledge of a section.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Known {
     pub ellipse: Ellipse,
@@ -87,7 +84,6 @@ impl Known {
     }
 }
 
-/// A measured section.
 #[derive(Clone, Debug)]
 pub(crate) struct Section {
     /// None if no lumen was found.
@@ -104,7 +100,6 @@ impl Section {
         Self { fit: None, contour: Vec::new(), flags: NO_EDGE, bounds: [f64::NAN; 2] }
     }
 
-    /// Scales the lumen by a factor.
     pub(crate) fn scale(&mut self, by: f64) {
         let middle = self.contour.iter().sum::<DVec3>() / self.contour.len().max(1) as f64;
         for point in &mut self.contour {
@@ -131,7 +126,6 @@ impl Bench<'_, '_> {
         places.par_iter().map(look).collect()
     }
 
-    /// Separate fits, from the approximate lumens.
     pub(crate) fn first_fits(
         &self,
         places: &[Place],
@@ -213,7 +207,6 @@ impl Bench<'_, '_> {
         Section { contour, fit: Some(fit), flags: flags | self.place_flags(&ellipse), bounds }
     }
 
-    /// A section whose wall comes from ray ends, as within a stent.
     fn by_rays(&self, place: &Place, known: &Known) -> Option<Section> {
         let width = self.blur.width(place);
         let rays = self.rays.all(place, known.ellipse.center, &self.look(place, known));
@@ -242,7 +235,6 @@ impl Bench<'_, '_> {
         Some(Section { contour, fit: Some(fit), flags: flags | self.place_flags(&ellipse), bounds })
     }
 
-    /// Flags from the position and size of the lumen.
     fn place_flags(&self, ellipse: &Ellipse) -> u32 {
         let towards = -ellipse.center;
         let reach = towards.try_normalize().map_or(f64::INFINITY, |d| ellipse.radius_towards(d));
@@ -260,13 +252,11 @@ fn bounds(flags: u32, ellipse: &Ellipse, factors: impl FnOnce() -> [f64; 2]) -> 
     factors().map(|factor| factor * ellipse.equivalent_diameter())
 }
 
-/// Noise of a voxel as a share: median residual of the fits.
 pub(crate) fn noise(fits: &[Option<Fit>]) -> f64 {
     let mut missed: Vec<f64> = fits.iter().flatten().map(|fit| fit.missed).collect();
     median(&mut missed).unwrap_or(FIRST_NOISE).max(1e-4)
 }
 
-/// Centre of a section (mm, LPS).
 pub(crate) fn center(place: &Place, fit: &Fit) -> DVec3 {
     place.point(fit.ellipse.center)
 }

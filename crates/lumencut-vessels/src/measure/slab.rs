@@ -13,7 +13,6 @@ use lumencut_core::math::lanes::FAN;
 /// Maximum number of voxels near the wall, and elsewhere.
 const MOST: [usize; 2] = [448, 160];
 
-/// Selection of voxels.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Window {
     /// Centre (mm in the plane).
@@ -47,7 +46,6 @@ struct Sample {
 }
 
 impl Samples {
-    /// Collects the voxels of a window that `keep` accepts.
     pub(crate) fn gather(
         voxels: &Voxels,
         scale: &Scale,

@@ -216,12 +216,10 @@ impl Profile {
         }
     }
 
-    /// Equivalent diameters (mm) of the sections that count.
     pub(super) fn widths(&self, sections: impl Iterator<Item = usize>) -> Vec<f64> {
         sections.filter(|n| self.counts(*n)).map(|n| 2.0 * (self.area[n] / PI).sqrt()).collect()
     }
 
-    /// Checks that an arc length lies on the vessel.
     pub(crate) fn check_place(&self, subject: &str, at: f64) -> Result<()> {
         let length = self.arc_length[self.len() - 1];
         // Tolerates rounding of lengths.

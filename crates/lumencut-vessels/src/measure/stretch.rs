@@ -108,7 +108,6 @@ pub fn up_at_detector(CArm { lao, cranial }: CArm) -> DVec3 {
     DVec3::new(-lao.sin() * cranial.sin(), lao.cos() * cranial.sin(), cranial.cos())
 }
 
-/// The perpendicular view nearest to the frontal one.
 fn least_turned(along: DVec3) -> CArm {
     let front = DVec3::NEG_Y;
     // A vessel along the frontal view is seen from the patient's left.

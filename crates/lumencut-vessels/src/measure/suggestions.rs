@@ -125,7 +125,6 @@ impl Profile {
         is_plain.then_some(Spot { at, diameter: self.diameter_max[believed] })
     }
 
-    /// Whether a section is round, or as long as its neighbours.
     fn is_believed(&self, n: usize) -> bool {
         let (reach, least, share) = NEIGHBOURS;
         let longest = self.diameter_max[n];
@@ -211,7 +210,6 @@ fn thinner(a: &(usize, Spot), b: &(usize, Spot)) -> Ordering {
     a.1.diameter.total_cmp(&b.1.diameter)
 }
 
-/// Distance (mm) to the next step of the calibre on a side.
 fn calibre_step((at, side): (f64, f64), normal: &[Spot]) -> f64 {
     let mut there: Vec<&Spot> = normal.iter().filter(|spot| (spot.at - at) * side >= AWAY[0]).collect();
     there.sort_by(|a, b| ((a.at - at) * side).total_cmp(&((b.at - at) * side)));

@@ -22,7 +22,6 @@ pub(crate) struct Texture {
     correlation: [[[f32; FAR]; FAR]; FAR],
 }
 
-/// Products of residual pairs by offset.
 #[derive(Clone, Debug)]
 pub(crate) struct Pairs {
     products: [[[f64; FAR]; FAR]; FAR],
@@ -187,7 +186,6 @@ pub(crate) fn independent_variance(weights: &[[f32; FAN]]) -> f64 {
 }
 
 impl Texture {
-    /// Independent noise.
     pub(crate) fn white() -> Self {
         let mut correlation = [[[0.0; FAR]; FAR]; FAR];
         correlation[0][0][0] = 1.0;

@@ -67,7 +67,6 @@ impl Wall {
     }
 }
 
-/// Prior knowledge of a wall.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct KnownWall {
     pub level: Level,
@@ -78,19 +77,16 @@ pub(crate) struct KnownWall {
 }
 
 impl KnownWall {
-    /// From a level in the volume's unit.
     pub(crate) fn of(level: Level, scale: &Scale) -> Self {
         let share = [scale.share(level[0]), level[1] / scale.contrast.abs()];
         Self { level: share, log_thickness: None, slope: 0.0 }
     }
 
-    /// Log thickness (mm) around a lumen.
     pub(crate) fn log_thickness(&self, lumen: &Ellipse) -> Level {
         self.log_thickness.unwrap_or_else(|| beforehand(lumen))
     }
 }
 
-/// Log thickness (mm) from the lumen width alone.
 pub(crate) fn beforehand(lumen: &Ellipse) -> Level {
     let [share, deviation] = THICKNESS;
     [(share * (2.0 * lumen.mean).sqrt()).clamp(MIDDLE[0], MIDDLE[1]).ln(), deviation]

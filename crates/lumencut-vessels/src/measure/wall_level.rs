@@ -89,7 +89,6 @@ pub(crate) fn is_below_lumen(wall: &PooledWall, scale: &Scale) -> bool {
     scale.share(wall.level[0]) <= 1.0 - BELOW_LUMEN
 }
 
-/// The expected wall of a vessel and its source.
 pub(crate) fn expected(
     voxels: &Voxels,
     scale: &Scale,

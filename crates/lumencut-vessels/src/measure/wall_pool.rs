@@ -80,7 +80,6 @@ fn level_by(at: &[f64], fits: &[Option<Fit>], known: &KnownWall, mut first: Told
     first
 }
 
-/// Whether the wall differs visibly from the surroundings.
 pub(crate) fn is_apart(known: &KnownWall, pooled: &[KnownWall], fits: &[Option<Fit>]) -> bool {
     let is_apart = |(wall, fit): (&KnownWall, &Option<Fit>)| {
         fit.map(|fit| (wall.level[0] - fit.background).abs() > known.level[1])
@@ -96,7 +95,6 @@ fn independent(at: &[f64], shared: f64) -> f64 {
     (step / shared).min(1.0)
 }
 
-/// Accumulates means weighted by precision.
 struct Told {
     precision: f64,
     weighted: f64,

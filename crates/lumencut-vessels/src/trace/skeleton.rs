@@ -43,7 +43,6 @@ const MOST_CELLS: usize = u32::MAX as usize;
 /// Default minimum length of a branch, in radii of its parent.
 pub const PARENT_RADII: f64 = 2.0;
 
-/// Parameters of skeletonization.
 pub(crate) struct Skeletonization<'a> {
     /// Minimum length of a branch, in radii of its parent.
     pub parent_radii: f64,
@@ -60,7 +59,6 @@ pub(crate) struct Skeletonization<'a> {
 /// Relative duration per lumen voxel of the steps: cavities and components, distances, thinning, lines.
 pub(crate) const COSTS: [usize; 4] = [2, 3, 6, 4];
 
-/// Vessels of lumen voxels and findings.
 pub(crate) struct Skeleton {
     /// Vessels; those that meet share end points, equal to the bit. Empty if no part is longer than wide.
     pub vessels: Vec<MaskVessel>,
@@ -75,7 +73,6 @@ pub(crate) struct Skeleton {
 /// A moved end takes the line along over this many radii.
 const JOINED: f64 = 1.5;
 
-/// Skeletonizes lumen voxels.
 pub(crate) fn skeleton(mut foreground: Foreground, skeleton: &Skeletonization) -> Result<Skeleton> {
     let stop = skeleton.stop;
     if foreground.cells.len() > MOST_CELLS {
@@ -172,7 +169,6 @@ fn lead_in(points: &mut [DVec3], end: usize, place: DVec3, radius: f64, next: us
     }
 }
 
-/// Splits a line at its nodes.
 fn split(
     line: &ThroughLine,
     graph: &Graph,
@@ -203,7 +199,6 @@ fn split(
     Ok(made)
 }
 
-/// Moves an end by `delta`, fading over `length` mm.
 fn bring_back(points: &mut [DVec3], ways: &[f64], end: usize, delta: DVec3, length: f64) {
     let whole = ways[ways.len() - 1];
     for (point, way) in points.iter_mut().zip(ways) {

@@ -11,7 +11,6 @@ fn tilted() -> Ellipse {
     Ellipse { center: DVec2::new(0.3, -0.2), mean: 1.1, stretch: DVec2::new(0.25, 0.3) }
 }
 
-/// Gaussian summed over a fine grid within the ellipse.
 fn by_area(ellipse: &Ellipse, place: DVec2) -> f64 {
     let [xx, xy, yy] = BLUR;
     let determinant = xx * yy - xy * xy;

@@ -13,7 +13,6 @@ fn vessel() -> Profile {
     made
 }
 
-/// Range (mm) of a hindrance.
 fn where_is(profile: &Profile, bit: u32) -> Option<[f64; 2]> {
     let found = profile.hindrances();
     let mut there = (0..profile.len()).filter(|n| found[*n] & bit != 0).map(|n| profile.arc_length[n]);

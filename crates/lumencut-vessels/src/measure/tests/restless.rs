@@ -3,7 +3,6 @@ use super::*;
 use glam::DVec3;
 use lumencut_core::vessel_tree::Vessel;
 
-/// Sharpest turn of a line within one diameter (degrees).
 fn sharpest(points: Vec<DVec3>, diameter: f64) -> f64 {
     let vessel = Vessel::new(points, None).expect("a vessel");
     let places =

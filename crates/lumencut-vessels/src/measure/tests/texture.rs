@@ -1,6 +1,5 @@
 use super::*;
 
-/// Deterministic pseudo-random numbers.
 fn random(mut state: u32) -> impl FnMut(u32) -> u32 {
     move |most| {
         state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);

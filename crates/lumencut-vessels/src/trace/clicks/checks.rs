@@ -53,7 +53,6 @@ pub fn check(voxels: &Voxels, clicks: &Clicks) -> Result<()> {
     Ok(())
 }
 
-/// Rejects a click outside the volume.
 pub(crate) fn check_place(
     voxels: &Voxels,
     point: DVec3,

@@ -48,7 +48,6 @@ impl Gap {
     }
 }
 
-/// A path to search for gaps.
 pub(crate) struct Line<'a, 'v> {
     voxels: &'a Voxels<'v>,
     model: &'a LumenModel,
@@ -134,7 +133,6 @@ fn stretches(marked: &[bool]) -> Vec<Range<usize>> {
     found
 }
 
-/// Error for a gap that is too long.
 pub(crate) fn no_lumen(between: [DVec3; 2], gap: &Gap, model: &LumenModel) -> Error {
     let found = format!(
         "{:.1} mm between them that do not look like lumen, least at {}, where the volume has {:.0}",
@@ -148,7 +146,6 @@ pub(crate) fn no_lumen(between: [DVec3; 2], gap: &Gap, model: &LumenModel) -> Er
         .at(gap.place, f64::from(gap.value))
 }
 
-/// Error if no path was found.
 pub(crate) fn no_way(between: [DVec3; 2], model: &LumenModel) -> Error {
     let found = "no way between them that leaves out what is forbidden and stays within reach";
     Error::new(ErrorKind::Tracing, subject(between), found, expected(model))

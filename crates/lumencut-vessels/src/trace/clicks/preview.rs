@@ -30,7 +30,6 @@ pub struct Sought<'a> {
     pub bridge: bool,
 }
 
-/// Fronts of a click.
 #[derive(Debug)]
 pub(crate) struct Live {
     click: DVec3,
@@ -62,12 +61,10 @@ impl Live {
         Some(Self { click, region, fronts })
     }
 
-    /// Whether these are the fronts of the click of `sought`.
     pub(crate) fn is_from(&self, sought: &Sought) -> bool {
         self.click == sought.between[0] && self.region.stoppers == sought.stoppers
     }
 
-    /// The path, if found before `stop`.
     pub(crate) fn way(&mut self, voxels: &Voxels, sought: &Sought, stop: Stop) -> Option<Vec<DVec3>> {
         let Self { region, fronts, .. } = self;
         voxels.voxel_at(sought.between[1])?;
@@ -89,7 +86,6 @@ impl Live {
     }
 }
 
-/// Smooths the inner points of a path.
 fn eased(way: &Way, [from, to]: [DVec3; 2]) -> Vec<DVec3> {
     let mut points = way.straightened();
     if points.len() < 2 {

@@ -30,7 +30,6 @@ const MOST_VOXELS_OF_DOUBT: usize = 4_000_000;
 /// Number of fronts for the pointer: one per neighbour of a dragged point.
 const MOST_LIVE: usize = 2;
 
-/// Two voxels, start and end.
 type Ends = [[i32; 3]; 2];
 
 /// Cached fronts of clicks and paths between them, for one volume.
@@ -127,7 +126,6 @@ impl Tracer {
         Ok(())
     }
 
-    /// Drops caches affected by added or removed stoppers.
     fn heed(&mut self, voxels: &Voxels, stoppers: &[Stopper]) {
         let Some(region) = &mut self.region else { return };
         let before = std::mem::replace(&mut region.stoppers, stoppers.to_vec());
@@ -145,7 +143,6 @@ impl Tracer {
         }
     }
 
-    /// Drops caches of removed clicks.
     fn tidy(&mut self, voxels: &Voxels, clicks: &Clicks) {
         let known: Vec<[i32; 3]> =
             clicks.vessels.iter().flatten().filter_map(|click| voxels.voxel_at(*click)).collect();
@@ -184,7 +181,6 @@ impl Tracer {
         Ok(Traced { line, bridged, ends })
     }
 
-    /// Cached path between two clicks, or a new one.
     fn way(&mut self, search: &Search, between: [DVec3; 2]) -> Result<Way> {
         let Some(region) = &mut self.region else { return Err(Error::interrupted()) };
         let ends = between.map(|click| start(search.voxels, region, click));
@@ -255,7 +251,6 @@ impl Search<'_, '_> {
 /// Progress steps of a path.
 const PARTS: usize = 1000;
 
-/// Error for the longest gap of a path.
 fn refusal(between: [DVec3; 2], way: &Way, model: &LumenModel) -> Error {
     let longest = way.gaps.iter().max_by(|a, b| a.length.total_cmp(&b.length));
     longest.map_or_else(|| no_way(between, model), |gap| no_lumen(between, gap, model))
@@ -265,7 +260,6 @@ fn all_of(clicks: &Clicks) -> Vec<DVec3> {
     clicks.vessels.iter().flatten().copied().collect()
 }
 
-/// Moves clicks next to lumen into it.
 fn snapped(voxels: &Voxels, surroundings: Surroundings, clicks: &Clicks) -> Clicks {
     let mut places = surroundings.snapped(voxels, &all_of(clicks)).into_iter();
     let vessels = clicks.vessels.iter().map(|points| places.by_ref().take(points.len()).collect());

@@ -81,7 +81,6 @@ const EXCUSED: f64 = 0.5;
 /// Tracks with less confidence are dropped.
 const LEAST: f64 = 0.05;
 
-/// Raw-voxel properties of a track.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Shape {
     level: f64,
@@ -134,7 +133,6 @@ pub(crate) fn lumen_level(scan: &Scan, tracks: &[Track], shapes: &[Option<Shape>
     vessel_level(&lumens.map(|(track, _)| points(track)).collect::<Vec<_>>(), scan.noise)
 }
 
-/// Reduces the confidence of each track by its shape.
 pub(crate) fn judged(
     scan: &Scan,
     tracks: Vec<Track>,
@@ -157,7 +155,6 @@ pub(crate) fn judged(
     Ok(judged.collect())
 }
 
-/// Tracks with enough confidence left.
 pub(crate) fn left(tracks: Vec<Track>) -> Vec<Track> {
     tracks.into_iter().filter(|track| track.confidence >= LEAST).collect()
 }
@@ -179,7 +176,6 @@ fn shape(scan: &Scan, track: &Track, stop: Stop) -> Result<Option<Shape>> {
     }))
 }
 
-/// Mean elongation of a track and its neighbours.
 fn elongation_around(tracks: &[Track], shapes: &[Option<Shape>], number: usize, beside: &[usize]) -> f64 {
     let with_weight = |n: usize, times: f64| {
         let shape = shapes[n]?;
@@ -192,7 +188,6 @@ fn elongation_around(tracks: &[Track], shapes: &[Option<Shape>], number: usize, 
     if weights > 0.0 { sum / weights } else { 1.0 }
 }
 
-/// Reduces the confidence of one track.
 fn judge(scan: &Scan, track: &mut Track, shape: Shape) {
     let by = |value: f64, [from, over]: [f64; 2]| ((value - from) / over).clamp(0.0, MOST_DOUBT);
     let inside = lumen_inside(scan, track, &shape);

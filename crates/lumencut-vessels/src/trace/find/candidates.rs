@@ -62,7 +62,6 @@ pub(crate) struct Candidate {
     pub(crate) contrast_share: f64,
 }
 
-/// Minimum requirements of a tube, in the unit of the volume.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Floors {
     pub noise: f64,
@@ -76,7 +75,6 @@ impl Floors {
     }
 }
 
-/// Candidates of some levels, the most promising first.
 pub(crate) fn candidates(
     pyramid: &Pyramid,
     looked_at: &Range<usize>,
@@ -149,7 +147,6 @@ fn limits(level: &Level, number: usize, looked_at: &Range<usize>, floors: &Floor
     radii.iter().map(limit).collect()
 }
 
-/// Noise of a level, from the most even of its bright voxels.
 pub(crate) fn noise(level: &Level) -> f64 {
     let [nx, ny, nz] = level.size;
     if level.size.iter().any(|n| *n < 3) {
@@ -263,7 +260,6 @@ fn is_peak(responses: &Responses, voxel: [usize; 3], direction: DVec3) -> bool {
     })
 }
 
-/// Centres a peak and checks its section.
 fn judged(
     pyramid: &Pyramid,
     looked_at: &Range<usize>,

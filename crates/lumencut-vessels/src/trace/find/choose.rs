@@ -96,7 +96,6 @@ fn only(trees: Trees, part: usize) -> Trees {
     Trees { vessels: vessels.map(|vessel| FoundVessel { part: 0, ..vessel }).collect(), ..trees }
 }
 
-/// Fails with the first doubt if all vessels are doubtful.
 fn sure(trees: Trees) -> std::result::Result<Trees, &'static str> {
     let doubts: Vec<_> = trees.vessels.iter().map(|vessel| vessel.doubt).collect();
     match doubts.first() {

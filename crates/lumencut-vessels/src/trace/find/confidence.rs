@@ -42,7 +42,6 @@ const BRIGHT_INSIDE: f64 = 0.5;
 /// Range of level differences (shares of the contrast) that excuses bright walls, as in a stent.
 const STENT_INSIDE: [f64; 2] = [0.25, 0.55];
 
-/// Surroundings of a track.
 struct Around {
     /// Share of dark directions, and median interquartile range over contrast.
     dark: f64,
@@ -91,7 +90,6 @@ pub(crate) fn confidence(
     ((POWER * sum).exp(), worst.map(|(_, doubt)| doubt))
 }
 
-/// Standard deviation of the radius steps, over the radius.
 fn rough(good: &[&TrackPoint], radius: f64) -> f64 {
     let steps: Vec<f64> = good.windows(2).map(|pair| pair[1].radius - pair[0].radius).collect();
     if steps.is_empty() {
@@ -127,7 +125,6 @@ fn around(pyramid: &Pyramid, voxels: &Voxels, good: &[&TrackPoint], usual: &Usua
     Around { dark, even, contrast, bone, inside }
 }
 
-/// The values of [`Around`] for one section.
 fn of_section(pyramid: &Pyramid, voxels: &Voxels, point: &TrackPoint, usual: &UsualVessels) -> [f64; 5] {
     let level = pyramid.level_for(point.radius, &pyramid.all());
     let plane = across(point.direction);

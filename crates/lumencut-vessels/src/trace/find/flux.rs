@@ -24,7 +24,6 @@ pub(crate) const HALO: usize = 2 + REACH + 2;
 /// The weaker inflow of a tube is at least this share of the trace, which skips most eigenvalues.
 const LEAST_TRACE: f32 = 1.2;
 
-/// Calibration of a radius.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Gain {
     /// Scales the response of a cylinder of contrast 1 to 1.
@@ -33,7 +32,6 @@ pub(crate) struct Gain {
     pub noise: f32,
 }
 
-/// Strongest responses in a tile.
 pub(crate) struct Responses {
     pub size: [usize; 3],
     /// A contrast; 0 for none.
@@ -86,7 +84,6 @@ impl FluxOf<'_> {
 }
 
 impl Responses {
-    /// Direction of the tube: least inflow.
     pub(crate) fn direction(&self, voxel: [usize; 3]) -> [f64; 3] {
         let radius = usize::from(self.radius[self.number(voxel)]);
         let average = self.averages.iter().find(|(number, _)| *number == radius);
@@ -126,7 +123,6 @@ fn smoothed(values: &[f32], size: [usize; 3]) -> Vec<f32> {
     made
 }
 
-/// Normalized weights of a ball: the share of each voxel inside.
 fn ball(radius: f64) -> Vec<([i32; 3], f32)> {
     let reach = REACH as i32;
     let mut found = Vec::new();
@@ -185,7 +181,6 @@ fn averaged(values: &[f32], size: [usize; 3], ball: &[([i32; 3], f32)]) -> Vec<f
     made
 }
 
-/// Merges the responses of one radius.
 #[inline(always)]
 fn respond(found: &mut Responses, average: &[f32], number: usize, [factor, threshold]: [f32; 2]) {
     let (size, wide) = (found.size, found.average_size);
@@ -213,7 +208,6 @@ fn respond(found: &mut Responses, average: &[f32], number: usize, [factor, thres
     }
 }
 
-/// Second derivatives: xx, yy, zz, xy, xz, yz.
 #[inline(always)]
 fn flows(average: &[f32], n: usize, strides: [usize; 3]) -> [f32; 6] {
     let [x, y, z] = strides;
@@ -225,7 +219,6 @@ fn flows(average: &[f32], n: usize, strides: [usize; 3]) -> [f32; 6] {
     [pure(x), pure(y), pure(z), mixed(x, y), mixed(x, z), mixed(y, z)]
 }
 
-/// Ascending eigenvalues of a symmetric matrix.
 #[inline(always)]
 fn eigenvalues([xx, yy, zz, xy, xz, yz]: [f32; 6]) -> [f32; 3] {
     let mean = (xx + yy + zz) / 3.0;
@@ -241,7 +234,6 @@ fn eigenvalues([xx, yy, zz, xy, xz, yz]: [f32; 6]) -> [f32; 3] {
     [smallest, 3.0 * mean - largest - smallest, largest]
 }
 
-/// Unit eigenvector of an eigenvalue.
 fn along([xx, yy, zz, xy, xz, yz]: [f32; 6], value: f32) -> [f64; 3] {
     let rows = [[xx - value, xy, xz], [xy, yy - value, yz], [xz, yz, zz - value]]
         .map(|row| glam::DVec3::from_array(row.map(f64::from)));
@@ -255,7 +247,6 @@ pub(crate) fn gains() -> &'static [Gain; 4] {
     GAINS.get_or_init(|| std::array::from_fn(gain))
 }
 
-/// Calibrates a radius with a cylinder and with noise.
 fn gain(number: usize) -> Gain {
     let middle = HALO as f64;
     let side = 2 * HALO + 1;
@@ -278,7 +269,6 @@ fn gain(number: usize) -> Gain {
     Gain { factor: 1.0 / peak, noise: spread / peak }
 }
 
-/// A blurred disc at a point of its plane.
 fn blurred_disc(x: f64, y: f64, radius: f64) -> f32 {
     let distance = x.hypot(y);
     // Half-plane approximation, good for radii above one standard deviation of the blur.
@@ -286,7 +276,6 @@ fn blurred_disc(x: f64, y: f64, radius: f64) -> f32 {
     (0.5 * (1.0 + (std::f64::consts::FRAC_2_SQRT_PI * edge * (1.0 + 0.089 * edge * edge)).tanh())) as f32
 }
 
-/// Deterministic, nearly normal numbers.
 fn noise(count: usize) -> Vec<f32> {
     let mut state = 0x9E37_79B9_7F4A_7C15_u64;
     let mut even = || {

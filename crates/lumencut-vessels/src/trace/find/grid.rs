@@ -57,7 +57,6 @@ fn square(matrix: DMat3) -> DMat3 {
     DMat3::from_cols(x, y, if z.dot(matrix.z_axis) < 0.0 { -z } else { z })
 }
 
-/// Range of the voxel centres along some axes (mm).
 fn corners(voxels: &Voxels, axes: DMat3) -> [DVec3; 2] {
     let last = voxels.size.map(|n| (n - 1) as f64);
     let mut box_of = [DVec3::MAX, DVec3::MIN];

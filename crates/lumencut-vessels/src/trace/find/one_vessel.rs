@@ -71,7 +71,6 @@ fn with_ancestors(trees: &Trees, number: usize) -> (usize, Centerline) {
     (before, whole)
 }
 
-/// Parent vessel and the point where it is left.
 fn parent(trees: &Trees, number: usize) -> Option<(usize, usize)> {
     let child = &trees.vessels[number];
     let start = child.line.points[0];

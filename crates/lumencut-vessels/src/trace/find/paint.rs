@@ -53,7 +53,6 @@ impl Paint {
         });
     }
 
-    /// Changes the voxels of a ball, always including its centre.
     fn ball(&mut self, center: DVec3, radius: f64, change: &mut dyn FnMut(&mut u32)) {
         let low = (center - radius).round().to_array().map(|c| c as i32);
         let high = (center + radius).round().to_array().map(|c| c as i32);

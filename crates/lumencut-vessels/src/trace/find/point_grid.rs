@@ -27,7 +27,6 @@ impl PointGrid {
         grid
     }
 
-    /// Visits points within `reach` mm, in a fixed order.
     pub(crate) fn near(&self, place: DVec3, reach: f64, mut told: impl FnMut(usize)) {
         let [first, last] = [-reach, reach].map(|way| self.cell(place + way));
         for z in first[2]..=last[2] {
@@ -43,14 +42,12 @@ impl PointGrid {
         }
     }
 
-    /// Cell of a place, clamped to the grid.
     fn cell(&self, place: DVec3) -> [u64; 3] {
         let inside = place.clamp(self.low, self.high);
         ((inside - self.low) / self.side).to_array().map(|c| c.min(MOST) as u64)
     }
 }
 
-/// Neighbours along x are consecutive.
 fn number([x, y, z]: [u64; 3]) -> u64 {
     (z << (2 * BITS)) | (y << BITS) | x
 }

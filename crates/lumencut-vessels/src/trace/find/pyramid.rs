@@ -109,7 +109,6 @@ impl Level {
         self.voxels.par_iter_mut().for_each(|voxel| *voxel = (*voxel).min(most));
     }
 
-    /// The next coarser level.
     fn halved(&self) -> Self {
         let [nx, ny, nz] = self.size;
         let [mx, my, mz] = self.size.map(|n| n.div_ceil(2));
@@ -152,7 +151,6 @@ fn between<const N: usize>(from: &[f32; N], to: &[f32; N], share: &[f32; N]) -> 
     made
 }
 
-/// Weights and indices of the five voxels, clamped at the edge.
 fn taps(center: usize, count: usize) -> [(f32, usize); 5] {
     let at = |shift: isize| center.saturating_add_signed(shift).min(count - 1);
     [
@@ -165,7 +163,6 @@ fn taps(center: usize, count: usize) -> [(f32, usize); 5] {
 }
 
 impl Pyramid {
-    /// Values are clamped to `range`.
     pub(crate) fn new(voxels: &Voxels, grid: Grid, range: [f64; 2], stop: Stop) -> Result<Self> {
         let finest = finest(voxels, &grid, range, stop)?;
         let mut pyramid = Self { grid, levels: vec![finest] };

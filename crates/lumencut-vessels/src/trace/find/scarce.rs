@@ -63,7 +63,6 @@ pub(crate) fn doubted_where_scarce(
     vessels
 }
 
-/// Diagonal of a volume (mm).
 fn diagonal(voxels: &Voxels) -> f64 {
     let sides = DVec3::from_array(voxels.size.map(|count| count as f64));
     let of_axis = |a: usize| voxels.world_from_index.matrix3.col(a).length() * sides[a];

@@ -52,14 +52,12 @@ pub(crate) struct Section {
     pub(crate) contrast_share: f64,
 }
 
-/// Two unit vectors perpendicular to a direction.
 pub(crate) fn across(direction: DVec3) -> [DVec3; 2] {
     let first = direction.any_orthonormal_vector();
     [first, direction.cross(first)]
 }
 
 impl Section {
-    /// Examines a tube of about a radius.
     pub(crate) fn look(level: &Level, place: DVec3, direction: DVec3, radius: f64) -> Self {
         Walls::seen(level, place, direction, radius).section()
     }
@@ -102,7 +100,6 @@ impl Walls {
         lower_median(&mut self.walls.clone()).unwrap_or(0.0)
     }
 
-    /// Range of valid wall distances.
     fn counted(&self) -> [f64; 2] {
         let usual = self.usual();
         [NEAR_WALL * usual - 0.25 * self.side, FAR_WALL * usual + 0.5 * self.side]
@@ -137,7 +134,6 @@ impl Walls {
     }
 }
 
-/// Median of samples within half a radius.
 fn lumen(level: &Level, place: DVec3, plane: [DVec3; 2], radius: f64) -> f64 {
     let mut values = [f64::from(level.at(place)); 13];
     for n in 0..12 {

@@ -80,7 +80,6 @@ fn off_axis(place: DVec3, point: &TrackPoint) -> f64 {
     if along.abs() > point.radius { f64::MAX } else { (way - point.direction * along).length() }
 }
 
-/// Parts of a track that the wide tubes lack.
 fn new_runs(track: &Track, wide: &[TrackPoint]) -> Vec<Track> {
     // Distance to the nearest wide axis, in its radii.
     let off: Vec<f64> = track

@@ -23,7 +23,6 @@ const COSTS: [usize; 7] = [4, 18, 28, 38, 7, 2, 3];
 /// Progress steps per stage.
 const PARTS: usize = 1000;
 
-/// Reports progress, if wanted.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Stages<'a>(Option<&'a Progress>);
 
@@ -36,7 +35,6 @@ impl<'a> Stages<'a> {
         Self(progress)
     }
 
-    /// Starts a stage of equal pieces.
     pub(crate) fn stage(self, stage: Stage, pieces: usize) -> Pieces<'a> {
         if let Some(progress) = self.0 {
             progress.begin_stage(COSTS[stage as usize]);

@@ -4,7 +4,6 @@ use glam::DVec3;
 
 use crate::trace::find::quantiles::{lower_median, median};
 
-/// A point of a track.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct TrackPoint {
     /// Centre (mm, LPS).
@@ -23,7 +22,6 @@ pub(crate) struct TrackPoint {
     pub(crate) is_good: bool,
 }
 
-/// A tube.
 #[derive(Clone, Debug)]
 pub(crate) struct Track {
     /// At least two.
@@ -60,7 +58,6 @@ pub enum TrackDoubt {
 }
 
 impl Track {
-    /// In the unit of the points.
     pub(crate) fn length(&self) -> f64 {
         length(&self.points)
     }
@@ -70,7 +67,6 @@ impl Track {
     }
 }
 
-/// In the unit of the points.
 pub(crate) fn length(points: &[TrackPoint]) -> f64 {
     points.windows(2).map(|pair| pair[0].place.distance(pair[1].place)).sum()
 }

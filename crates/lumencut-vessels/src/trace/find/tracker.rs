@@ -117,13 +117,11 @@ impl Tracker<'_> {
         self.pyramid.levels[self.looked_at.start].side
     }
 
-    /// Step length for a radius.
     fn step(&self, radius: f64) -> f64 {
         let level = self.pyramid.level_for(radius, &self.looked_at);
         (STEP * radius).min(LONGEST_STEP * level.side).max(SHORTEST_STEP * self.side())
     }
 
-    /// Track points in one direction.
     fn follow(&self, mut running: Running, before: &[DVec3], most_steps: usize) -> Vec<TrackPoint> {
         let mut points: Vec<TrackPoint> = Vec::new();
         let mut way: Vec<DVec3> = before.to_vec();
@@ -213,7 +211,6 @@ impl Tracker<'_> {
             && section.contrast > (CONTRAST * running.contrast).max(NOISES * self.floors.noise)
     }
 
-    /// Running values after a good section.
     fn moved(&self, running: Running, place: DVec3, section: &Section, way: &[DVec3]) -> Running {
         let reach = CHORD[0] * running.radius + CHORD[1] * self.side();
         let from = way.iter().rev().find(|point| point.distance(place) >= reach).or(way.first());
@@ -243,7 +240,6 @@ fn point(running: &Running, section: &Section, is_good: bool) -> TrackPoint {
     }
 }
 
-/// Whether a track has returned to itself.
 fn has_returned(way: &[DVec3], running: &Running, step: f64) -> bool {
     let near = (BEHIND * running.radius / step).ceil() as usize + 4;
     let far = way.len().saturating_sub(near);

@@ -47,7 +47,6 @@ const NEAR_RADII: f64 = 4.0;
 const NEAR_VOXELS: f64 = 8.0;
 const MOST_LOOKED_AT: usize = 128;
 
-/// Data for tracking candidates.
 pub(crate) struct Tracking<'a> {
     pub(crate) pyramid: &'a Pyramid,
     /// Level range.
@@ -77,7 +76,6 @@ enum Tried {
 }
 
 impl Tracking<'_> {
-    /// Candidates, the most promising first.
     pub(crate) fn candidates(&self) -> Result<Vec<Candidate>> {
         candidates(self.pyramid, &self.looked_at, &self.floors, self.stop, self.stages)
     }
@@ -92,7 +90,6 @@ impl Tracking<'_> {
         self.tracks_beside(&[], candidates)
     }
 
-    /// Additional tracks if some are known.
     pub(crate) fn tracks_beside(&self, known: &[Track], candidates: &[Candidate]) -> Result<Vec<Track>> {
         let Known { mut paint, mut found, mut levels } = self.known(known);
         let (mut next, mut waiting) = (0, VecDeque::new());
@@ -241,7 +238,6 @@ impl Tracking<'_> {
     }
 }
 
-/// Painted radius.
 fn painted(radius: f64) -> f64 {
     radius
         * match () {
@@ -251,7 +247,6 @@ fn painted(radius: f64) -> f64 {
         }
 }
 
-/// Whether a track meets one found after the first `known`.
 fn meets_new(paint: &Paint, known: usize, tried: &Tried) -> bool {
     let points = match tried {
         Tried::Nothing => return false,

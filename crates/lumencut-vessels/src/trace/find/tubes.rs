@@ -108,7 +108,6 @@ struct Range {
     is_hounsfield: bool,
 }
 
-/// Value range relevant for vessels.
 fn range(voxels: &Voxels) -> Range {
     let count: usize = voxels.size.iter().product();
     let step = count.div_ceil(SAMPLES) | 1;
@@ -128,7 +127,6 @@ fn range(voxels: &Voxels) -> Range {
     Range { values: [if is_hounsfield { WATER } else { lowest }, highest], is_hounsfield }
 }
 
-/// Vessel level and contrast, from tubes at half resolution.
 fn usual(pyramid: &Pyramid, range: f64, stop: Stop) -> Result<Option<[f64; 2]>> {
     let first = usize::from(pyramid.levels.len() > 1);
     let noise = noise(&pyramid.levels[first]);

@@ -34,7 +34,6 @@ use crate::trace::find::whole_vessels::trimmed::trimmed;
 use lumencut_core::error::Result;
 use lumencut_core::stop::go_on;
 
-/// The vessels of linked tracks.
 pub(crate) fn of(
     scan: &Scan,
     tracks: &[Track],

@@ -30,7 +30,6 @@ pub fn correspondence(first: &[DVec3], second: &[DVec3], stop: Stop) -> Result<V
     Ok(walked_back(&steps, rows, columns))
 }
 
-/// One bit per pair: whether the first line advanced to reach it.
 struct Steps {
     bits: Vec<u64>,
     columns: usize,

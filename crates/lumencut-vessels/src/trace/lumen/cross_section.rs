@@ -86,7 +86,6 @@ impl Probe<'_, '_> {
         Some(side(direction)? + side(-direction)?)
     }
 
-    /// Sampling distance along a ray (mm).
     fn step(&self, guess: Option<f64>) -> f64 {
         let fine = 0.3 * self.voxels.smallest_side;
         guess.map_or(fine.max(0.15), |radius| fine.max(radius / 40.0)).clamp(0.03, 0.5)
@@ -148,7 +147,6 @@ impl Probe<'_, '_> {
     }
 }
 
-/// A circle among points of a plane.
 struct Circle {
     center: [f64; 2],
     radius: f64,
@@ -203,7 +201,6 @@ impl Circle {
         (1.0 - share * share).powi(2)
     }
 
-    /// One Gauss-Newton step.
     fn step(&mut self, points: &[[f64; 2]]) {
         let (mut matrix, mut right) = (glam::DMat3::ZERO, DVec3::ZERO);
         for p in points {

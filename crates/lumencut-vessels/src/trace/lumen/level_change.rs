@@ -41,7 +41,6 @@ pub fn level_change(voxels: &Voxels, line: &Centerline) -> Option<usize> {
     (step.size >= LEAST_CHANGE * (step.brighter - tissue)).then_some(at)
 }
 
-/// A step, and the level on its brighter side.
 #[derive(Clone, Copy, Debug)]
 struct Step {
     size: f64,
@@ -79,7 +78,6 @@ impl<'a> Along<'a> {
         }
     }
 
-    /// The step at a point, if it exceeds noise and the common slope.
     fn step_at(&self, n: usize) -> Option<Step> {
         let radius = self.line.radius[n];
         let (apart, stretch) = (APART.max(APART_RADII * radius), STRETCH.max(STRETCH_RADII * radius));

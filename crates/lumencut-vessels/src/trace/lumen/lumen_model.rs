@@ -38,12 +38,10 @@ impl LumenModel {
         if share.is_finite() { share as f32 } else { 0.0 }
     }
 
-    /// Start of bone, calcium and metal.
     fn far_above(&self) -> f64 {
         self.high + (0.9 * self.contrast()).max(6.0 * self.noise)
     }
 
-    /// Whether a value is bone, calcium or metal.
     pub(crate) fn is_far_above(&self, value: f32) -> bool {
         f64::from(value) >= self.far_above()
     }
@@ -99,7 +97,6 @@ pub(crate) fn lower_median(mut values: Vec<f64>) -> f64 {
     values[(values.len() - 1) / 2]
 }
 
-/// A position for messages.
 pub(crate) fn in_words(place: DVec3) -> String {
     format!("({:.1}, {:.1}, {:.1}) mm", place.x, place.y, place.z)
 }

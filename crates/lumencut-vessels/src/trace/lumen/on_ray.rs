@@ -17,7 +17,6 @@ const TIMES_NOISE: f64 = 6.0;
 /// Maximum number of bright stretches, highest first; more are noise or stent struts.
 const MOST: usize = 16;
 
-/// A bright stretch: sample range and height.
 struct Bright {
     first: usize,
     last: usize,
@@ -58,7 +57,6 @@ impl SeenLumen {
         self.on_ray(from, along).distance(self.center) <= self.radius
     }
 
-    /// Whether both are the same lumen, split by a stent or noise.
     fn is_same(&self, other: &Self) -> bool {
         self.center.distance(other.center) < self.radius.max(other.radius)
     }
@@ -96,7 +94,6 @@ fn bright(values: &[f32]) -> Vec<Bright> {
     found
 }
 
-/// Whether a sample is a local maximum (the last of equals).
 fn is_top(values: &[f32], n: usize) -> bool {
     let beside = |n: Option<usize>| n.and_then(|n| values.get(n)).copied().filter(|v| v.is_finite());
     let (before, after) = (beside(n.checked_sub(1)), beside(Some(n + 1)));
@@ -105,7 +102,6 @@ fn is_top(values: &[f32], n: usize) -> bool {
         && after.is_none_or(|after| after < values[n])
 }
 
-/// Minimum on one side of a maximum, before something brighter.
 fn lowest_side<'a>(side: impl Iterator<Item = &'a f32>, top: f32) -> f32 {
     side.copied().take_while(|value| *value <= top).fold(top, f32::min)
 }

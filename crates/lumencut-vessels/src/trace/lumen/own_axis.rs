@@ -68,7 +68,6 @@ impl<'a, 'v> OwnLumen<'a, 'v> {
             .then(|| [place(-1.0, within(reaches[0])), place(1.0, within(reaches[1]))])
     }
 
-    /// Principal direction of the extents.
     fn axis(&self) -> DVec3 {
         let weighted = half_sphere(DIRECTIONS).map(|way| (way, self.extent(way, REACH).powi(3)));
         // The start must not be symmetric to the sum.

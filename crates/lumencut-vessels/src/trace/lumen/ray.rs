@@ -25,7 +25,6 @@ impl<'a, 'v> Ray<'a, 'v> {
         f64::from(self.values[n])
     }
 
-    /// Minimum or maximum of the finite samples in a range.
     pub(crate) fn extreme(&mut self, first: usize, last: usize, is_dark: bool) -> f64 {
         self.value(last);
         let finite = self.values[first..=last].iter().map(|v| f64::from(*v)).filter(|v| v.is_finite());

@@ -68,7 +68,6 @@ fn in_rounds(
     Ok(line.resampled(STEP))
 }
 
-/// One round of centring.
 fn moved(probe: &Probe, line: &Centerline, round: usize) -> Centerline {
     let points = &line.points;
     let lengths = arc_lengths(points);
@@ -124,7 +123,6 @@ fn trust_of(section: &Option<LumenSection>, median: Option<f64>) -> f64 {
     section.trust * (-odd * odd).exp()
 }
 
-/// Median radius of the good sections in the window.
 fn medians(sections: &[Option<LumenSection>], lengths: &[f64]) -> Vec<Option<f64>> {
     (0..sections.len())
         .map(|i| {
@@ -139,7 +137,6 @@ fn medians(sections: &[Option<LumenSection>], lengths: &[f64]) -> Vec<Option<f64
         .collect()
 }
 
-/// Radii, interpolated between good sections.
 fn filled(sections: &[Option<LumenSection>], trust: &[f64], lengths: &[f64]) -> Vec<f64> {
     let seen: Vec<(f64, f64)> = (0..sections.len())
         .filter(|i| trust[*i] > LEAST_TRUST)

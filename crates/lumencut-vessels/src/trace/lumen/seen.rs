@@ -42,7 +42,6 @@ pub fn lumen_at(volume: &Volume, place: DVec3) -> Option<SeenLumen> {
     lumen_in(voxels, &Surroundings::of(voxels, &[place]), place)
 }
 
-/// As [`lumen_at`] with known surroundings.
 pub(crate) fn lumen_in(voxels: &Voxels, surroundings: &Surroundings, place: DVec3) -> Option<SeenLumen> {
     let model = surroundings.model_at(voxels, place)?;
     let probe = Probe { voxels, model: &model, rays: RAYS };

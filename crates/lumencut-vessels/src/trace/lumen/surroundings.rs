@@ -37,7 +37,6 @@ const SNAP: f64 = 2.0;
 /// Minimum share of surroundings darker than lumen.
 const DARKER: f64 = 0.75;
 
-/// What a click hit, and what was expected.
 type Mistake = (&'static str, String);
 
 /// Values around the clicks, before any is judged.
@@ -113,7 +112,6 @@ impl Surroundings {
         is_lumen.then(|| self.model_of(&[hit], hit.lumen))
     }
 
-    /// Rejects a click whose own value excludes lumen.
     pub(crate) fn check_alone(&self, voxels: &Voxels, click: DVec3) -> Result<()> {
         let value = value_at(voxels, click);
         self.check(voxels, click, value, self.mistaken(value))
@@ -165,7 +163,6 @@ impl Surroundings {
         }
     }
 
-    /// Rejects a click with a description of what it hit.
     fn check(&self, voxels: &Voxels, click: DVec3, value: f64, mistake: Option<Mistake>) -> Result<()> {
         let Some((tissue, expected)) = mistake else { return Ok(()) };
         let found = format!("{tissue}: the volume has {value:.0} there");
@@ -181,7 +178,6 @@ impl Surroundings {
         })
     }
 
-    /// What a value alone shows instead of lumen.
     fn mistaken(&self, value: f64) -> Option<Mistake> {
         if !value.is_finite() {
             return Some(("no number", "a finite value".to_owned()));
@@ -246,7 +242,6 @@ fn without_blood<'a>(around: &'a [f32], clicks: &[f64]) -> &'a [f32] {
     if is_mostly_blood && end > 0 { &around[..end] } else { around }
 }
 
-/// Sorted voxel values in a box of `reach` mm around the clicks.
 fn samples_around(voxels: &Voxels, clicks: &[DVec3], reach: f64) -> Vec<f32> {
     let (mut first, mut last) = (voxels.size.map(|n| n as i32 - 1), [0; 3]);
     for click in clicks {
@@ -261,7 +256,6 @@ fn samples_around(voxels: &Voxels, clicks: &[DVec3], reach: f64) -> Vec<f32> {
     values
 }
 
-/// Voxel values in a box between two corner indices.
 fn samples_between(voxels: &Voxels, first: [i32; 3], last: [i32; 3]) -> Vec<f32> {
     let count: f64 = (0..3).map(|a| f64::from(last[a] - first[a] + 1).max(1.0)).product();
     let step = (count / MOST_SAMPLES).cbrt().ceil().max(1.0) as usize;
@@ -279,7 +273,6 @@ fn samples_between(voxels: &Voxels, first: [i32; 3], last: [i32; 3]) -> Vec<f32>
     values
 }
 
-/// Value at a click from the adjacent voxels.
 fn value_at(voxels: &Voxels, click: DVec3) -> f64 {
     let near = voxels.smallest_side * 1.05;
     let mut values: Vec<f32> =
@@ -297,7 +290,6 @@ fn noise(voxels: &Voxels, click: DVec3) -> f64 {
     noise_of(&near.into_iter().map(|(_, value)| value).collect::<Vec<f32>>())
 }
 
-/// Median and spread of the lumen around a click.
 fn local_lumen(voxels: &Voxels, click: DVec3, value: f64, tissue: f64) -> [f64; 2] {
     let near = voxels.ball(click, (2.5 * voxels.smallest_side).max(1.5));
     let mut lumen = value;

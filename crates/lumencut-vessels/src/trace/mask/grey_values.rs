@@ -101,7 +101,6 @@ impl GreyValues<'_, '_> {
     }
 }
 
-/// Running median by arc length (mm).
 fn medians(values: &[(f64, f32)]) -> Vec<f32> {
     let median = |&(at, _): &(f64, f32)| {
         let first = values.partition_point(|(length, _)| *length < at - STRETCH / 2.0);

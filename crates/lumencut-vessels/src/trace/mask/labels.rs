@@ -8,7 +8,6 @@ use lumencut_core::volume::Volume;
 /// Minimum length of a separate label, in radii.
 const SHORTEST: f64 = 2.0;
 
-/// Points `from` to `to`, inclusive, with one label.
 #[derive(Clone, Copy)]
 struct LabelRun {
     from: usize,

@@ -75,7 +75,6 @@ pub(crate) fn bridge(vessels: &mut Vec<MaskVessel>, gaps: &mut [Gap], widest: f6
     }
 }
 
-/// Possible gap starts: free ends, or every point of a ring.
 fn starts(vessel: &MaskVessel) -> Vec<usize> {
     let last = vessel.points.len() - 1;
     if vessel.nodes[0] == vessel.nodes[1] {
@@ -101,7 +100,6 @@ fn gap(numbers: [usize; 2], vessel: &MaskVessel, from: usize, target: &MaskVesse
     }
 }
 
-/// Component of each vessel, by shared end points.
 fn piece_of(vessels: &[MaskVessel]) -> Vec<usize> {
     let mut parent: Vec<usize> = (0..vessels.len()).collect();
     let mut first_at: HashMap<[u64; 3], usize> = HashMap::new();

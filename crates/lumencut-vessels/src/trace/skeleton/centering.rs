@@ -58,7 +58,6 @@ pub(crate) fn center(line: &mut ThroughLine, lumen: &Lumen, on_other: OnOther, s
     Ok(())
 }
 
-/// Step to the section's centre, as far as there is room.
 fn shift(lumen: &Lumen, point: DVec3, direction: DVec3) -> DVec3 {
     let Some(section) = lumen.cross_section(point, direction) else { return DVec3::ZERO };
     let whole = section.center - point;

@@ -50,7 +50,6 @@ fn is_sheared(foreground: &Foreground) -> bool {
     [x.dot(y), y.dot(z), z.dot(x)].into_iter().any(|cosine| cosine.abs() > RIGHT_ANGLE)
 }
 
-/// The pass along one axis.
 struct Pass {
     axis: usize,
     stride: usize,
@@ -69,7 +68,6 @@ impl Pass {
         Self { axis, stride, side, values: Vec::new(), lowest: Vec::new(), from: Vec::new() }
     }
 
-    /// Processes the run of lumen that begins at `first`.
     fn run(&mut self, foreground: &Foreground, first: usize, squares: &mut [f32]) {
         let lumen = |n: usize| foreground.cells[first + n * self.stride] == LUMEN;
         let length = (1..).find(|&n| !lumen(n)).unwrap_or(1);
@@ -118,7 +116,6 @@ impl Pass {
         }
     }
 
-    /// Where the parabola over `after` becomes the lower one.
     fn crossing(&self, before: usize, after: usize) -> f64 {
         let [p, q] = [before as f64, after as f64];
         let square = self.side * self.side;

@@ -144,7 +144,6 @@ impl<T: Copy> Rows<'_, T> {
         self.size.iter().product()
     }
 
-    /// Voxels of a row along an axis.
     fn values(&self, along: usize, place: usize) -> impl Iterator<Item = T> {
         let stride = self.strides[along].max(1);
         let end = place + (self.size[along] - 1) * stride + 1;
@@ -163,12 +162,10 @@ impl<T: Copy> Rows<'_, T> {
         !self.values(along, place).fold(false, |filled, value| is_filled(filled, &value))
     }
 
-    /// Axis of smallest stride.
     fn along(&self) -> usize {
         (0..3).min_by_key(|&a| self.strides[a]).unwrap_or(0)
     }
 
-    /// Indices of all rows along `along`.
     fn starts(&self, along: usize) -> impl Iterator<Item = [usize; 3]> {
         let [near, far] = [(along + 1) % 3, (along + 2) % 3];
         let size = self.size;

@@ -8,7 +8,6 @@ use std::collections::HashMap;
 
 use crate::trace::skeleton::foreground::Foreground;
 
-/// A line of voxels between two nodes, possibly the same.
 #[derive(Clone, Debug)]
 pub(crate) struct Branch {
     pub nodes: [usize; 2],
@@ -47,7 +46,6 @@ impl Graph {
         graph
     }
 
-    /// Follows the unvisited branches of a start cell.
     fn branches_from(
         &mut self,
         start: usize,
@@ -125,7 +123,6 @@ impl Branch {
     }
 }
 
-/// Neighbours of each of the sorted `cells` in the graph.
 fn links(foreground: &Foreground, cells: &[u32]) -> Vec<Vec<usize>> {
     let edges = edges(foreground, cells);
     let mut parent: Vec<usize> = (0..cells.len()).collect();
@@ -148,7 +145,6 @@ fn links(foreground: &Foreground, cells: &[u32]) -> Vec<Vec<usize>> {
     links
 }
 
-/// Touching pairs, shortest first.
 fn edges(foreground: &Foreground, cells: &[u32]) -> Vec<[usize; 2]> {
     let [_, j, k] = foreground.strides();
     // The later half of the 26 neighbours.
@@ -196,7 +192,6 @@ fn around_holes(edges: &[[usize; 2]], closing: &[[usize; 2]], places: usize) -> 
     holes.map(|number| closing[number]).collect()
 }
 
-/// Symmetric difference of two descending lists.
 fn difference(one: &[usize], other: &[usize]) -> Vec<usize> {
     let mut all: Vec<usize> = one.iter().filter(|n| !other.contains(n)).copied().collect();
     all.extend(other.iter().filter(|n| !one.contains(n)));

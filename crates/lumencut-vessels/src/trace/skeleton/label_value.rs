@@ -10,7 +10,6 @@ pub(crate) trait LabelValue: Sized {
 
     fn label(self) -> i64;
 
-    /// The value, if it is not an integer.
     fn odd(self) -> Option<f64> {
         None
     }

@@ -49,7 +49,6 @@ impl<'a> Lumen<'a> {
         }
     }
 
-    /// Smallest voxel side (mm).
     pub(crate) fn side(&self) -> f64 {
         self.side
     }
@@ -68,7 +67,6 @@ impl<'a> Lumen<'a> {
         (f64::from(self.squares[cell as usize]).sqrt() - self.side / 2.0).max(0.0)
     }
 
-    /// Interpolated wall distance (mm).
     pub(crate) fn radius(&self, place: DVec3) -> f64 {
         (self.interpolated(place, |square| f64::from(square).sqrt()) - self.side / 2.0).max(0.0)
     }
@@ -143,7 +141,6 @@ impl<'a> Lumen<'a> {
     }
 }
 
-/// Two unit vectors perpendicular to a direction and each other.
 fn across(direction: DVec3) -> [DVec3; 2] {
     // Rounded, because in grids many directions are equally near to two axes.
     let size = (direction.abs() * 1e6).round();

@@ -81,7 +81,6 @@ fn blended(old: &Centerline, mut better: Centerline, reaches: [f64; 2]) -> Cente
     better
 }
 
-/// Points outside the vessels that the line meets.
 fn own_points(points: &[DVec3], is_free: [bool; 2], lumen: &Lumen) -> Range<usize> {
     let radius: Vec<f64> = points.iter().map(|point| lumen.radius(*point)).collect();
     let lengths = arc_lengths(points);

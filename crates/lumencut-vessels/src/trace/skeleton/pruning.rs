@@ -50,7 +50,6 @@ pub(crate) fn prune(graph: &mut Graph, lumen: &Lumen, parent_radii: f64) {
 /// Rank of a branch that just stays.
 const WHOLE: u64 = 1 << 20;
 
-/// Rounded significance.
 fn rank(significance: f64) -> u64 {
     (significance.max(0.0) * WHOLE as f64).round() as u64
 }
@@ -110,7 +109,6 @@ pub(crate) fn length(points: &[DVec3]) -> f64 {
     (1..points.len()).map(|n| mean(n).distance(mean(n - 1))).sum()
 }
 
-/// Merges adjacent junctions.
 pub(crate) fn merge_junctions(graph: &mut Graph, lumen: &Lumen) {
     while let Some(number) = (0..graph.branches.len()).find(|&number| is_near(graph, lumen, number)) {
         let Some(branch) = graph.remove(number) else { return };
@@ -149,7 +147,6 @@ fn is_near(graph: &Graph, lumen: &Lumen, number: usize) -> bool {
     inner && length(&lumen.positions(&branch.cells)) < (NEAR * radius).max(2.0 * lumen.side())
 }
 
-/// Removes components as wide as long.
 pub(crate) fn remove_round_pieces(graph: &mut Graph, lumen: &Lumen) {
     for number in 0..graph.branches.len() {
         let Some(branch) = &graph.branches[number] else { continue };

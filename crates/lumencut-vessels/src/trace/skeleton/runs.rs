@@ -4,7 +4,6 @@ use crate::trace::skeleton::foreground::{BACKGROUND, Foreground, LUMEN};
 use lumencut_core::error::Result;
 use lumencut_core::stop::{Stop, go_on};
 
-/// Consecutive equal cells along i.
 struct Run {
     start: u32,
     end: u32,
@@ -82,7 +81,6 @@ impl Runs {
         self.first_of_row.push(self.runs.len() as u32);
     }
 
-    /// Joins touching runs of two neighbouring rows.
     fn join(&mut self, before: usize, row: usize, reach: u32) {
         let (mut a, end_a) = (self.first_of_row[before], self.first_of_row[before + 1]);
         let (mut b, end_b) = (self.first_of_row[row], self.first_of_row[row + 1]);

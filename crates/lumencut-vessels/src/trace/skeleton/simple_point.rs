@@ -44,7 +44,6 @@ const fn neighbours(most: usize, left_out: u32) -> [u32; 27] {
 pub(crate) struct Neighbourhood(u32);
 
 impl Neighbourhood {
-    /// Nonzero cells are lumen.
     #[inline(always)]
     pub(crate) fn of(cells: &[u8], cell: usize, strides: [usize; 3]) -> Self {
         let mut bits = 0;
@@ -74,7 +73,6 @@ impl Neighbourhood {
     }
 }
 
-/// Component of `places` that contains the first of `seeds`.
 fn part(places: u32, seeds: u32, touching: &[u32; 27]) -> u32 {
     let mut reached = seeds & seeds.wrapping_neg();
     let mut new = reached;
@@ -94,7 +92,6 @@ fn part(places: u32, seeds: u32, touching: &[u32; 27]) -> u32 {
 mod tests {
     use super::*;
 
-    /// Brute-force components, for comparison.
     fn parts(places: u32, touch: impl Fn(usize, usize) -> bool) -> Vec<u32> {
         let mut parts: Vec<u32> = (0..27).filter(|n| places >> n & 1 == 1).map(|n| 1 << n).collect();
         while let Some((a, b)) = (0..parts.len()).flat_map(|b| (0..b).map(move |a| (a, b))).find(|&(a, b)| {

@@ -103,7 +103,6 @@ fn pair(graph: &Graph, lumen: &Lumen, node: usize) -> Option<[usize; 2]> {
     best.map(|(_, pair)| pair)
 }
 
-/// Direction and radius of a branch two radii from a node.
 fn outward(lumen: &Lumen, cells: &[u32], from_end: bool, node: u32) -> (DVec3, f64) {
     let mut points = lumen.positions(cells);
     if from_end {

@@ -37,7 +37,6 @@ impl<T> Blocks<T> {
         (k * self.count[1] + j) * self.count[0] + i
     }
 
-    /// First voxel of the block at a place.
     pub(crate) fn corner(&self, place: usize) -> [i32; 3] {
         let [ni, nj, _] = self.count;
         [place % ni, place / ni % nj, place / (ni * nj)].map(|c| (c * SIDE) as i32)
@@ -63,7 +62,6 @@ impl<T> Blocks<T> {
         self.kept.iter().map(|kept| kept.place)
     }
 
-    /// Drops blocks and renumbers the others.
     pub(crate) fn forget(&mut self, is_gone: impl Fn(usize) -> bool) {
         self.kept.retain(|kept| !is_gone(kept.place));
         self.numbers.fill(NO_BLOCK);

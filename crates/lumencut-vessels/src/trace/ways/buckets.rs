@@ -18,7 +18,6 @@ impl<T> Default for Buckets<T> {
 }
 
 impl<T> Buckets<T> {
-    /// Drops entries beyond the last bucket.
     #[inline]
     pub(crate) fn put(&mut self, way: f32, waiting: T) {
         let bucket = bucket_of(way).max(self.first);
@@ -44,7 +43,6 @@ impl<T> Buckets<T> {
         self.buckets.get_mut(self.first)?.pop()
     }
 
-    /// Removes all, shortest first.
     pub(crate) fn drain(&mut self) -> Vec<T> {
         let waiting = self.buckets.drain(..).flatten().collect();
         self.first = 0;

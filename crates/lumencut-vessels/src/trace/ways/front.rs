@@ -39,7 +39,6 @@ impl Block {
     }
 }
 
-/// A queued voxel and its path length.
 #[derive(Clone, Copy, Debug)]
 struct Waiting {
     place: u32,
@@ -145,7 +144,6 @@ impl Front {
         }
     }
 
-    /// Whether a voxel was reached.
     pub(crate) fn has_come_to(&self, target: [i32; 3]) -> bool {
         self.find(target).is_some_and(|(block, voxel)| self.known[block].way[voxel].is_finite())
     }
@@ -173,7 +171,6 @@ impl Front {
         self.known.places().any(|place| meets(self.known.corner(place), ball))
     }
 
-    /// Reorders the queue for a new goal.
     fn aim(&mut self, voxels: &Voxels, goal: DVec3) {
         for waiting in self.waiting.drain() {
             let (block, voxel) = parts_of(waiting.place);
@@ -239,7 +236,6 @@ impl Front {
         (!is_outside).then(|| self.locate(voxels, region, voxel))
     }
 
-    /// Block and index of a voxel, creating the block.
     fn locate(&mut self, voxels: &Voxels, region: &mut Region, voxel: [i32; 3]) -> (usize, usize) {
         let block = self.known.find_or_make(self.known.place_of(voxel), |known| {
             let place = known.place_of(voxel);

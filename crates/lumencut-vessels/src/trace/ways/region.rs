@@ -76,7 +76,6 @@ pub struct Stopper {
     pub radius: f64,
 }
 
-/// Cost codes of a block.
 pub(crate) type BlockCosts = Arc<[u8; BLOCK]>;
 
 /// Costs of the blocks used so far, one byte per voxel.
@@ -96,7 +95,6 @@ impl Region {
         Self { model, stoppers, strictness, made: Blocks::new(size) }
     }
 
-    /// Costs of the block at a place, computed on demand.
     pub(crate) fn costs_of(&mut self, voxels: &Voxels, place: usize) -> BlockCosts {
         if let Some(number) = self.made.find(place) {
             return Arc::clone(&self.made[number]);
@@ -106,12 +104,10 @@ impl Region {
         costs
     }
 
-    /// Cost code of a voxel.
     pub(crate) fn code_of(&mut self, voxels: &Voxels, voxel: [i32; 3]) -> u8 {
         self.costs_of(voxels, self.made.place_of(voxel))[index_of(voxel)]
     }
 
-    /// Smallest code with a membership below `limit`.
     pub(crate) fn code_below(&self, limit: f64) -> u8 {
         let least = self.strictness.least_membership();
         let membership = least + (1.0 - least) * limit;
@@ -157,7 +153,6 @@ impl Region {
         codes
     }
 
-    /// Forbids voxels outside the volume or in a stopper.
     fn forbid(&self, voxels: &Voxels, corner: [i32; 3], codes: &mut [u8; BLOCK]) {
         for (n, code) in codes.iter_mut().enumerate() {
             let voxel = voxel_of(corner, n);

@@ -71,7 +71,6 @@ pub(crate) fn beside(values: &[f32], is_marked: impl Fn(f32) -> bool) -> Vec<boo
     marked
 }
 
-/// Eigenvalues of a symmetric matrix, descending.
 fn eigenvalues(m: [[f64; 3]; 3]) -> [f64; 3] {
     let mean = (m[0][0] + m[1][1] + m[2][2]) / 3.0;
     let mut square = 2.0 * (m[0][1].powi(2) + m[0][2].powi(2) + m[1][2].powi(2));

@@ -82,7 +82,6 @@ impl RawSection {
     }
 }
 
-/// Finite values at some shares of the radius.
 fn inside(scan: &Scan, point: &TrackPoint, [u, v]: [DVec3; 2], shares: &[f64]) -> Vec<f64> {
     let around = shares.iter().flat_map(|share| {
         (0..8).map(move |n| {
@@ -122,13 +121,11 @@ impl<'a, 'v> Rays<'a, 'v> {
         Self { rays: (0..RAYS).map(ray).collect(), radius: point.radius, step }
     }
 
-    /// Sample numbers of a range in radii plus `beyond` mm.
     fn samples(&self, [first, last]: [f64; 2], beyond: f64) -> [usize; 2] {
         let number = |length: f64| (length / self.step).round() as usize;
         [number(first * self.radius), number(last * self.radius + beyond).max(1)]
     }
 
-    /// Tissue level, ignoring the darkest part such as fat or lung.
     fn tissue(&mut self, scan: &Scan) -> f64 {
         let [first, last] = self.samples(TISSUE, TISSUE_BEYOND * scan.side);
         let mut darkest: Vec<f64> =
@@ -136,14 +133,12 @@ impl<'a, 'v> Rays<'a, 'v> {
         quantile(&mut darkest, TISSUE_SHARE).unwrap_or(f64::MAX)
     }
 
-    /// Share of rays that exceed a limit near the wall.
     fn brighter(&mut self, limit: f64) -> f64 {
         let [first, last] = self.samples(CORTEX, CORTEX_BEYOND);
         let brightest = self.rays.iter_mut().map(|ray| ray.extreme(first, last, false));
         brightest.filter(|value| *value > limit).count() as f64 / RAYS as f64
     }
 
-    /// Longest over shortest diameter at a level.
     fn elongation(&mut self, scan: &Scan, level: f64, half: f64) -> f64 {
         let most = REACH.map(|[radii, beyond]| radii * self.radius + beyond);
         let last = (most[0].min(most[1]) / self.step).ceil() as usize;
@@ -180,7 +175,6 @@ fn to_bone(ray: &mut Ray, level: f64, bone: f64, last: usize) -> Option<f64> {
     (values[first] > bone).then_some(darkest as f64)
 }
 
-/// Interquartile range.
 fn between_quartiles(mut values: Vec<f64>) -> f64 {
     let [low, high] = [0.25, 0.75].map(|share| quantile(&mut values, share).unwrap_or(0.0));
     high - low

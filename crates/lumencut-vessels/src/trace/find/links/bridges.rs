@@ -28,7 +28,6 @@ const ALIKE: f64 = 1.6;
 const UNLIKE: f64 = 0.3;
 const LEVEL: f64 = 0.6;
 
-/// Bridges between ends of different trees.
 pub(crate) fn bridges(
     scan: &Scan,
     tracks: &[Track],
@@ -68,7 +67,6 @@ fn bridge(scan: &Scan, from: &End, to: &End) -> Option<Link> {
     (level >= LEVEL).then_some(Link { from: from.of, to: to.of, cost: gap, gap, level })
 }
 
-/// Whether an end points at a place `way` ahead.
 fn leads_to(end: &End, way: DVec3) -> bool {
     let ahead = end.direction.dot(way);
     let past = (way - end.direction * ahead).length();

@@ -49,7 +49,6 @@ pub(crate) const OPEN_ENDS: Limits = Limits { confidence: 0.3, turn: 0.5, unlike
 pub(crate) const BETWEEN_TREES: Limits =
     Limits { confidence: 0.6, turn: std::f64::consts::FRAC_1_SQRT_2, unlike: 0.4, narrow: 0.5 };
 
-/// Points of all linkable tracks, by position.
 pub(crate) struct Landings<'a, 'v> {
     scan: &'a Scan<'v>,
     tracks: &'a [Track],
@@ -57,7 +56,6 @@ pub(crate) struct Landings<'a, 'v> {
     widths: Vec<Width>,
 }
 
-/// Points with radii between two powers of two.
 struct Width {
     widest: f64,
     grid: PointGrid,
@@ -109,7 +107,6 @@ impl<'a, 'v> Landings<'a, 'v> {
         }
     }
 
-    /// Links of an end, the cheapest first, one per track.
     pub(crate) fn of<'b>(&'b self, end: &'b End, limits: &Limits) -> impl Iterator<Item = Link> + 'b {
         let places = if self.tracks[end.of[0]].confidence < limits.confidence {
             Vec::new()

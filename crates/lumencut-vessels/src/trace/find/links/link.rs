@@ -15,7 +15,6 @@ pub(crate) struct Link {
 }
 
 impl Link {
-    /// By cost, then by numbers.
     pub(crate) fn order(&self, other: &Self) -> std::cmp::Ordering {
         let numbers = |link: &Self| (link.from, link.to);
         self.cost.total_cmp(&other.cost).then_with(|| numbers(self).cmp(&numbers(other)))

@@ -31,7 +31,6 @@ const SIDE_BY_SIDE: f64 = 0.8;
 /// Places tried per pair of trees.
 const TRIES: usize = 8;
 
-/// The shortest side link of each pair of trees.
 pub(crate) fn side_links(
     scan: &Scan,
     tracks: &[Track],
@@ -72,7 +71,6 @@ struct Sides<'a, 'v> {
 }
 
 impl Sides<'_, '_> {
-    /// Shortest link to each other tree, before checking the way.
     fn nearest(&self, from: [usize; 2]) -> Vec<Link> {
         let point = self.point(from);
         let mut best: Vec<Link> = Vec::new();
@@ -105,7 +103,6 @@ impl Sides<'_, '_> {
             && narrow.direction.dot(wide.direction).abs() <= SIDE_BY_SIDE
     }
 
-    /// First of the shortest links that runs through lumen.
     fn first_of_lumen(&self, links: &[Link]) -> Option<Link> {
         let mut links = links.to_vec();
         links.sort_unstable_by(Link::order);

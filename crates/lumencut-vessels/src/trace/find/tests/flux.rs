@@ -2,7 +2,6 @@ use super::*;
 
 const SIDE: usize = 2 * HALO + 3;
 
-/// Response and direction at the centre of a box.
 fn response(number: usize, value: impl Fn([f64; 3]) -> f32) -> (f32, [f64; 3]) {
     let middle = (SIDE / 2) as f64;
     let values = (0..SIDE * SIDE * SIDE)

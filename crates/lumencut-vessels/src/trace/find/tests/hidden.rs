@@ -7,7 +7,6 @@ use crate::trace::find::pyramid::Pyramid;
 /// Axis of a tube of 2 mm.
 const TUBE: [DVec3; 2] = [DVec3::new(4.0, 20.0, 20.0), DVec3::new(56.0, 20.0, 20.0)];
 
-/// Tubes found in a wide track of a given final confidence.
 fn behind(radius: f64, confidence: f64) -> Vec<Track> {
     let value = |place: DVec3| blurred(2.0 - away(place, &TUBE));
     with_scan([60, 40, 40], 1.0, value, |scan| {

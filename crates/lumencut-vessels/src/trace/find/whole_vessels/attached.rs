@@ -21,7 +21,6 @@ pub(crate) struct Attached {
     pub leads: [usize; 2],
 }
 
-/// Attaches the ends of runs to the runs they meet.
 pub(crate) fn attached(
     runs: &Runs,
     places: &[DVec3],
@@ -69,7 +68,6 @@ fn joint(points: &[LinePoint], knot: usize, last: usize, place: DVec3) -> LinePo
     end.or(nearest).copied().unwrap_or(points[0])
 }
 
-/// Extends a run in one bend to a point of another.
 fn lead_out(run: &mut Attached, joint: Option<LinePoint>, end: usize) {
     let Some(joint) = joint else { return };
     let from = run.points[0];
@@ -94,7 +92,6 @@ fn lead_out(run: &mut Attached, joint: Option<LinePoint>, end: usize) {
     }
 }
 
-/// Shortens a run inside other lumens to a straight line.
 fn lie_within(run: &mut Attached, joints: [Option<LinePoint>; 2]) {
     let last = run.points.len() - 1;
     for (joint, n) in joints.into_iter().zip([0, last]) {

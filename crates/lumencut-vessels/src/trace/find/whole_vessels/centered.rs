@@ -91,7 +91,6 @@ fn lies_within(place: DVec3, run: &Run, knot: usize) -> bool {
     near.iter().any(|point| point.place.distance_squared(place) < point.radius * point.radius)
 }
 
-/// Lumen model along a run.
 fn model(scan: &Scan, way: &[WayPoint]) -> LumenModel {
     let of = |value: fn(&WayPoint) -> f64, share: f64| {
         quantile(&mut way.iter().map(value).collect::<Vec<f64>>(), share).unwrap_or(0.0)

@@ -82,7 +82,6 @@ impl Graph {
         points
     }
 
-    /// Part of each node, and number of parts.
     pub(crate) fn parts(&self) -> (Vec<usize>, usize) {
         let mut parts = vec![usize::MAX; self.places.len()];
         let mut count = 0;

@@ -38,10 +38,8 @@ pub(crate) struct Runs {
 
 const NONE: usize = usize::MAX;
 
-/// Start of a run, widest first.
 type Start = (u64, Reverse<usize>, usize);
 
-/// `roots` are edge and node of each part.
 pub(crate) fn runs(graph: &Graph, roots: &[[usize; 2]], stop: Stop) -> Result<Runs> {
     let owners = vec![NONE; graph.places.len()];
     let made = Runs { runs: Vec::new(), owners };
@@ -67,7 +65,6 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// Adds a run, and the one it meets from the side.
     fn run(&mut self, edge: usize, node: usize) {
         let mut run = Run { points: Vec::new(), knots: Vec::new() };
         let number = self.made.runs.len();
@@ -78,7 +75,6 @@ impl Search<'_> {
         }
     }
 
-    /// Adds a run through a node to both sides, from its wider end.
     fn run_through(&mut self, node: usize, edges: [usize; 2]) {
         let number = self.made.runs.len();
         self.made.owners[node] = number;
@@ -190,7 +186,6 @@ impl Run {
         self.knots.push((graph.far(edge, node), self.points.len() - 1));
     }
 
-    /// Direction and width at the end.
     fn look_back(&self) -> Outlook {
         let last = self.points.len() - 1;
         let place = self.points[last].place;

@@ -25,7 +25,6 @@ pub(crate) fn without_stubs(tracks: &[Track], links: &[Link], stop: Stop) -> Res
     Ok((tracks, links))
 }
 
-/// The point where a track ends in a fork, if the rest is a stub.
 fn kept(tracks: &[Track], links: &[Link], number: usize, at_last: bool) -> Option<usize> {
     let points = &tracks[number].points;
     let last = points.len() - 1;

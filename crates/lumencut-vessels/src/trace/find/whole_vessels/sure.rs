@@ -14,7 +14,6 @@ pub(crate) fn vessels(tracks: &[Track], points: &[LinePoint], part: usize) -> Ve
     cuts.windows(2).map(|pair| vessel(tracks, &points[pair[0]..=pair[1]], part)).collect()
 }
 
-/// Cut points, including both ends.
 fn cuts(points: &[LinePoint]) -> Vec<usize> {
     let is_sure = |n: usize| points[n].confidence >= SURE;
     let mut cuts = vec![0];

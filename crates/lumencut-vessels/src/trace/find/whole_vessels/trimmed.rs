@@ -29,7 +29,6 @@ pub(crate) fn trimmed(
     Ok(runs.into_iter().zip(stays).map(|(run, stays)| stays.then_some(run)).collect())
 }
 
-/// First and last point where other runs start or end.
 fn needed(runs: &[Attached], stays: &[bool], number: usize) -> Option<[usize; 2]> {
     let mut found: Option<[usize; 2]> = None;
     for other in (0..runs.len()).filter(|other| stays[*other]) {

@@ -24,7 +24,6 @@ pub(crate) struct Way {
 }
 
 impl Way {
-    /// Removes reversals that links cause where tracks overlap.
     pub(crate) fn along(points: &[WayPoint]) -> Self {
         let mut points = points.to_vec();
         let mut near_link = near_links(&points);
@@ -77,7 +76,6 @@ impl Way {
         Centerline { points: smoothed_by_gaussian(&made.points, &sigma, false), ..made }
     }
 
-    /// Half the distance of the neighbours.
     fn spacing(&self, n: usize) -> f64 {
         let points = &self.line.points;
         points[n.saturating_sub(1)].distance(points[(n + 1).min(points.len() - 1)]) / 2.0
@@ -98,7 +96,6 @@ fn near_links(points: &[WayPoint]) -> Vec<bool> {
     near
 }
 
-/// First reversal near a link.
 fn turn(points: &[WayPoint], near_link: &[bool]) -> Option<usize> {
     let turns = |n: &usize| {
         let [before, here, after] = [n - 1, *n, n + 1].map(|m| points[m].place);

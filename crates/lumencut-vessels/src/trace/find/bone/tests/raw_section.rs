@@ -10,7 +10,6 @@ fn section(radius: f64, value: impl Fn(DVec3) -> f64) -> Option<RawSection> {
     with_scan(SIZE, SIDE, |place| value(place - MIDDLE), |scan| RawSection::at(scan, &track.points[2]))
 }
 
-/// Depth in a plate with these half sides.
 fn depth(place: DVec3, half: [f64; 2]) -> f64 {
     (half[0] - place.x.abs()).min(half[1] - place.y.abs())
 }

@@ -9,7 +9,6 @@ fn at(x: f64, y: f64) -> DVec3 {
     DVec3::new(x, y, 10.0)
 }
 
-/// Links of tracks in tubes along lines with radii.
 fn linked(tubes: &[(&[DVec3], f64)], tracks: &[Track]) -> Vec<Link> {
     let value = |place: DVec3| {
         let depths = tubes.iter().map(|(line, radius)| radius - away(place, line));

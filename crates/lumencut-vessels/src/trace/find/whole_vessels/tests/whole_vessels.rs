@@ -17,7 +17,6 @@ fn tube(from: DVec3, to: DVec3, radius: f64) -> ([DVec3; 2], Track) {
     ([from, to], straight_track(from, to, radius))
 }
 
-/// Vessels of tracks in slightly longer tubes.
 fn found(tubes: &[([DVec3; 2], Track)], tracks: &[Track], smallest_radius: f64) -> Vec<FoundVessel> {
     let value = |place: DVec3| {
         let depths = tubes.iter().map(|(line, track)| track.radius() - away(place, line));
