@@ -1,8 +1,7 @@
-//! Where the slices of one series lie: one affine for the whole stack, shear kept, or a refusal by name.
+//! Geometry of a series: one affine for the stack, including shear, or a specific error.
 //!
-//! Tolerances: orientations alike within 1e-3 per cosine, spacings within 0.1 %, every slice within 0.01 mm or
-//! 1 % of the slice distance (whichever is larger) of its place on an evenly spaced straight line, unless the
-//! caller asks for uneven slices to be put on one.
+//! Tolerances: 1e-3 per cosine, 0.1 % of the spacing, and for each slice 0.01 mm or 1 % of the slice distance
+//! (the larger) from an evenly spaced line, unless the caller allows resampling.
 
 use glam::DVec3;
 
@@ -18,47 +17,43 @@ use crate::spacing::{has_run, median, tolerance};
 use crate::uneven::Uneven;
 use crate::wording::rounded;
 
-/// Neighbours farther apart than this many usual distances have a hole between them.
+/// Neighbours farther apart than this many usual distances have a gap.
 const HOLE: f64 = 1.5;
-/// Usual distances; damaged positions may lie any distance apart.
+/// Maximum distance in usual ones, because damaged positions may be anywhere.
 const FARTHEST: f64 = 1e9;
-/// A stated tilt (degrees) that counts as one.
+/// Minimum stated tilt (degrees).
 const TILT: f64 = 0.1;
 
-/// What is mended of a stack where the caller asks for it.
+/// Remedies that the caller requested.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Mending {
-    /// Places that no slice has are kept free instead of being refused.
+    /// Interpolate missing slices instead of rejecting them.
     pub fill_gaps: bool,
-    /// Uneven slices get places on a regular grid.
+    /// Put uneven slices on a regular grid.
     pub resample_slices: bool,
 }
 
-/// Slices on an even, straight grid.
 #[derive(Debug)]
 pub struct Stack<'a> {
-    /// The slices, sorted along their normal.
     pub slices: Vec<Slice<'a>>,
-    /// The index k of each slice; only of resampled slices it may be a fraction.
+    /// Index k of each slice; fractional only if resampled.
     pub places: Vec<f64>,
-    /// Where the middle of the first voxel lies (mm, LPS).
+    /// Centre of the first voxel (mm, LPS).
     pub origin: DVec3,
-    /// The vectors from voxel to voxel along i, j, k.
+    /// Vectors between voxels along i, j, k.
     pub steps: [DVec3; 3],
-    /// Whether uneven slices were put on a grid.
     pub is_resampled: bool,
-    /// Slices that are left out, each after the slice at its place that is read.
+    /// Skipped slices, each after the slice read at its position.
     pub repeats: Vec<Pair<'a>>,
 }
 
 impl Stack<'_> {
-    /// The number of voxels along i, j, k.
     pub fn size(&self) -> [i64; 3] {
         let [columns, rows] = self.slices[0].size;
         [columns, rows, self.places[self.places.len() - 1] as i64 + 1]
     }
 
-    /// The indices k that have no slice.
+    /// Indices k without a slice.
     pub fn missing(&self) -> Vec<i64> {
         let mut measured = self.places.iter().filter(|place| place.fract() == 0.0).peekable();
         let is_missing = |&k: &i64| measured.next_if(|place| **place == k as f64).is_none();
@@ -66,7 +61,8 @@ impl Stack<'_> {
     }
 }
 
-/// Sorts slices along their normal and finds the affine of the stack; `unlike` are pairs that the host found to differ.
+/// Sorts slices along their normal and finds the affine; `unlike` are pairs whose values the host found to
+/// differ.
 pub(crate) fn stacked<'a>(
     mut slices: Vec<Slice<'a>>,
     mending: Mending,
@@ -77,7 +73,7 @@ pub(crate) fn stacked<'a>(
     let Some(normal) = slices.first().map(Slice::normal) else {
         return Err(Error::new("no slices", "a stack of slices"));
     };
-    // Names decide the order of slices at one place.
+    // Names decide the order at one position.
     let height = |one: &Slice| one.position.dot(normal);
     slices.sort_by_cached_key(Slice::name);
     slices.sort_by(|a, b| height(a).total_cmp(&height(b)));
@@ -92,7 +88,7 @@ pub(crate) fn stacked<'a>(
     Ok(Stack { slices, places, origin, steps, is_resampled, repeats })
 }
 
-/// Gives slices of rounded directions the same ones, across the line of their positions where that is within rounding.
+/// Gives slices the same rounded directions, perpendicular to the line of positions if within rounding.
 fn correct_directions(slices: &mut [Slice], notes: &mut Vec<String>) {
     let [first, .., last] = slices else { return note_correction(slices, notes) };
     if !first.directions.is_rounded {
@@ -115,7 +111,7 @@ fn note_correction(slices: &[Slice], notes: &mut Vec<String>) {
     }
 }
 
-/// The index of each slice, the vector from index to index, and whether slices are resampled.
+/// Index of each slice, vector between indices, and whether slices are resampled.
 type Places = (Vec<f64>, DVec3, bool);
 
 fn on_a_line(ordered: &[Slice], mending: Mending, notes: &mut Vec<String>) -> Result<Places> {
@@ -144,7 +140,7 @@ fn on_a_line(ordered: &[Slice], mending: Mending, notes: &mut Vec<String>) -> Re
     Ok((places, step, true))
 }
 
-/// Distances in usual ones, 1 where there is no hole.
+/// Distances in usual ones; 1 without a gap.
 fn steps(gaps: &[f64]) -> Vec<i64> {
     let usual = median(gaps);
     let step =
@@ -152,7 +148,6 @@ fn steps(gaps: &[f64]) -> Vec<i64> {
     gaps.iter().map(|gap| step(gap) as i64).collect()
 }
 
-/// The indices that steps lead to.
 fn summed(steps: &[i64]) -> Vec<f64> {
     let mut place = 0;
     let after = steps.iter().map(|step| {
@@ -162,20 +157,19 @@ fn summed(steps: &[i64]) -> Vec<f64> {
     std::iter::once(0.0).chain(after).collect()
 }
 
-/// The vector from index to index of slices at these places.
+/// Vector between indices.
 fn step(ordered: &[Slice], places: &[f64]) -> DVec3 {
     let last = ordered.len() - 1;
     (ordered[last].position - ordered[0].position) / places[last]
 }
 
-/// Whether every slice is at its place.
 fn is_line(ordered: &[Slice], places: &[f64], step: DVec3) -> bool {
     let (origin, allowed) = (ordered[0].position, tolerance(step.length()));
     let mut pairs = ordered.iter().zip(places);
     pairs.all(|(one, place)| (one.position - origin - *place * step).length() <= allowed)
 }
 
-/// A single slice, as thick as it says.
+/// A single slice with its stated thickness.
 fn alone(only: &Slice, notes: &mut Vec<String>) -> Result<Places> {
     for keyword in [Keyword::SpacingBetweenSlices, Keyword::SliceThickness] {
         let stated = only.image.number(only.frame, keyword)?;
@@ -189,7 +183,7 @@ fn alone(only: &Slice, notes: &mut Vec<String>) -> Result<Places> {
     Err(error.of(only.image.file))
 }
 
-/// Notes a sheared stack (gantry tilt), read as it is, and a stated tilt that the positions lack.
+/// Notes a sheared stack (gantry tilt), which is kept, and a stated tilt that the positions lack.
 fn note_tilt(ordered: &[Slice], places: &[f64], step: DVec3, notes: &mut Vec<String>) -> Result<()> {
     let normal = ordered[0].normal();
     let along = step.dot(normal);

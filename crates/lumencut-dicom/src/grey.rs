@@ -1,4 +1,4 @@
-//! Which images are slices of single numbers that can be read.
+//! Rejects images that are not readable grey slices.
 
 use crate::error::{Error, Result};
 use crate::image::Image;
@@ -6,7 +6,7 @@ use crate::keyword::Keyword;
 use crate::uids;
 use crate::value::Value;
 
-/// Kinds of colour that are told by their names; any other text may be anything.
+/// Named colour types; any other text may contain anything.
 const COLOURS: [&str; 12] = [
     "PALETTE COLOR",
     "RGB",
@@ -22,7 +22,6 @@ const COLOURS: [&str; 12] = [
     "YBR_RCT",
 ];
 
-/// Refuses every kind of image whose frames are not slices of single numbers.
 pub(crate) fn require_grey(image: &Image) -> Result<()> {
     let refused = require_size(image)
         .and_then(|()| require_one_number(image))
@@ -33,7 +32,7 @@ pub(crate) fn require_grey(image: &Image) -> Result<()> {
     refused.map_err(|error| error.of(image.file))
 }
 
-/// How the numbers of an image are shown; empty where it does not say.
+/// Empty if not stated.
 pub(crate) fn photometric(image: &Image) -> String {
     match image.get(Keyword::PhotometricInterpretation) {
         Value::Empty => String::new(),
@@ -41,7 +40,7 @@ pub(crate) fn photometric(image: &Image) -> String {
     }
 }
 
-/// The number of columns and rows.
+/// Columns and rows.
 pub(crate) fn plane_size(image: &Image) -> Option<[i64; 2]> {
     let length = |keyword| image.get(keyword).integer();
     Some([length(Keyword::Columns)?, length(Keyword::Rows)?])
@@ -84,7 +83,7 @@ fn require_decoder(image: &Image) -> Result<()> {
     Err(Error::new(format!("pixels in {named}"), expected).mend(mend))
 }
 
-/// Refuses pixels of which it is not known how many bits they have, and whether one is a sign.
+/// Rejects unknown bit counts and signs.
 fn require_bits(image: &Image) -> Result<()> {
     let allocated = image.count(Keyword::BitsAllocated)?;
     let told = |bits: Option<i64>| bits.map_or_else(|| "not stated".to_owned(), |count| count.to_string());
@@ -105,7 +104,7 @@ fn require_bits(image: &Image) -> Result<()> {
     Ok(())
 }
 
-/// Refuses several frames in one file without a description of each.
+/// Rejects several frames without a description of each.
 fn require_groups(image: &Image) -> Result<()> {
     let (count, described) = (image.frame_count, image.header.frames.len());
     if count < 1 || (count > 1 && described == 0) {

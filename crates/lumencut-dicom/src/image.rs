@@ -1,4 +1,4 @@
-//! One image among the files, and what can be asked of it and of its frames.
+//! One image, with access to its attributes and frames.
 
 use crate::error::{Error, Result};
 use crate::headers::{File, Header};
@@ -9,27 +9,22 @@ use crate::wording::{line, printable};
 
 static EMPTY: Value = Value::Empty;
 
-/// A DICOM file with rows and columns.
 #[derive(Debug)]
 pub struct Image<'a> {
-    /// The number of its file.
     pub file: usize,
-    /// The name of its file, on one printable line.
+    /// Name of its file on one printable line.
     pub name: String,
-    /// What it is.
     pub kind: &'a str,
     /// Whether the host can decode its pixels.
     pub is_decodable: bool,
-    /// How many frames it states, which may be a lie.
+    /// As stated, which may be wrong.
     pub frame_count: i64,
-    /// How many numbers each of its pixels has.
+    /// Numbers per pixel.
     pub samples: i64,
-    /// Its header.
     pub header: &'a Header,
 }
 
 impl<'a> Image<'a> {
-    /// The image in a file.
     pub fn new(number: usize, file: &'a File, header: &'a Header, is_decodable: bool) -> Result<Self> {
         let mut image = Self {
             file: number,
@@ -45,13 +40,12 @@ impl<'a> Image<'a> {
         Ok(image)
     }
 
-    /// What stands at the top level of its header.
+    /// Top-level attribute.
     pub fn get(&self, keyword: Keyword) -> &'a Value {
         self.header.attributes.get(keyword).unwrap_or(&EMPTY)
     }
 
-    /// The value of an attribute as it holds for a frame: in the frame's functional groups, in those of all
-    /// frames, then at the top level.
+    /// Attribute of a frame: from its functional groups, then the shared ones, then the top level.
     pub fn of_frame(&self, frame: usize, keyword: Keyword) -> &'a Value {
         if keyword.groups().is_empty() {
             return self.get(keyword);
@@ -60,7 +54,7 @@ impl<'a> Image<'a> {
         own.or_else(|| self.header.shared.get(keyword)).unwrap_or_else(|| self.get(keyword))
     }
 
-    /// An attribute as one printable line, empty where it is not stated.
+    /// As one printable line; empty if not stated.
     pub fn text(&self, keyword: Keyword) -> String {
         match self.get(keyword) {
             Value::Empty => String::new(),
@@ -68,7 +62,7 @@ impl<'a> Image<'a> {
         }
     }
 
-    /// A whole number of the top level; none where it is not stated, or zero.
+    /// Top-level integer; None if not stated or zero.
     pub fn count(&self, keyword: Keyword) -> Result<Option<i64>> {
         let stated = self.get(keyword);
         if stated.is_nothing() {
@@ -78,7 +72,7 @@ impl<'a> Image<'a> {
         Ok(Some(count).filter(|&count| count != 0))
     }
 
-    /// A number as it holds for a frame, none where it is not stated.
+    /// Number of a frame, if stated.
     pub fn number(&self, frame: usize, keyword: Keyword) -> Result<Option<f64>> {
         let stated = self.of_frame(frame, keyword);
         if stated.is_empty() {
@@ -87,24 +81,23 @@ impl<'a> Image<'a> {
         stated.number().map(Some).ok_or_else(|| damaged(keyword, "a number").of(self.file))
     }
 
-    /// The name of its file, and the number of a frame (from 1) where it has several.
+    /// File name, plus the frame number (from 1) if there are several.
     pub fn frame_name(&self, frame: usize) -> String {
         if self.frame_count > 1 { format!("{} frame {}", self.name, frame + 1) } else { self.name.clone() }
     }
 
-    /// Whether a frame says that it is a localiser (scout, topogram).
+    /// Whether a frame is marked as localiser (scout, topogram).
     pub fn is_localizer(&self, frame: usize) -> bool {
         let is = |value: &Value| matches!(value, Value::Text(text) if text == "LOCALIZER");
         let stated = [self.get(Keyword::ImageType), self.of_frame(frame, Keyword::FrameType)];
         stated.iter().any(|value| value.all().iter().any(is))
     }
 
-    /// Whether a frame says where it lies.
     pub fn has_position(&self, frame: usize) -> bool {
         !self.of_frame(frame, Keyword::ImagePositionPatient).is_empty()
     }
 
-    /// Whether any frame says where it lies; the count that a header states may be a lie.
+    /// Checks described frames only, because the stated count may be wrong.
     pub fn has_positions(&self) -> bool {
         let described = self.header.frames.len().max(1);
         let frames = usize::try_from(self.frame_count.max(1)).map_or(described, |count| count.min(described));
@@ -112,7 +105,6 @@ impl<'a> Image<'a> {
     }
 }
 
-/// What a file is, in words.
 pub(crate) fn kind(file: &File) -> &str {
     match &file.header {
         Some(header) => uids::name(&header.sop_class).unwrap_or("DICOM of no known kind"),
@@ -120,7 +112,7 @@ pub(crate) fn kind(file: &File) -> &str {
     }
 }
 
-/// An attribute whose value is invalid; it may be any text, a patient's name too, and is not told.
+/// Error for an invalid value, which is not quoted because it may be a patient's name.
 fn damaged(keyword: Keyword, expected: &str) -> Error {
     Error::new(format!("damaged values in {}", keyword.name()), expected)
 }

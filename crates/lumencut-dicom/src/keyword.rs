@@ -1,6 +1,5 @@
-//! The attributes that a series is judged by: what a reader of headers is to look for.
+//! The attributes used in judgements, which hosts read.
 
-/// Declares the attributes: a comment and the keyword of each.
 macro_rules! keywords {
     ($($(#[$comment:meta])+ $keyword:ident),+ $(,)?) => {
         /// An attribute, by its keyword in the standard (PS3.6).
@@ -8,10 +7,10 @@ macro_rules! keywords {
         pub enum Keyword { $($(#[$comment])+ $keyword),+ }
 
         impl Keyword {
-            /// All of them.
+            /// All attributes.
             pub const ALL: &[Self] = &[$(Self::$keyword),+];
 
-            /// The keyword as a text.
+            /// The keyword as text.
             pub fn name(self) -> &'static str {
                 match self { $(Self::$keyword => stringify!($keyword)),+ }
             }
@@ -20,114 +19,114 @@ macro_rules! keywords {
 }
 
 keywords! {
-    /// The identifier of the instance: two files with one are copies.
+    /// Instance identifier; equal ones are copies.
     SOPInstanceUID,
-    /// Which study the image belongs to.
+    /// Study.
     StudyInstanceUID,
-    /// The space in which positions of several series agree.
+    /// Common space of several series.
     FrameOfReferenceUID,
-    /// The identifier of the patient.
+    /// Patient identifier.
     PatientID,
-    /// Who gave that identifier.
+    /// Issuer of the patient identifier.
     IssuerOfPatientID,
-    /// The name of the patient; no message shows it.
+    /// Patient name; never shown.
     PatientName,
-    /// When the patient was born; no message shows it.
+    /// Birth date; never shown.
     PatientBirthDate,
-    /// Which series the image belongs to.
+    /// Series.
     SeriesInstanceUID,
-    /// The number of the series.
+    /// Number of the series.
     SeriesNumber,
-    /// What the series is called.
+    /// Description of the series.
     SeriesDescription,
-    /// What made the images.
+    /// Modality.
     Modality,
-    /// What kind of image it is, such as a localiser.
+    /// Image type, such as localiser.
     ImageType,
-    /// The same of one frame.
+    /// Image type of a frame.
     FrameType,
-    /// How many frames the file has.
+    /// Number of frames.
     NumberOfFrames,
-    /// Pixels in a column.
+    /// Pixels per column.
     Rows,
-    /// Pixels in a row.
+    /// Pixels per row.
     Columns,
-    /// Numbers in a pixel.
+    /// Numbers per pixel.
     SamplesPerPixel,
-    /// How numbers are shown.
+    /// Meaning of pixel values.
     PhotometricInterpretation,
-    /// Bits that a stored number takes.
+    /// Bits per stored number.
     BitsAllocated,
-    /// Bits of them that are used.
+    /// Used bits.
     BitsStored,
-    /// The place of the highest of them.
+    /// Highest used bit.
     HighBit,
-    /// Whether stored numbers have a sign.
+    /// Whether stored numbers are signed.
     PixelRepresentation,
-    /// The stored number of pixels outside the scan.
+    /// Stored number outside the scan.
     PixelPaddingValue,
-    /// A table from stored numbers to values; passed as the number of its items.
+    /// Look-up table from stored numbers to values, passed as its number of items.
     ModalityLUTSequence,
-    /// From stored numbers to values: the factor.
+    /// Factor from stored numbers to values.
     RescaleSlope,
-    /// From stored numbers to values: what is added.
+    /// Offset from stored numbers to values.
     RescaleIntercept,
-    /// Whether the image was compressed with loss.
+    /// Whether compression was lossy.
     LossyImageCompression,
     /// Distance between rows, then between columns (mm).
     PixelSpacing,
-    /// Where the middle of the first pixel lies (mm, LPS).
+    /// Centre of the first pixel (mm, LPS).
     ImagePositionPatient,
-    /// Directions of a row and of a column.
+    /// Directions of a row and a column.
     ImageOrientationPatient,
-    /// How thick the slice is (mm).
+    /// Slice thickness (mm).
     SliceThickness,
-    /// How far slices are apart, as stated (mm).
+    /// Stated slice distance (mm).
     SpacingBetweenSlices,
-    /// The tilt of the gantry (degrees).
+    /// Gantry tilt (degrees).
     GantryDetectorTilt,
-    /// The phase, by its number.
+    /// Phase number.
     TemporalPositionIdentifier,
-    /// The phase of a frame, by its number.
+    /// Phase number of a frame.
     TemporalPositionIndex,
-    /// The phase of the heart (percent).
+    /// Cardiac phase (percent).
     NominalPercentageOfCardiacPhase,
-    /// The phase of the heart (ms after the R wave).
+    /// Cardiac phase (ms after the R wave).
     NominalCardiacTriggerDelayTime,
     /// Time since the trigger (ms).
     TriggerTime,
-    /// The phase of the contrast medium.
+    /// Contrast phase.
     ContrastBolusAgentPhase,
-    /// Which echo it is.
+    /// Echo number.
     EchoNumbers,
-    /// The time of the echo (ms).
+    /// Echo time (ms).
     EchoTime,
-    /// The time of the echo of a frame (ms).
+    /// Echo time of a frame (ms).
     EffectiveEchoTime,
-    /// Which stack a frame belongs to.
+    /// Stack of a frame.
     StackID,
-    /// The kernel of the reconstruction.
+    /// Reconstruction kernel.
     ConvolutionKernel,
-    /// The acquisition, by its number.
+    /// Acquisition number.
     AcquisitionNumber,
-    /// The acquisition of a frame, by its number.
+    /// Acquisition number of a frame.
     FrameAcquisitionNumber,
-    /// When it was acquired.
+    /// Acquisition time.
     AcquisitionTime,
-    /// When a frame was acquired.
+    /// Acquisition time of a frame.
     FrameAcquisitionDateTime,
-    /// When the image was made.
+    /// Creation time of the image.
     ContentTime,
 }
 
 impl Keyword {
-    /// The attribute of a keyword, none for those that nothing is judged by.
+    /// The attribute of a keyword; None if unused.
     pub fn named(name: &str) -> Option<Self> {
         Self::ALL.iter().copied().find(|keyword| keyword.name() == name)
     }
 
-    /// The functional groups in which an enhanced multi-frame image keeps it for single frames or for all
-    /// (PS3.3 C.7.6.16), the first that has it; none for those that stand at the top level alone.
+    /// Functional groups of enhanced multi-frame images that may have it (PS3.3 C.7.6.16), in order; empty
+    /// for top-level attributes.
     pub fn groups(self) -> &'static [&'static str] {
         match self {
             Self::ImagePositionPatient => &["PlanePositionSequence"],
@@ -154,7 +153,7 @@ impl Keyword {
         }
     }
 
-    /// Whether its values are floating-point numbers, which JSON may write without their point.
+    /// Whether values are floating-point, which JSON may write without a decimal point.
     pub fn is_float(self) -> bool {
         matches!(
             self,

@@ -1,4 +1,4 @@
-//! What is odd about the values of a stack that is read all the same.
+//! Notes about unusual values of a readable stack.
 
 use std::collections::BTreeSet;
 
@@ -9,7 +9,6 @@ use crate::keyword::Keyword;
 use crate::value::Value;
 use crate::wording::{counted, listed, shown};
 
-/// Notes whatever a reader of the values should know.
 pub(crate) fn note_oddities(stack: &Stack, notes: &mut Vec<String>) {
     note_missing(stack, notes);
     note_rescaling(stack, notes);
@@ -26,7 +25,7 @@ pub(crate) fn note_oddities(stack: &Stack, notes: &mut Vec<String>) {
     note_padding(&images, notes);
 }
 
-/// The images of a stack, each once, in the order of its slices.
+/// Images of a stack, each once, in slice order.
 pub(crate) fn images_of<'a>(stack: &Stack<'a>) -> Vec<&'a Image<'a>> {
     let mut seen = BTreeSet::new();
     stack.slices.iter().map(|one| one.image).filter(|image| seen.insert(image.file)).collect()
@@ -62,7 +61,7 @@ fn is_high_bit_odd(image: &Image) -> bool {
 
 fn note_padding(images: &[&Image], notes: &mut Vec<String>) {
     let stated = images.iter().filter_map(|image| image.header.attributes.get(Keyword::PixelPaddingValue));
-    // A damaged value may be any text: it is not told.
+    // A damaged value may be any text, so it is not quoted.
     let numbers = stated.filter(|value| matches!(value, Value::Integer(_) | Value::Number(_)));
     let told: BTreeSet<String> = numbers.map(|value| shown(&value.to_string())).collect();
     if !told.is_empty() {

@@ -1,4 +1,4 @@
-//! What tells phases apart whose slices lie at the same places.
+//! Separates phases whose slices share positions.
 
 use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet};
@@ -11,7 +11,7 @@ use crate::spacing;
 use crate::value::Value;
 use crate::wording::{MENTIONED, counted, listed, quoted, shown};
 
-/// What may tell phases apart, the surest first.
+/// Attributes that may separate phases, the most reliable first.
 const PHASE_KEYWORDS: [Keyword; 17] = [
     Keyword::TemporalPositionIdentifier,
     Keyword::TemporalPositionIndex,
@@ -31,30 +31,29 @@ const PHASE_KEYWORDS: [Keyword; 17] = [
     Keyword::FrameAcquisitionDateTime,
     Keyword::ContentTime,
 ];
-/// More phases than these are too many to choose among.
+/// Maximum number of phases to choose from.
 const MOST_PHASES: usize = 40;
 
-/// Those of them that belong to a whole phase and never alternate from slice to slice within one. A
-/// two-dimensional MR acquisition may take the odd slices first: its acquisition number does not count.
+/// Attributes that never alternate within a phase. Acquisition numbers may, because 2D MR may acquire odd
+/// slices first.
 const WHOLE_PHASE: [Keyword; 3] = [
     Keyword::TemporalPositionIdentifier,
     Keyword::TemporalPositionIndex,
     Keyword::NominalPercentageOfCardiacPhase,
 ];
 
-/// The attribute that tells all of these pairs apart, the surest of them.
+/// Most reliable attribute that differs in all pairs.
 pub(crate) fn telling(pairs: &[Pair]) -> Option<Keyword> {
     let differs = |keyword| move |pair: &Pair| told(&pair.0, keyword) != told(&pair.1, keyword);
     PHASE_KEYWORDS.into_iter().find(|&keyword| pairs.iter().all(differs(keyword)))
 }
 
-/// How many slices have which value of the attribute that tells them apart.
 pub(crate) fn mixed(ordered: &[Slice], keyword: Keyword) -> String {
     let mixed = if keyword == Keyword::ConvolutionKernel { "kernels" } else { "phases" };
     format!("{} differs ({}): mixed {mixed}", keyword.name(), values_of(ordered, keyword))
 }
 
-/// Picks the slices of one phase, by the value of the first attribute that has it for some of them only.
+/// Slices of one phase, by the first attribute that has the value in some slices only.
 pub(crate) fn of_phase<'a>(
     slices: &[Slice<'a>],
     phase: &str,
@@ -80,7 +79,7 @@ pub(crate) fn of_phase<'a>(
     Err(Error::new(found, "the value of an attribute that some slices have"))
 }
 
-/// Notes the places of a series that one phase of it does not cover.
+/// Notes the positions that a phase lacks.
 fn note_left_out(every: &[Slice], own: &[Slice], phase: &str, notes: &mut Vec<String>) {
     let Some(normal) = own.first().map(Slice::normal) else { return };
     let heights = |slices: &[Slice]| slices.iter().map(|one| one.position.dot(normal)).collect::<Vec<f64>>();
@@ -90,7 +89,7 @@ fn note_left_out(every: &[Slice], own: &[Slice], phase: &str, notes: &mut Vec<St
     }
 }
 
-/// Refuses phases whose slices lie between each other's at places of their own.
+/// Rejects phases whose slices interleave at separate positions.
 pub(crate) fn refuse_interleaved(ordered: &[Slice]) -> Result<()> {
     for keyword in WHOLE_PHASE {
         let values: Vec<String> = ordered.iter().map(|one| told(one, keyword)).collect();
@@ -106,12 +105,11 @@ pub(crate) fn refuse_interleaved(ordered: &[Slice]) -> Result<()> {
     Ok(())
 }
 
-/// A value as a text, by which phases are told apart.
 pub(crate) fn told(one: &Slice, keyword: Keyword) -> String {
     one.get(keyword).to_string()
 }
 
-/// The choice among the phases that an attribute tells apart, by values that can be shown as they are.
+/// Choice among phases with printable values.
 pub(crate) fn choice(slices: &[Slice], keyword: Keyword) -> Mend {
     let different: BTreeSet<String> = slices.iter().map(|one| told(one, keyword)).collect();
     let mut values: Vec<String> = different.into_iter().collect();
@@ -122,13 +120,12 @@ pub(crate) fn choice(slices: &[Slice], keyword: Keyword) -> Mend {
     Mend::Phase(values)
 }
 
-/// The order of two values: numbers by their size before other texts.
+/// Numbers by size, before other texts.
 pub(crate) fn in_order(one: &str, other: &str) -> Ordering {
     let number = |value: &str| value.parse().unwrap_or(f64::INFINITY);
     number(one).total_cmp(&number(other)).then_with(|| one.cmp(other))
 }
 
-/// Which values slices have, and how many have each.
 pub(crate) fn values_of(slices: &[Slice], keyword: Keyword) -> String {
     let mut counts = BTreeMap::new();
     for one in slices {
@@ -139,7 +136,7 @@ pub(crate) fn values_of(slices: &[Slice], keyword: Keyword) -> String {
     listed(&counts.collect::<Vec<_>>())
 }
 
-/// Whether a value is what somebody calls it: 400 is 400.0, as a text or a number.
+/// 400 matches 400.0, as text or number.
 fn is_called(value: &Value, phase: &str) -> bool {
     let meant: Option<f64> = phase.trim().parse().ok();
     value.to_string() == phase || meant.is_some_and(|number| value.number() == Some(number))

@@ -1,7 +1,7 @@
-//! Several slices at one place: phases, parts of one scan that overlap, or one image twice.
+//! Several slices at one position: phases, overlapping parts of a scan, or repeated images.
 //!
-//! Parts that overlap hold the same values where they do; phases differ. Headers cannot tell: the host compares the values of
-//! the pairs that are given here.
+//! Overlapping parts have equal values there and phases differ, so the host compares the values of the
+//! returned pairs.
 
 use std::cmp::Ordering;
 use std::collections::BTreeSet;
@@ -15,7 +15,7 @@ use crate::slices::{Pair, Slice, are_unlike};
 use crate::spacing::ONE_PLACE;
 use crate::wording::{counted, listed};
 
-/// One slice for each place of a sorted stack, and the pairs that are to be compared.
+/// One slice per position of a sorted stack, and the pairs to compare.
 pub(crate) fn one_per_place<'a>(
     ordered: Vec<Slice<'a>>,
     unlike: &[Unlike],
@@ -51,15 +51,14 @@ pub(crate) fn one_per_place<'a>(
     Ok((kept, pairs))
 }
 
-/// The slices at each place.
 fn places<'s, 'a>(ordered: &'s [Slice<'a>]) -> Vec<&'s [Slice<'a>]> {
     let normal = ordered.first().map(Slice::normal).unwrap_or_default();
     let is_one = |a: &Slice, b: &Slice| b.position.dot(normal) - a.position.dot(normal) < ONE_PLACE;
     ordered.chunk_by(is_one).collect()
 }
 
-/// Whether slices that an attribute tells apart may be parts of one scan: some places have one slice, and the parts
-/// extend each other or share few places.
+/// Whether slices may be overlapping parts: some positions have one slice, and the parts extend each other or
+/// share few positions.
 fn may_overlap(places: &[&[Slice]], keyword: Keyword) -> bool {
     let shared = places.iter().filter(|place| place.len() > 1).count();
     let values =
@@ -69,7 +68,7 @@ fn may_overlap(places: &[&[Slice]], keyword: Keyword) -> bool {
     shared < places.len() && (extend_each_other || 2 * shared <= places.len())
 }
 
-/// The first slice of each place in the order of the attribute, and the others as pairs with it.
+/// The first slice of each position by the attribute, and pairs of it with the others.
 fn firsts<'a>(places: &[&[Slice<'a>]], keyword: Option<Keyword>) -> (Vec<Slice<'a>>, Vec<Pair<'a>>) {
     let (mut kept, mut pairs) = (Vec::new(), Vec::new());
     for place in places {
@@ -84,7 +83,7 @@ fn firsts<'a>(places: &[&[Slice<'a>]], keyword: Option<Keyword>) -> (Vec<Slice<'
     (kept, pairs)
 }
 
-/// The refusal of slices at one place whose values differ: phases or parts where an attribute tells them apart.
+/// Error for slices at one position with different values.
 fn refused(found: &str, differing: &[Pair], apart: Option<(&[Slice], Keyword)>) -> Error {
     let found = format!("{found}, of different values: {}", names(differing));
     let Some((ordered, keyword)) = apart else {
@@ -94,7 +93,7 @@ fn refused(found: &str, differing: &[Pair], apart: Option<(&[Slice], Keyword)>) 
     let found = format!("{found}; {} is {values}: phases, or overlapping parts of one scan", keyword.name());
     let error = Error::new(found, "one slice per place").mend("remove one of each pair where they are parts");
     let different: BTreeSet<String> = ordered.iter().map(|one| told(one, keyword)).collect();
-    // A value for each slice tells no phases apart.
+    // A value per slice does not indicate phases.
     if 2 * different.len() > ordered.len() { error } else { error.mended_by(choice(ordered, keyword)) }
 }
 

@@ -1,23 +1,22 @@
-//! Distances between slices, and how far slices may be off their places.
+//! Distances between slices, and position tolerances.
 
 use crate::wording::rounded;
 
-/// Slices may be this far (mm) off their places, or this part of the distance between them.
+/// Position tolerance: mm, and share of the slice distance.
 const MILLIMETRE: f64 = 0.01;
 const OF_STEP: f64 = 0.01;
-/// Slices closer than this (mm) are at one place.
+/// Slices closer than this (mm) share a position.
 pub(crate) const ONE_PLACE: f64 = 0.01;
-/// So many wide distances in a row are those of a part of the scan.
+/// This many equal wide distances in a row are intended.
 const RUN: usize = 3;
-/// How many different distances are told one by one.
+/// Maximum number of distances listed individually.
 const TOLD: usize = 4;
 
-/// How far a slice may be off its place (mm).
 pub(crate) fn tolerance(step: f64) -> f64 {
     MILLIMETRE.max(OF_STEP * step)
 }
 
-/// The middle of some numbers, the mean of the middle two where they are even; NaN if any number is.
+/// NaN if any number is.
 pub(crate) fn median(numbers: &[f64]) -> f64 {
     let mut sorted = numbers.to_vec();
     sorted.sort_by(f64::total_cmp);
@@ -30,17 +29,16 @@ pub(crate) fn median(numbers: &[f64]) -> f64 {
     }
 }
 
-/// The smallest and the largest of some numbers.
 pub(crate) fn ends(numbers: &[f64]) -> (f64, f64) {
     numbers.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &n| (low.min(n), high.max(n)))
 }
 
-/// Whether wide steps of one length follow each other: a part scanned so, with nothing missing.
+/// Whether wide steps of equal length follow each other, as in a part scanned more coarsely.
 pub(crate) fn has_run(steps: &[i64]) -> bool {
     steps.windows(RUN).any(|run| run[0] > 1 && run.iter().all(|step| *step == run[0]))
 }
 
-/// How many of all places those of a part leave out, and how many places there are.
+/// Number of positions that a part lacks, and of all positions.
 pub(crate) fn left_out(every: &[f64], part: &[f64]) -> (usize, usize) {
     let (every, own) = (places(every), places(part));
     let has = |place: f64| {
@@ -50,7 +48,6 @@ pub(crate) fn left_out(every: &[f64], part: &[f64]) -> (usize, usize) {
     (every.iter().filter(|&&place| !has(place)).count(), every.len())
 }
 
-/// Heights in their order, each place once.
 fn places(heights: &[f64]) -> Vec<f64> {
     let mut sorted = heights.to_vec();
     sorted.sort_by(f64::total_cmp);
@@ -58,7 +55,7 @@ fn places(heights: &[f64]) -> Vec<f64> {
     sorted
 }
 
-/// Distances as words: each with its count where they are few, in the order in which they come.
+/// Lists a few different distances with counts, otherwise their range.
 pub(crate) fn told(gaps: &[f64]) -> String {
     let allowed = tolerance(median(gaps));
     let mut groups: Vec<(f64, usize)> = Vec::new();

@@ -1,8 +1,8 @@
-//! Uneven distances between slices: named, or put on a regular grid where the caller asks for it.
+//! Uneven slice distances: an error, or resampling to a regular grid on request.
 //!
-//! The grid has the largest distance of which all distances are multiples, where that makes no more than four
-//! times as many slices as there are: each slice then keeps its place. Otherwise it has the smallest distance, or
-//! what makes four times as many slices.
+//! The grid uses the largest distance that divides all others, if that gives at most four times as many
+//! slices; each slice then keeps its position. Otherwise it uses the smallest distance, within the same
+//! limit.
 
 use crate::error::{Error, Result};
 use crate::mend::Mend;
@@ -10,24 +10,22 @@ use crate::slices::Slice;
 use crate::spacing::{ends, median, told, tolerance};
 use crate::wording::{counted, rounded};
 
-/// A grid has at most this many times as many slices as the series.
+/// Maximum number of grid slices, relative to the series.
 const MOST_SLICES: usize = 4;
-/// A distance more than this many times as long as those beside it is a hole.
+/// A distance this much longer than its neighbours is a gap.
 const HOLE: f64 = 3.0;
-/// What rounding leaves of a whole number of steps, or of equal distances (mm).
+/// Rounding tolerance of step counts and equal distances (mm).
 const ROUNDING: f64 = 1e-6;
 
-/// Slices at uneven distances, sorted along their normal.
 #[derive(Debug)]
 pub(crate) struct Uneven<'s, 'a> {
-    /// The slices.
     pub ordered: &'s [Slice<'a>],
-    /// The distances between them along their normal (mm).
+    /// Distances along the normal (mm).
     pub gaps: Vec<f64>,
 }
 
 impl Uneven<'_, '_> {
-    /// The error for whoever did not ask for a grid.
+    /// Error without a request to resample.
     pub(crate) fn refused(&self) -> Error {
         if let Err(error) = self.require_line() {
             return error;
@@ -42,10 +40,8 @@ impl Uneven<'_, '_> {
         }
     }
 
-    /// The index of each slice on a regular grid, whole where it is measured there.
-    ///
-    /// Refused are slices beside a straight line, and holes unless they may be filled and the slices hold most of
-    /// the stack.
+    /// Grid index of each slice, an integer where measured. Rejects slices off a straight line, and gaps
+    /// unless they may be filled and most of the stack is measured.
     pub(crate) fn places(&self, fill_gaps: bool) -> Result<Vec<f64>> {
         self.require_line()?;
         if let Some(hole) = self.hole().filter(|_| !(fill_gaps && self.is_mostly_measured())) {
@@ -59,7 +55,6 @@ impl Uneven<'_, '_> {
         Ok(places_on_grid(&self.heights(), ends(&self.gaps).0))
     }
 
-    /// What became of the slices.
     pub(crate) fn note(&self, places: &[f64]) -> String {
         let last = places.last().copied().unwrap_or_default();
         let kept = places.iter().filter(|place| place.fract() == 0.0).count();
@@ -79,7 +74,7 @@ impl Uneven<'_, '_> {
         format!("uneven slices at mixed distances ({})", told(&self.gaps))
     }
 
-    /// Refuses slices that are shifted against each other: no distance along their normal mends that.
+    /// Rejects laterally shifted slices, which resampling along the normal cannot correct.
     fn require_line(&self) -> Result<()> {
         let (heights, first) = (self.heights(), self.ordered[0].position);
         let way = self.ordered[self.ordered.len() - 1].position - first;
@@ -89,7 +84,7 @@ impl Uneven<'_, '_> {
             .collect();
         let worst = largest(&off);
         let allowed = tolerance(median(&self.gaps));
-        // Positions that are too large to be compared are off as well.
+        // NaN, from huge positions, is off too.
         if off[worst] <= allowed {
             return Ok(());
         }
@@ -107,7 +102,7 @@ impl Uneven<'_, '_> {
         std::iter::once(0.0).chain(above).collect()
     }
 
-    /// The distances that are much longer than those beside them.
+    /// Distances much longer than their neighbours.
     fn wide(&self) -> Vec<usize> {
         let beside = |n: Option<usize>| n.and_then(|n| self.gaps.get(n)).copied().unwrap_or_default();
         let is_wide = |&n: &usize| self.gaps[n] > HOLE * beside(n.checked_sub(1)).max(beside(Some(n + 1)));
@@ -119,7 +114,7 @@ impl Uneven<'_, '_> {
         wide < self.gaps.iter().sum::<f64>() / 2.0
     }
 
-    /// The first hole, and how many more there are.
+    /// First gap, and number of others.
     fn hole(&self) -> Option<String> {
         let wide = self.wide();
         let first = self.gap(*wide.first()?);
@@ -128,7 +123,7 @@ impl Uneven<'_, '_> {
         Some(format!("of {first}{more}"))
     }
 
-    /// The first of the widest distances, which may be equal but for rounding.
+    /// First of the widest distances, up to rounding.
     fn widest(&self) -> usize {
         let widest = ends(&self.gaps).1;
         self.gaps.iter().position(|gap| gap + ROUNDING >= widest).unwrap_or_default()
@@ -140,7 +135,7 @@ impl Uneven<'_, '_> {
     }
 }
 
-/// The place of the first of the largest numbers; NaN is larger than all.
+/// Index of the first maximum; NaN exceeds all.
 fn largest(numbers: &[f64]) -> usize {
     let mut largest = 0;
     for (n, number) in numbers.iter().enumerate() {
@@ -151,7 +146,7 @@ fn largest(numbers: &[f64]) -> usize {
     largest
 }
 
-/// Indices on the grid that the module describes; the first and last slice are its ends.
+/// Grid indices; the first and last slice are the ends.
 fn places_on_grid(heights: &[f64], smallest: f64) -> Vec<f64> {
     let (total, most) = (heights[heights.len() - 1], (MOST_SLICES * heights.len() - 1) as f64);
     let mut parts = 1.0;
@@ -175,7 +170,7 @@ fn places_on_grid(heights: &[f64], smallest: f64) -> Vec<f64> {
     heights.iter().map(|height| whole_where_rounded(height / total * steps)).collect()
 }
 
-/// Whether every slice is at a place of its own on a grid of this distance.
+/// Whether every slice has a separate index on a grid of this distance.
 fn holds(places: &[f64], heights: &[f64], step: f64) -> bool {
     let is_there = |(place, height): (&f64, &f64)| (height - place * step).abs() <= tolerance(step);
     places.windows(2).all(|pair| pair[0] < pair[1]) && places.iter().zip(heights).all(is_there)

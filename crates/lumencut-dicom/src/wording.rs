@@ -1,25 +1,24 @@
-//! Counts, lists of names and numbers as messages tell them.
+//! Formats counts, lists and numbers for messages.
 
-/// How many names of a list are told.
+/// Maximum names in a list.
 pub(crate) const MENTIONED: usize = 4;
-/// Letters of a value that are told.
+/// Maximum length of a value.
 const SHOWN: usize = 60;
-/// Letters of a text that a series states of itself.
+/// Maximum length of a free text.
 const LINE: usize = 64;
 
-/// A count and what is counted, in the plural where there are several.
+/// With a plural s.
 pub(crate) fn counted(count: i64, what: &str) -> String {
     format!("{count} {what}{}", if count == 1 { "" } else { "s" })
 }
 
-/// The first few names, and how many more there are.
 pub(crate) fn listed<S: AsRef<str>>(names: &[S]) -> String {
     let first: Vec<&str> = names.iter().take(MENTIONED).map(AsRef::as_ref).collect();
     let more = names.len().saturating_sub(MENTIONED);
     first.join(", ") + &if more > 0 { format!(" and {more} more") } else { String::new() }
 }
 
-/// A number rounded to `digits` significant digits, without zeros at its end, such as `0.5` or `1e+06`.
+/// Rounds to `digits` significant digits without trailing zeros, such as `0.5` or `1e+06`.
 pub(crate) fn rounded(number: f64, digits: usize) -> String {
     if !number.is_finite() {
         let name = if number.is_nan() { "nan" } else { "inf" };
@@ -40,13 +39,13 @@ fn without_zeros(number: &str) -> &str {
     if number.contains('.') { number.trim_end_matches('0').trim_end_matches('.') } else { number }
 }
 
-/// Numbers in brackets, such as `(0, 0, 4)`.
+/// Such as `(0, 0, 4)`.
 pub(crate) fn bracketed(numbers: &[f64]) -> String {
     let numbers: Vec<String> = numbers.iter().map(|&number| rounded(number, 6)).collect();
     format!("({})", numbers.join(", "))
 }
 
-/// A text in quotation marks, as Python writes it.
+/// Quoted as in Python.
 pub(crate) fn quoted(text: &str) -> String {
     let mark = if text.contains('\'') && !text.contains('"') { '"' } else { '\'' };
     let mut told = String::from(mark);
@@ -72,12 +71,12 @@ fn escaped(code: u32) -> String {
     }
 }
 
-/// A text with nothing in it that breaks a line or steers a terminal.
+/// Removes line breaks and terminal controls.
 pub(crate) fn printable(text: &str) -> String {
     text.chars().map(|letter| if is_printable(letter) { letter } else { '\u{fffd}' }).collect()
 }
 
-/// A value of a header's field that is no free text, as one short printable line.
+/// A coded value as one short printable line.
 pub(crate) fn shown(value: &str) -> String {
     let text = printable(value);
     if text.chars().count() <= SHOWN {
@@ -86,18 +85,18 @@ pub(crate) fn shown(value: &str) -> String {
     text.chars().take(SHOWN - 1).chain(['…']).collect()
 }
 
-/// A text that a series states of itself, as one short printable line.
+/// A free text as one short printable line.
 pub(crate) fn line(text: &str) -> String {
     let words: Vec<&str> = text.split_whitespace().collect();
     words.join(" ").chars().filter(|&letter| is_printable(letter)).take(LINE).collect()
 }
 
-/// Whether a letter shows something: the rest are controls, unassigned letters and spaces other than the usual one.
+/// False for controls, unassigned characters and unusual spaces.
 fn is_printable(letter: char) -> bool {
     if letter.is_ascii() {
         return !letter.is_ascii_control();
     }
-    // Rust escapes exactly those. Combining marks are escaped only where no letter stands before them.
+    // Rust escapes exactly those; combining marks only at the start of a text.
     let mut bytes = [b'a'; 5];
     let length = 1 + letter.encode_utf8(&mut bytes[1..]).len();
     std::str::from_utf8(&bytes[..length]).is_ok_and(|pair| pair.escape_debug().count() == 2)

@@ -1,4 +1,4 @@
-//! Where slices lie: order, affine, tilt, gaps, duplicates, phases, uneven distances.
+//! Tests of order, affine, tilt, gaps, duplicates, phases and uneven distances.
 
 mod made;
 
@@ -8,7 +8,7 @@ use lumencut_dicom::Mend;
 use made::{as_they_are, even, judged, plan, refused, stack, with};
 use serde_json::{Value, json};
 
-/// Positions of a gantry that leans by some degrees while the table moves along z.
+/// Positions of a gantry tilted by `degrees` while the table moves along z.
 fn tilted(degrees: f64) -> impl Fn(usize, &mut Value) {
     let angle = degrees.to_radians();
     move |_, attributes| {
@@ -144,7 +144,7 @@ fn holes_between_uneven_slices_are_filled_only_where_that_is_asked_for() {
     let far = heights.map(|height| if height > 20.0 { height + 40.0 } else { height });
     let error = judged(&stack(&far, as_they_are), wanted).expect_err("mostly a hole");
     assert_eq!((error.advice.as_str(), error.mended_by), ("add the missing files", None));
-    // What would be refused is not offered.
+    // A rejected remedy is not offered.
     let error = refused(&stack(&far, as_they_are));
     assert_eq!(
         (error.advice.as_str(), error.mended_by),

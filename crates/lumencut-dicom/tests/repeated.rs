@@ -1,4 +1,4 @@
-//! Places, images, series and patients that headers name more than once; the host compares values where headers cannot tell.
+//! Tests of repeated positions, images, series and patients.
 
 mod made;
 
@@ -6,7 +6,7 @@ use lumencut_dicom::{Error, Mend, Plan, json};
 use made::{SYNTAX, as_they_are, even, judged, plan, refused, stack};
 use serde_json::{Value, json};
 
-/// Acquisitions of stretches of 40 places, 2 mm apart.
+/// Acquisitions of 40 positions each, 2 mm apart.
 fn acquired(parts: &[std::ops::Range<usize>]) -> Vec<Value> {
     let of = |(n, part): (usize, &std::ops::Range<usize>)| {
         let heights: Vec<f64> = part.clone().map(|k| 2.0 * k as f64).collect();
@@ -18,7 +18,7 @@ fn acquired(parts: &[std::ops::Range<usize>]) -> Vec<Value> {
     parts.iter().enumerate().flat_map(of).collect()
 }
 
-/// What is made of files of which these pairs were found to differ.
+/// The judgement with these pairs found to differ.
 fn with_unlike(files: &[Value], unlike: &[[usize; 2]]) -> Value {
     let frame = |file: usize| json!({"file": file, "frame": 0});
     let pairs: Vec<Value> =
@@ -90,7 +90,7 @@ fn copies_are_compared_and_what_differs_is_refused() {
     assert_eq!(plan(&files).slices.len(), 4);
 }
 
-/// A series of its own for each slice.
+/// A separate series per slice.
 fn own_series(k: usize, attributes: &mut Value) {
     attributes["SeriesInstanceUID"] = format!("1.5.{k}").into();
 }

@@ -1,4 +1,4 @@
-//! Which files are images, which series is read, and which images are no slices.
+//! Tests: which files are images, which series is read, and which images are rejected.
 
 mod made;
 
@@ -6,7 +6,7 @@ use lumencut_dicom::{ErrorKind, describe, json};
 use made::{SYNTAX, as_they_are, even, headers, judged, plan, refused, stack, with};
 use serde_json::{Value, json};
 
-/// A series of its own.
+/// A separate series.
 fn series(number: &str, description: &str, change: impl Fn(usize, &mut Value)) -> Vec<Value> {
     stack(&even(5), |k, attributes| {
         attributes["SeriesInstanceUID"] = format!("1.2.{number}").into();
@@ -168,7 +168,7 @@ fn odd_values_are_noted() {
     );
 }
 
-/// One file with functional groups: frames at these heights, the rest shared.
+/// One file with functional groups: frames at these heights, other attributes shared.
 fn enhanced(heights: &[f64]) -> Value {
     let mut attributes = made::axial(0.0);
     attributes["NumberOfFrames"] = heights.len().to_string().into();
@@ -196,7 +196,7 @@ fn frames_come_before_what_they_share_before_the_top_level() {
     assert_eq!(refused(&[one]).found, "2000000000 frames and functional groups for 3");
 }
 
-/// Attributes whose texts are told, as series and phases are called by them.
+/// Attributes whose texts are shown.
 const TOLD: [&str; 19] = [
     "SeriesInstanceUID",
     "SeriesNumber",

@@ -7,13 +7,10 @@ use crate::space::Space;
 use crate::text::{self, Separator};
 use crate::unit::Unit;
 
-/// The columns where the file names none.
+/// Default columns.
 const COLUMNS: &str = "id,x,y,z,ow,ox,oy,oz,vis,sel,lock,label,desc,associatedNodeID";
 
-/// The points of a fiducial list as one line, in mm by definition of the format.
-///
-/// # Errors
-/// Naming the line of the file where a row is invalid, and for coordinates in voxels.
+/// The fiducials as one line, in mm by definition of the format. Coordinates in voxels are rejected.
 pub(crate) fn read(bytes: &[u8]) -> Result<Centerlines> {
     let mut out = Centerlines::of("3D Slicer fiducials");
     out.unit = Some(Unit::Millimetre);
@@ -44,7 +41,7 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Centerlines> {
                 "the columns of the header",
             ));
         };
-        // 3D Slicer writes the status of a point behind the named columns.
+        // 3D Slicer writes the status after the named columns.
         let status = fields.get(columns.count).copied().unwrap_or_default();
         if !has_place(status).map_err(|e| e.in_file(&format!("line {number}: positionStatus")))? {
             without_place += 1;
@@ -63,7 +60,7 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Centerlines> {
     out.tidy()
 }
 
-/// The space by its name, or by the number of the versions before 4.11.
+/// By name, or by number before version 4.11.
 fn space(text: &str) -> Result<Space> {
     match text.split(',').next().unwrap_or_default().trim() {
         "RAS" | "0" => Ok(Space::Ras),

@@ -1,11 +1,10 @@
-//! Which format a file has: told by its content, and by the ending of its name only where that does not tell.
+//! Detects the format by content, and by file name only if that is ambiguous.
 
 use crate::error::{Error, Result, excerpt};
 use crate::table;
 use crate::text;
 use crate::{npy, rotterdam, swc, xml};
 
-/// A format with a room of its own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Kind {
     VtkXml,
@@ -20,13 +19,10 @@ pub(crate) enum Kind {
     Npy,
 }
 
-/// Bytes in which content that is no text shows itself.
+/// Bytes checked for binary content.
 const BEGINNING: usize = 4096;
 
-/// The format of `content`, from which a byte order mark was taken.
-///
-/// # Errors
-/// For formats that are not read, by name where they are known.
+/// `content` has no byte order mark.
 pub(crate) fn of(content: &[u8], file_name: &str) -> Result<Kind> {
     let name = file_name.to_ascii_lowercase();
     let begins = content.trim_ascii_start();
@@ -49,7 +45,7 @@ pub(crate) fn of(content: &[u8], file_name: &str) -> Result<Kind> {
     }
 }
 
-/// Refuses archives and UTF-16 by name.
+/// Rejects archives and UTF-16 by name.
 fn packed(content: &[u8], name: &str) -> Result<()> {
     let (found, mend) = match content {
         [0xff, 0xfe, ..] | [0xfe, 0xff, ..] => ("text in UTF-16", "save it as UTF-8"),
@@ -63,7 +59,7 @@ fn packed(content: &[u8], name: &str) -> Result<()> {
     Err(Error::new("", found, "a centerline file").mend(mend))
 }
 
-/// Whether the first line is a field that MetaIO objects begin with.
+/// Whether the first line is a leading MetaIO field.
 fn is_meta_io(content: &[u8]) -> bool {
     let key = content.split(|b| *b == b'=').next().unwrap_or_default().trim_ascii();
     key.len() < content.len() && [&b"ObjectType"[..], b"Comment", b"NDims", b"FormTypeName"].contains(&key)

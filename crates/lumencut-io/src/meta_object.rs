@@ -1,11 +1,11 @@
-//! The fields of one object of a MetaIO file, and its transform.
+//! The fields of a MetaIO object, and its transform.
 
 use glam::{DAffine3, DMat3, DVec3};
 
 use crate::centerlines::Line;
 use crate::error::{Error, Result, excerpt};
 
-/// The fields that are read; others are not kept.
+/// Fields to read.
 const KNOWN: [&str; 18] = [
     "NDims",
     "ID",
@@ -27,15 +27,14 @@ const KNOWN: [&str; 18] = [
     "Origin",
 ];
 
-/// One object of a scene: its type and its fields.
 pub(crate) struct MetaObject {
     kind: String,
     fields: Vec<(&'static str, String)>,
-    /// The points of a tube, in units of the object.
+    /// In units of the object.
     pub line: Option<Line>,
 }
 
-/// Whether `name` is one of `wanted`, in capitals or not.
+/// Case-insensitive.
 pub(crate) fn one_of(name: &str, wanted: &[&str]) -> bool {
     wanted.iter().any(|wanted| name.eq_ignore_ascii_case(wanted))
 }
@@ -49,8 +48,7 @@ impl MetaObject {
         one_of(&self.kind, &["Tube", "VesselTube", "DTITube"])
     }
 
-    /// # Errors
-    /// For a tube whose points were not met.
+    /// Fails for a tube without points.
     pub(crate) fn check_points(&self) -> Result<()> {
         if self.is_tube() && self.line.is_none() {
             return Err(Error::truncated(self.title(), "no Points", "the points of the tube"));
@@ -58,7 +56,7 @@ impl MetaObject {
         Ok(())
     }
 
-    /// Keeps a field, of several with one name the first.
+    /// Keeps a field, the first of duplicates.
     pub(crate) fn set(&mut self, key: &str, value: &str) {
         if let Some(key) = KNOWN.iter().find(|known| **known == key).filter(|key| self.get(key).is_none()) {
             self.fields.push((key, value.to_owned()));
@@ -73,20 +71,16 @@ impl MetaObject {
         self.get(key).is_some_and(|value| one_of(value, &["True", "T", "1"]))
     }
 
-    /// The id of this object or its parent; `None` where it has none.
     pub(crate) fn id(&self, key: &str) -> Option<i64> {
         self.get(key)?.parse().ok().filter(|id| *id >= 0)
     }
 
-    /// What errors and notes call this object.
+    /// The name in errors and notes.
     pub(crate) fn title(&self) -> String {
         format!("{} {}", self.kind, self.get("ID").unwrap_or("without ID"))
     }
 
-    /// The size of a step of the points along each axis; 1 where none is stated.
-    ///
-    /// # Errors
-    /// Where it is not above 0.
+    /// Point spacing per axis; 1 if not stated.
     pub(crate) fn spacing(&self) -> Result<DVec3> {
         let Some(spacing) = self.numbers::<3>(&["ElementSpacing"])? else { return Ok(DVec3::ONE) };
         if spacing.iter().all(|size| *size > 0.0) {
@@ -95,11 +89,7 @@ impl MetaObject {
         Err(Error::new("ElementSpacing", format!("{spacing:?}"), "3 numbers above 0"))
     }
 
-    /// The transform to the parent: the matrix, row by row, then the offset, which already holds what the
-    /// centre of rotation adds.
-    ///
-    /// # Errors
-    /// Where the fields are no numbers.
+    /// Transform to the parent: row-major matrix, then the offset, which includes the centre of rotation.
     pub(crate) fn parent_from_object(&self) -> Result<DAffine3> {
         let matrix = self.numbers::<9>(&["TransformMatrix", "Rotation", "Orientation"])?;
         let matrix = matrix.map_or(DMat3::IDENTITY, |rows| DMat3::from_cols_array(&rows).transpose());
@@ -107,7 +97,7 @@ impl MetaObject {
         Ok(DAffine3::from_mat3_translation(matrix, offset.map_or(DVec3::ZERO, DVec3::from)))
     }
 
-    /// The numbers of the first of these fields that is there.
+    /// Numbers of the first existing field.
     fn numbers<const N: usize>(&self, keys: &[&str]) -> Result<Option<[f64; N]>> {
         let Some(text) = keys.iter().find_map(|key| self.get(key)) else { return Ok(None) };
         let numbers: Option<Vec<f64>> = text

@@ -1,4 +1,4 @@
-//! Points, lines and arrays of one VTK poly data, and the centerlines that they are.
+//! One VTK poly data, and its conversion to centerlines.
 
 use glam::DVec3;
 
@@ -7,7 +7,6 @@ use crate::data_array;
 use crate::error::{Error, Result};
 use crate::space::Space;
 
-/// One array of point, cell or field data.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Array {
     pub name: String,
@@ -16,48 +15,42 @@ pub(crate) struct Array {
     pub values: Vec<f64>,
 }
 
-/// The part of a poly data that centerlines are made of.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct PolyData {
-    /// x, y, z of every point.
+    /// x, y, z per point.
     pub points: Vec<f64>,
-    /// The point ids of all lines, one line after the other.
+    /// Point ids of all lines.
     pub connectivity: Vec<f64>,
-    /// Where each line ends in `connectivity`.
+    /// End of each line in `connectivity`.
     pub ends: Vec<f64>,
-    /// Cells that come before the lines in the cell data.
     pub cells_before_lines: usize,
-    /// Cells that are no lines.
     pub other_cells: usize,
     pub point_arrays: Vec<Array>,
     pub cell_arrays: Vec<Array>,
-    /// The name of each cell.
     pub names: Option<Vec<String>>,
 }
 
-/// The string array of cells that names them.
+/// Cell array of names.
 pub(crate) const NAMES: &str = "Name";
-/// The array of cells that is 0 where a cell has no name; the name is empty there.
+/// Cell array that is 0 for cells without a name.
 pub(crate) const HAS_NAME: &str = "HasName";
-/// The array of cells that is 0 where the radii, which are 0 there, are none.
+/// Cell array that is 0 for lines without radii.
 pub(crate) const HAS_RADIUS: &str = "HasRadius";
-/// The arrays of points that hold radii, by how plainly their name says so.
+/// Point arrays of radii, the most specific first.
 pub(crate) const RADIUS_NAMES: [&str; 4] =
     ["MaximumInscribedSphereRadius", "Radius", "Radii", "VesselRadius"];
 const GROUP_NAME: &str = "GroupIds";
 
-/// Whether the array of this name is read from point or cell data.
 pub(crate) fn wanted(name: &str) -> bool {
     name == GROUP_NAME || [HAS_NAME, HAS_RADIUS].contains(&name) || names_radius(name) || names_diameter(name)
 }
 
-/// Whether a name holds the word radius, and names neither a curvature nor a gradient.
+/// Excludes radii of curvature.
 pub(crate) fn names_radius(name: &str) -> bool {
     let name = name.to_ascii_lowercase();
     ["radius", "radii"].iter().any(|word| name.contains(word)) && !name.contains("curvature")
 }
 
-/// The space that the text `LPS` or `RAS` names.
 pub(crate) fn space_of(text: &str) -> Option<Space> {
     match text.trim().trim_matches('\0').to_ascii_uppercase().as_str() {
         "LPS" => Some(Space::Lps),
@@ -71,10 +64,6 @@ fn names_diameter(name: &str) -> bool {
 }
 
 impl PolyData {
-    /// Adds the lines of this poly data to `out`.
-    ///
-    /// # Errors
-    /// Where indices, counts or arrays do not fit each other, or points have no lines.
     pub(crate) fn into_centerlines(self, out: &mut Centerlines) -> Result<()> {
         let (points, rest) = self.points.as_chunks::<3>();
         if !rest.is_empty() {
@@ -120,8 +109,7 @@ impl PolyData {
         Ok(())
     }
 
-    /// The values of every point from the array whose name says radius most plainly, else diameter, and what
-    /// part of them is the radius.
+    /// Values of the best radius array, otherwise diameter, and the factor to the radius.
     fn radius(&self, points: usize, notes: &mut Vec<String>) -> Result<Option<(&[f64], f64)>> {
         let scalar = |array: &&Array| array.components == 1;
         let named = RADIUS_NAMES.iter().find_map(|name| {
@@ -152,13 +140,11 @@ impl PolyData {
         Ok(Groups::OfPoints(&array.values))
     }
 
-    /// The values that the array of cells with this name has for the lines.
     fn of_lines(&self, name: &str) -> Result<Option<&[f64]>> {
         let array = self.cell_arrays.iter().find(|array| array.name == name && array.components == 1);
         array.map(|array| self.lines_of(name, &array.values)).transpose()
     }
 
-    /// The part of one value per cell that is of lines.
     fn lines_of<'a, T>(&self, name: &str, values: &'a [T]) -> Result<&'a [T]> {
         let range = self.cells_before_lines..self.cells_before_lines.saturating_add(self.ends.len());
         values.get(range).ok_or_else(|| {
@@ -183,8 +169,7 @@ fn one_value_each(array: &Array, count: usize, of: &str) -> Result<()> {
     Err(Error::new(format!("{of} array '{}'", array.name), found, format!("one value per {of}")))
 }
 
-/// The stretches of a line that lie in one group each; a stretch begins with the last point of the one
-/// before.
+/// Runs of one group; each starts with the last point of the previous one.
 fn runs<'a>(ids: &'a [usize], groups: &'a [f64]) -> impl Iterator<Item = (&'a [usize], i64)> {
     let mut start = 0;
     std::iter::from_fn(move || {

@@ -8,12 +8,8 @@ use crate::text::{self, Separator};
 
 const COLUMNS: &str = "7 numbers: id type x y z radius parent";
 
-/// The branches of an SWC file: a line from each root or branching to the next branching or leaf, which share
-/// their end points to the last bit. The types of nodes are not used.
-///
-/// # Errors
-/// Naming the line of the file where a node is invalid, repeats an id, has a parent that is not there or leads
-/// back to itself.
+/// One line from each root or branching to the next branching or leaf, sharing end points to the bit. Node
+/// types are ignored.
 pub(crate) fn read(bytes: &[u8]) -> Result<Centerlines> {
     let nodes =
         text::data_lines(bytes).map(|(number, line)| node(number, &line)).collect::<Result<Vec<_>>>()?;
@@ -21,7 +17,7 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Centerlines> {
         return Err(Error::new("", "no node", "an SWC file with a node per line"));
     }
     let tree = Tree::new(&nodes)?;
-    // Which node follows which is stated: nothing is to be guessed from places.
+    // The parents are stated, so nothing is joined by position.
     let mut out = Centerlines { joined: true, ..Centerlines::of("SWC") };
     out.lines = tree.branches(&nodes)?;
     if let Some(scale) = unused_scale(bytes) {
@@ -30,8 +26,7 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Centerlines> {
     out.without_zero_radii().tidy()
 }
 
-/// A comment `SCALE` in front of the nodes that is not 1 along all axes. Programs differ in whether the
-/// nodes already hold it.
+/// A leading `SCALE` comment other than 1; programs differ in whether nodes already include it.
 fn unused_scale(bytes: &[u8]) -> Option<String> {
     let comments = text::lines(bytes).map_while(|(_, line)| Some(line.strip_prefix('#')?.trim().to_owned()));
     let is_one = |word: &str| word.parse() == Ok(1.0);
@@ -41,19 +36,18 @@ fn unused_scale(bytes: &[u8]) -> Option<String> {
     })
 }
 
-/// Whether a line of text is a node.
 pub(crate) fn is_node(line: &str) -> bool {
     let fields = text::fields(line, Separator::Blanks);
     fields.len() == 7 && whole(0, fields[1]).is_ok() && node(0, line).is_ok()
 }
 
 struct Node {
-    /// The line of the file.
+    /// Line number.
     line: usize,
     id: i64,
     point: DVec3,
     radius: f64,
-    /// `None` for a root.
+    /// None for a root.
     parent: Option<i64>,
 }
 
@@ -67,7 +61,7 @@ fn node(line: usize, content: &str) -> Result<Node> {
     Ok(Node { line, id, point: text::point(line, [x, y, z])?, radius: text::number(line, radius)?, parent })
 }
 
-/// An id, which some programs write as `1.0`.
+/// An integer, which some programs write as `1.0`.
 fn whole(line: usize, field: &str) -> Result<i64> {
     let of_float = || {
         let number = field.parse::<f64>().ok()?;
@@ -80,17 +74,17 @@ fn whole(line: usize, field: &str) -> Result<i64> {
         .ok_or_else(|| Error::new(format!("line {line}"), excerpt(field), "a whole number as id or parent"))
 }
 
-/// The children of every node, one node's after the other's.
+/// Children of every node, contiguous.
 struct Tree {
     roots: Vec<usize>,
     children: Vec<usize>,
-    /// Where the children of each node begin, and where the last one's end.
+    /// Start index per node, plus the end.
     begins: Vec<usize>,
 }
 
 impl Tree {
     fn new(nodes: &[Node]) -> Result<Self> {
-        // The nodes in the order of their ids, in which they usually stand in the file.
+        // Sorted by id, which is the usual file order.
         let mut order: Vec<(i64, usize)> = nodes.iter().enumerate().map(|(i, node)| (node.id, i)).collect();
         order.sort_unstable();
         if let Some(pair) = order.windows(2).find(|pair| pair[0].0 == pair[1].0) {
@@ -137,7 +131,7 @@ impl Tree {
         &self.children[self.begins[node]..self.begins[node + 1]]
     }
 
-    /// The branches, each behind the one that it comes from.
+    /// Branches, each after its parent.
     fn branches(&self, nodes: &[Node]) -> Result<Vec<Line>> {
         let mut lines = Vec::new();
         let mut reached = vec![false; nodes.len()];

@@ -1,16 +1,15 @@
-//! The dictionary of an LZMA block, which its reader reserves as large as the block claims.
+//! Reduces the dictionary of an LZMA block, because its reader allocates the stated size.
 
 use std::borrow::Cow;
 
-/// The header of the stream: magic bytes, flags and their check sum.
+/// Stream header: magic bytes, flags, checksum.
 const STREAM_HEADER: usize = 12;
-/// What the reader takes beside the dictionary (KiB), with some room.
+/// Reader memory besides the dictionary (KiB), with a margin.
 const READER_KIB: u32 = 256;
-/// The dictionary sizes of the format, by the code that stands for them.
 const CODES: std::ops::Range<u8> = 0..40;
 
-/// The block with a dictionary no larger than its content of `size` bytes can use, and the memory (KiB) that
-/// reading it may take. A block of another shape than writers of VTK make comes back as it is.
+/// The block with a dictionary no larger than its content of `size` bytes needs, and the memory limit (KiB).
+/// Unusual blocks are returned unchanged.
 pub(crate) fn with_small_dictionary(block: &[u8], size: usize) -> (Cow<'_, [u8]>, u32) {
     let code = CODES.into_iter().find(|code| dictionary(*code) >= size as u64).unwrap_or(CODES.end);
     let memory = READER_KIB.saturating_add(u32::try_from(dictionary(code) >> 10).unwrap_or(u32::MAX));
@@ -25,12 +24,11 @@ pub(crate) fn with_small_dictionary(block: &[u8], size: usize) -> (Cow<'_, [u8]>
     (smaller.unwrap_or(Cow::Borrowed(block)), memory)
 }
 
-/// The bytes of a dictionary with this code.
 fn dictionary(code: u8) -> u64 {
     u64::from(2 | code & 1) << (code / 2 + 11)
 }
 
-/// Where the header of a block has the code of its dictionary and its check sum.
+/// Offsets of the dictionary code and the header checksum.
 struct Place {
     code: usize,
     sum: usize,
@@ -42,7 +40,7 @@ fn dictionary_place(block: &[u8]) -> Option<Place> {
     if block.len() < sum + 4 || flags & 0x3f != 0 {
         return None;
     }
-    // The sizes of the block, where they stand, are numbers whose last byte is below 128.
+    // Block sizes are variable-length numbers whose last byte is below 128.
     let mut at = 0;
     for _ in 0..(flags >> 6).count_ones() {
         at += 1 + fields[at..].iter().position(|byte| *byte < 128)?;

@@ -1,4 +1,4 @@
-//! Clicks that are taken although they lie beside lumen, or where hardly anything but lumen is around them.
+//! Clicks next to lumen, or in nothing but lumen, are accepted.
 #![allow(clippy::unwrap_used)]
 
 use glam::{DAffine3, DVec3};
@@ -18,8 +18,7 @@ fn traced(volume: &Volume, clicks: &[DVec3]) -> lumencut_core::error::Result<Tra
     Tracer::default().trace(volume, &clicks, &|| false, None).map(|mut lines| lines.remove(0))
 }
 
-/// A chamber of blood (470 HU, noise of 40) of radius 48 mm in fat, whose voxels are cubes of 1.5 mm: within 30 mm of its middle
-/// there is nothing but blood.
+/// A chamber of blood (470 HU, noise 40, radius 48 mm) in fat: only blood within 30 mm of its centre.
 fn chamber() -> (Vec<i16>, [usize; 3], DAffine3) {
     let side = 72;
     let mut seed = 7u32;
@@ -30,7 +29,7 @@ fn chamber() -> (Vec<i16>, [usize; 3], DAffine3) {
     let value = |n: usize| {
         let index = DVec3::new((n % side) as f64, (n / side % side) as f64, (n / (side * side)) as f64);
         let is_blood = (index - DVec3::splat(35.5)).length() * 1.5 < 48.0;
-        // Twelve even deviates have about the distribution of a normal one.
+        // Nearly normal: the sum of twelve uniform numbers.
         let deviate: f64 = (0..12).map(|_| noise()).sum();
         (if is_blood { 470.0 } else { -90.0 } + 40.0 * deviate).round() as i16
     };
@@ -54,7 +53,7 @@ fn a_click_next_to_lumen_means_the_lumen_and_one_farther_away_is_refused() {
     let phantom = straight_tube().unwrap();
     let volume = phantom.volume().unwrap();
     let (from, to) = (DVec3::Z * -15.0, DVec3::new(0.3, 0.2, 15.0));
-    // The tube has a radius of 4 mm; a place that looks like lumen on all sides lies about 3 mm from its middle.
+    // Radius 4 mm; a place with lumen on all sides is about 3 mm from the centre.
     for first in [DVec3::new(4.6, 0.0, -15.0), DVec3::new(0.0, -4.6, -15.0)] {
         let line = traced(&volume, &[first, to]).unwrap().line;
         assert!(line.points[0].truncate().length() < 1.0, "{}", line.points[0]);
@@ -62,7 +61,7 @@ fn a_click_next_to_lumen_means_the_lumen_and_one_farther_away_is_refused() {
     }
     let refused = traced(&volume, &[from, DVec3::new(7.0, 0.0, 15.0)]).unwrap_err();
     assert!(refused.mend.contains("the nearest place that looks like lumen"), "{refused}");
-    // What is refused before a second click, and what is not, is the same.
+    // The check of a first click agrees.
     let tracer = Tracer::default();
     assert!(tracer.check_click(&volume, DVec3::new(4.6, 0.0, -15.0)).is_ok());
     assert!(tracer.check_click(&volume, DVec3::new(7.0, 0.0, -15.0)).is_err());

@@ -1,4 +1,4 @@
-//! Every encoding of every format gives the same lines; what is odd is noted, what is wrong is named.
+//! Tests: every encoding of every format gives the same lines, notes and errors.
 
 use glam::DVec3;
 

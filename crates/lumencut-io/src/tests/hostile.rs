@@ -1,4 +1,4 @@
-//! Content that is no centerline file, or wants to be dear.
+//! Tests: foreign content, and content that is expensive to read.
 
 use crate::{junctions, read};
 

@@ -1,5 +1,4 @@
-//! SimVascular, SWC, ITK tubes, fiducials, Rotterdam references and NumPy arrays: what is read, what is
-//! noted, what is named.
+//! Tests: SimVascular, SWC, ITK tubes, fiducials, Rotterdam references and NumPy arrays.
 
 use glam::DVec3;
 
@@ -111,7 +110,7 @@ fn swc_errors_name_the_line() {
     assert!(message("# nothing\n", "a.swc").contains("no node"));
 }
 
-/// A tube with fields in front of its points.
+/// A tube with additional fields.
 fn tube(fields: &str, points: &str) -> String {
     format!(
         "ObjectType = Scene\nNDims = 3\nNObjects = 1\nObjectType = Tube\nObjectSubType = Vessel\nNDims = 3\n{fields}\n\

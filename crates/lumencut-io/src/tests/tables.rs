@@ -1,4 +1,4 @@
-//! Tables: separators, headers, units, lines; what is not clear is refused.
+//! Tests: separators, headers, units and lines of tables; ambiguous ones are rejected.
 
 use glam::DVec3;
 
@@ -189,7 +189,7 @@ fn the_first_row_of_a_spreadsheet_may_name_its_separator() {
     }
 }
 
-/// The header of a table of control points as 3D Slicer writes it.
+/// Header of 3D Slicer's table of control points.
 const SLICER: &str = "label,r,a,s,defined,selected,visible,locked,description";
 
 #[test]
@@ -212,7 +212,7 @@ fn empty_last_fields_are_fields() {
             }
         }
     }
-    // Separators behind the last column are none of a field that is missing.
+    // Trailing separators are not missing fields.
     assert_eq!(ok("x,y,z\n1,2,3,,,\n1,2,4,,,\n").lines[0].points.len(), 2);
     assert!(
         message("x,y,z,name\n1,2,3\n").contains("line 2: found 3 column(s), '1,2,3'; expected 4 columns")
@@ -278,7 +278,7 @@ fn quoted_fields_hold_separators_quotes_and_line_ends() {
         let z: Vec<f64> = read.lines[0].points.iter().map(|p| p.z).collect();
         assert_eq!(z, [1.5, 2.5, 3.5], "{description:?}");
     }
-    // Inches within a field begin no quotation.
+    // Inch marks within a field do not start a quotation.
     assert_eq!(ok("name,x,y,z\n5\" wire,1,2,3\n5\" wire,1,2,4\n").lines[0].points.len(), 2);
     let open = message("x,y,z,name\n1,2,3,\"a\n1,2,4,b\n");
     assert!(open.contains("line 2: found a quotation mark without its end"), "{open}");
