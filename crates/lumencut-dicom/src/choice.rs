@@ -31,7 +31,6 @@ pub(crate) fn chosen<'s, 'a>(
     Ok(&every[one])
 }
 
-/// By number or UID.
 fn asked_for<'s, 'a>(every: &'s [Series<'a>], wanted: &str) -> Result<&'s Series<'a>> {
     let is_meant = |one: &&Series| {
         let number = one.number();

@@ -13,7 +13,6 @@ use crate::wording::{counted, listed};
 const OF_THE_PATIENT: [Keyword; 4] =
     [Keyword::PatientID, Keyword::IssuerOfPatientID, Keyword::PatientName, Keyword::PatientBirthDate];
 
-/// An image and another file with its identifier.
 type Copy<'i, 'a> = (&'i Image<'a>, &'i Image<'a>);
 
 pub(crate) fn without_copies<'i, 'a>(images: &[&'i Image<'a>]) -> (Vec<&'i Image<'a>>, Vec<Copy<'i, 'a>>) {
@@ -64,7 +63,6 @@ fn no_copy(kept: &Image, copy: &Image, what: &str) -> Error {
     error.mend("remove the wrong one of the two, or export the series again")
 }
 
-/// First attribute that differs.
 fn differing(one: &Image, other: &Image) -> Option<Keyword> {
     let (a, b) = (one.header, other.header);
     let frames = a.frames.iter().zip(&b.frames);

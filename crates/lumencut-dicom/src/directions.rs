@@ -8,7 +8,7 @@ pub(crate) const ROUNDING: f64 = 0.01;
 const EXACT: f64 = 1e-4;
 
 #[derive(Debug, Clone, Copy)]
-pub struct Directions {
+pub(crate) struct Directions {
     pub along_i: DVec3,
     pub along_j: DVec3,
     stated: [DVec3; 2],
@@ -18,7 +18,7 @@ pub struct Directions {
 
 impl Directions {
     /// None if the cosines are too far from orthonormal.
-    pub fn of(cosines: &[f64; 6]) -> Option<Self> {
+    pub(crate) fn of(cosines: &[f64; 6]) -> Option<Self> {
         let stated = [DVec3::from_slice(&cosines[..3]), DVec3::from_slice(&cosines[3..])];
         let [along_i, along_j] = orthonormal(stated)?;
         let made = Self { along_i, along_j, stated, is_rounded: true };
@@ -34,7 +34,7 @@ impl Directions {
     }
 
     /// Turns rounded directions perpendicular to the line of slices, if that is within rounding.
-    pub fn along(self, line: Option<DVec3>) -> Self {
+    pub(crate) fn along(self, line: Option<DVec3>) -> Self {
         let line = line.filter(|_| self.is_rounded);
         line.and_then(|line| self.across(line)).unwrap_or(self)
     }
@@ -46,13 +46,12 @@ impl Directions {
         Some(Self { along_i, along_j, ..*self }).filter(|made| made.correction() <= ROUNDING)
     }
 
-    /// Largest change of a cosine.
-    pub fn correction(&self) -> f64 {
+    pub(crate) fn correction(&self) -> f64 {
         let [row, column] = self.stated;
         (self.along_i - row).abs().max_element().max((self.along_j - column).abs().max_element())
     }
 
-    pub fn normal(&self) -> DVec3 {
+    pub(crate) fn normal(&self) -> DVec3 {
         self.along_i.cross(self.along_j)
     }
 }

@@ -12,7 +12,6 @@ const RELATIVE: f64 = 1e-3;
 /// Maximum difference of cosines, unless rounded.
 const COSINE: f64 = 1e-3;
 
-/// Rejects slices that differ in size, spacing or orientation.
 pub(crate) fn require_alike(slices: &[Slice]) -> Result<()> {
     let size = |one: &Slice| one.size.map(|length| length as f64).to_vec();
     let along_i = |one: &Slice| one.directions.along_i.to_array().to_vec();
@@ -25,7 +24,6 @@ pub(crate) fn require_alike(slices: &[Slice]) -> Result<()> {
     alike(slices, "orientation", along_j, |a, b| (a - b).abs() < allowed)
 }
 
-/// Compares the numbers of each slice with those of the first.
 fn alike(
     slices: &[Slice],
     what: &str,

@@ -20,7 +20,6 @@ const SHARED: [Keyword; 6] = [
     Keyword::Columns,
 ];
 
-/// Replaces single-slice series that form a stack by one series.
 pub(crate) fn gathered(every: Vec<Series>) -> Vec<Series> {
     let numbers: Vec<usize> = (0..every.len()).filter(|&n| is_single(&every[n])).collect();
     let parts = groups(numbers.iter().map(|&n| shared(&every[n].images[0])));
@@ -62,7 +61,6 @@ pub(crate) fn note_parts(series: &Series, notes: &mut Vec<String>) {
     }
 }
 
-/// Whether a series has one slice, possibly in several copies.
 fn is_single(series: &Series) -> bool {
     let first = &series.images[0];
     let uid = first.get(Keyword::SOPInstanceUID);
@@ -70,7 +68,6 @@ fn is_single(series: &Series) -> bool {
     first.frame_count == 1 && !first.is_localizer(0) && series.images[1..].iter().all(is_same)
 }
 
-/// Whether slices form a stack, possibly after an offered remedy.
 fn is_scan(series: &Series) -> bool {
     let stack = || -> Result<Stack> {
         let placed = series.slices(&[], &mut Vec::new())?;

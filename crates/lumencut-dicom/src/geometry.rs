@@ -24,7 +24,6 @@ const FARTHEST: f64 = 1e9;
 /// Minimum stated tilt (degrees).
 const TILT: f64 = 0.1;
 
-/// Remedies that the caller requested.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Mending {
     /// Interpolate missing slices instead of rejecting them.
@@ -34,7 +33,7 @@ pub(crate) struct Mending {
 }
 
 #[derive(Debug)]
-pub struct Stack<'a> {
+pub(crate) struct Stack<'a> {
     pub slices: Vec<Slice<'a>>,
     /// Index k of each slice; fractional only if resampled.
     pub places: Vec<f64>,
@@ -48,13 +47,13 @@ pub struct Stack<'a> {
 }
 
 impl Stack<'_> {
-    pub fn size(&self) -> [i64; 3] {
+    pub(crate) fn size(&self) -> [i64; 3] {
         let [columns, rows] = self.slices[0].size;
         [columns, rows, self.places[self.places.len() - 1] as i64 + 1]
     }
 
     /// Indices k without a slice.
-    pub fn missing(&self) -> Vec<i64> {
+    pub(crate) fn missing(&self) -> Vec<i64> {
         let mut measured = self.places.iter().filter(|place| place.fract() == 0.0).peekable();
         let is_missing = |&k: &i64| measured.next_if(|place| **place == k as f64).is_none();
         (0..self.size()[2]).filter(is_missing).collect()
@@ -157,7 +156,6 @@ fn summed(steps: &[i64]) -> Vec<f64> {
     std::iter::once(0.0).chain(after).collect()
 }
 
-/// Vector between indices.
 fn step(ordered: &[Slice], places: &[f64]) -> DVec3 {
     let last = ordered.len() - 1;
     (ordered[last].position - ordered[0].position) / places[last]
@@ -169,7 +167,6 @@ fn is_line(ordered: &[Slice], places: &[f64], step: DVec3) -> bool {
     pairs.all(|(one, place)| (one.position - origin - *place * step).length() <= allowed)
 }
 
-/// A single slice with its stated thickness.
 fn alone(only: &Slice, notes: &mut Vec<String>) -> Result<Places> {
     for keyword in [Keyword::SpacingBetweenSlices, Keyword::SliceThickness] {
         let stated = only.image.number(only.frame, keyword)?;

@@ -32,7 +32,6 @@ pub(crate) fn require_grey(image: &Image) -> Result<()> {
     refused.map_err(|error| error.of(image.file))
 }
 
-/// Empty if not stated.
 pub(crate) fn photometric(image: &Image) -> String {
     match image.get(Keyword::PhotometricInterpretation) {
         Value::Empty => String::new(),
@@ -40,7 +39,6 @@ pub(crate) fn photometric(image: &Image) -> String {
     }
 }
 
-/// Columns and rows.
 pub(crate) fn plane_size(image: &Image) -> Option<[i64; 2]> {
     let length = |keyword| image.get(keyword).integer();
     Some([length(Keyword::Columns)?, length(Keyword::Rows)?])
@@ -83,7 +81,6 @@ fn require_decoder(image: &Image) -> Result<()> {
     Err(Error::new(format!("pixels in {named}"), expected).mend(mend))
 }
 
-/// Rejects unknown bit counts and signs.
 fn require_bits(image: &Image) -> Result<()> {
     let allocated = image.count(Keyword::BitsAllocated)?;
     let told = |bits: Option<i64>| bits.map_or_else(|| "not stated".to_owned(), |count| count.to_string());

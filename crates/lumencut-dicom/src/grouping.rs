@@ -2,7 +2,6 @@
 
 use std::collections::HashMap;
 
-/// Numbers of equal keys, in order of first appearance.
 pub(crate) fn groups(keys: impl IntoIterator<Item = String>) -> Vec<Vec<usize>> {
     together(keys.into_iter().collect())
 }

@@ -10,7 +10,7 @@ use crate::wording::{line, printable};
 static EMPTY: Value = Value::Empty;
 
 #[derive(Debug)]
-pub struct Image<'a> {
+pub(crate) struct Image<'a> {
     pub file: usize,
     /// Name of its file on one printable line.
     pub name: String,
@@ -25,7 +25,7 @@ pub struct Image<'a> {
 }
 
 impl<'a> Image<'a> {
-    pub fn new(number: usize, file: &'a File, header: &'a Header, is_decodable: bool) -> Result<Self> {
+    pub(crate) fn new(number: usize, file: &'a File, header: &'a Header, is_decodable: bool) -> Result<Self> {
         let mut image = Self {
             file: number,
             name: printable(&file.name),
@@ -40,13 +40,12 @@ impl<'a> Image<'a> {
         Ok(image)
     }
 
-    /// Top-level attribute.
-    pub fn get(&self, keyword: Keyword) -> &'a Value {
+    pub(crate) fn get(&self, keyword: Keyword) -> &'a Value {
         self.header.attributes.get(keyword).unwrap_or(&EMPTY)
     }
 
     /// Attribute of a frame: from its functional groups, then the shared ones, then the top level.
-    pub fn of_frame(&self, frame: usize, keyword: Keyword) -> &'a Value {
+    pub(crate) fn of_frame(&self, frame: usize, keyword: Keyword) -> &'a Value {
         if keyword.groups().is_empty() {
             return self.get(keyword);
         }
@@ -55,7 +54,7 @@ impl<'a> Image<'a> {
     }
 
     /// As one printable line; empty if not stated.
-    pub fn text(&self, keyword: Keyword) -> String {
+    pub(crate) fn text(&self, keyword: Keyword) -> String {
         match self.get(keyword) {
             Value::Empty => String::new(),
             stated => line(&stated.to_string()),
@@ -63,7 +62,7 @@ impl<'a> Image<'a> {
     }
 
     /// Top-level integer; None if not stated or zero.
-    pub fn count(&self, keyword: Keyword) -> Result<Option<i64>> {
+    pub(crate) fn count(&self, keyword: Keyword) -> Result<Option<i64>> {
         let stated = self.get(keyword);
         if stated.is_nothing() {
             return Ok(None);
@@ -72,8 +71,7 @@ impl<'a> Image<'a> {
         Ok(Some(count).filter(|&count| count != 0))
     }
 
-    /// Number of a frame, if stated.
-    pub fn number(&self, frame: usize, keyword: Keyword) -> Result<Option<f64>> {
+    pub(crate) fn number(&self, frame: usize, keyword: Keyword) -> Result<Option<f64>> {
         let stated = self.of_frame(frame, keyword);
         if stated.is_empty() {
             return Ok(None);
@@ -82,23 +80,23 @@ impl<'a> Image<'a> {
     }
 
     /// File name, plus the frame number (from 1) if there are several.
-    pub fn frame_name(&self, frame: usize) -> String {
+    pub(crate) fn frame_name(&self, frame: usize) -> String {
         if self.frame_count > 1 { format!("{} frame {}", self.name, frame + 1) } else { self.name.clone() }
     }
 
     /// Whether a frame is marked as localiser (scout, topogram).
-    pub fn is_localizer(&self, frame: usize) -> bool {
+    pub(crate) fn is_localizer(&self, frame: usize) -> bool {
         let is = |value: &Value| matches!(value, Value::Text(text) if text == "LOCALIZER");
         let stated = [self.get(Keyword::ImageType), self.of_frame(frame, Keyword::FrameType)];
         stated.iter().any(|value| value.all().iter().any(is))
     }
 
-    pub fn has_position(&self, frame: usize) -> bool {
+    pub(crate) fn has_position(&self, frame: usize) -> bool {
         !self.of_frame(frame, Keyword::ImagePositionPatient).is_empty()
     }
 
     /// Checks described frames only, because the stated count may be wrong.
-    pub fn has_positions(&self) -> bool {
+    pub(crate) fn has_positions(&self) -> bool {
         let described = self.header.frames.len().max(1);
         let frames = usize::try_from(self.frame_count.max(1)).map_or(described, |count| count.min(described));
         (0..frames).any(|frame| self.has_position(frame))

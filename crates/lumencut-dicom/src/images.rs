@@ -11,7 +11,6 @@ const DIRECTORY: &str = "Media Storage Directory";
 /// Objects with contours but no voxels.
 const SHAPES: [&str; 2] = ["RT Structure Set Storage", "Surface Segmentation Storage"];
 
-/// Notes the other files.
 pub(crate) fn images<'a>(headers: &'a Headers, notes: &mut Vec<String>) -> Result<Vec<Image<'a>>> {
     let (mut images, mut foreign) = (Vec::new(), Vec::new());
     for (number, file) in headers.files.iter().enumerate() {

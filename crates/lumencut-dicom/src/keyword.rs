@@ -1,10 +1,11 @@
 //! The attributes used in judgements, which hosts read.
 
 macro_rules! keywords {
-    ($($(#[$comment:meta])+ $keyword:ident),+ $(,)?) => {
-        /// An attribute, by its keyword in the standard (PS3.6).
+    ($($(#[$comment:meta])* $keyword:ident),+ $(,)?) => {
+        /// An attribute, by its keyword in the standard (PS3.6), which defines its meaning.
+        #[allow(missing_docs)]
         #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-        pub enum Keyword { $($(#[$comment])+ $keyword),+ }
+        pub enum Keyword { $($(#[$comment])* $keyword),+ }
 
         impl Keyword {
             /// All attributes.
@@ -21,63 +22,42 @@ macro_rules! keywords {
 keywords! {
     /// Instance identifier; equal ones are copies.
     SOPInstanceUID,
-    /// Study.
     StudyInstanceUID,
     /// Common space of several series.
     FrameOfReferenceUID,
-    /// Patient identifier.
     PatientID,
-    /// Issuer of the patient identifier.
     IssuerOfPatientID,
     /// Patient name; never shown.
     PatientName,
     /// Birth date; never shown.
     PatientBirthDate,
-    /// Series.
     SeriesInstanceUID,
-    /// Number of the series.
     SeriesNumber,
-    /// Description of the series.
     SeriesDescription,
-    /// Modality.
     Modality,
-    /// Image type, such as localiser.
     ImageType,
-    /// Image type of a frame.
     FrameType,
-    /// Number of frames.
     NumberOfFrames,
-    /// Pixels per column.
     Rows,
-    /// Pixels per row.
     Columns,
-    /// Numbers per pixel.
     SamplesPerPixel,
-    /// Meaning of pixel values.
     PhotometricInterpretation,
-    /// Bits per stored number.
     BitsAllocated,
-    /// Used bits.
     BitsStored,
     /// Highest used bit.
     HighBit,
-    /// Whether stored numbers are signed.
     PixelRepresentation,
     /// Stored number outside the scan.
     PixelPaddingValue,
     /// Look-up table from stored numbers to values, passed as its number of items.
     ModalityLUTSequence,
-    /// Factor from stored numbers to values.
     RescaleSlope,
-    /// Offset from stored numbers to values.
     RescaleIntercept,
-    /// Whether compression was lossy.
     LossyImageCompression,
     /// Distance between rows, then between columns (mm).
     PixelSpacing,
     /// Centre of the first pixel (mm, LPS).
     ImagePositionPatient,
-    /// Directions of a row and a column.
     ImageOrientationPatient,
     /// Slice thickness (mm).
     SliceThickness,
@@ -85,9 +65,7 @@ keywords! {
     SpacingBetweenSlices,
     /// Gantry tilt (degrees).
     GantryDetectorTilt,
-    /// Phase number.
     TemporalPositionIdentifier,
-    /// Phase number of a frame.
     TemporalPositionIndex,
     /// Cardiac phase (percent).
     NominalPercentageOfCardiacPhase,
@@ -95,25 +73,17 @@ keywords! {
     NominalCardiacTriggerDelayTime,
     /// Time since the trigger (ms).
     TriggerTime,
-    /// Contrast phase.
     ContrastBolusAgentPhase,
-    /// Echo number.
     EchoNumbers,
     /// Echo time (ms).
     EchoTime,
     /// Echo time of a frame (ms).
     EffectiveEchoTime,
-    /// Stack of a frame.
     StackID,
-    /// Reconstruction kernel.
     ConvolutionKernel,
-    /// Acquisition number.
     AcquisitionNumber,
-    /// Acquisition number of a frame.
     FrameAcquisitionNumber,
-    /// Acquisition time.
     AcquisitionTime,
-    /// Acquisition time of a frame.
     FrameAcquisitionDateTime,
     /// Creation time of the image.
     ContentTime,

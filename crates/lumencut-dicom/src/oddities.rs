@@ -25,7 +25,6 @@ pub(crate) fn note_oddities(stack: &Stack, notes: &mut Vec<String>) {
     note_padding(&images, notes);
 }
 
-/// Images of a stack, each once, in slice order.
 pub(crate) fn images_of<'a>(stack: &Stack<'a>) -> Vec<&'a Image<'a>> {
     let mut seen = BTreeSet::new();
     stack.slices.iter().map(|one| one.image).filter(|image| seen.insert(image.file)).collect()

@@ -7,7 +7,6 @@ use crate::keyword::Keyword;
 use crate::value::Value;
 use crate::wording::{counted, listed, quoted, shown};
 
-/// Empty where not stated.
 #[derive(Debug)]
 pub(crate) struct Patient {
     id: String,
@@ -39,7 +38,6 @@ impl Patient {
         differ(&self.name, &other.name) || differ(&self.birth, &other.birth)
     }
 
-    /// ID and issuer for messages.
     fn named(&self) -> String {
         if self.id.is_empty() {
             return "no PatientID".to_owned();

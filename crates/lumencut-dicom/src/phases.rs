@@ -42,7 +42,6 @@ const WHOLE_PHASE: [Keyword; 3] = [
     Keyword::NominalPercentageOfCardiacPhase,
 ];
 
-/// Most reliable attribute that differs in all pairs.
 pub(crate) fn telling(pairs: &[Pair]) -> Option<Keyword> {
     let differs = |keyword| move |pair: &Pair| told(&pair.0, keyword) != told(&pair.1, keyword);
     PHASE_KEYWORDS.into_iter().find(|&keyword| pairs.iter().all(differs(keyword)))
@@ -79,7 +78,6 @@ pub(crate) fn of_phase<'a>(
     Err(Error::new(found, "the value of an attribute that some slices have"))
 }
 
-/// Notes the positions that a phase lacks.
 fn note_left_out(every: &[Slice], own: &[Slice], phase: &str, notes: &mut Vec<String>) {
     let Some(normal) = own.first().map(Slice::normal) else { return };
     let heights = |slices: &[Slice]| slices.iter().map(|one| one.position.dot(normal)).collect::<Vec<f64>>();
@@ -89,7 +87,6 @@ fn note_left_out(every: &[Slice], own: &[Slice], phase: &str, notes: &mut Vec<St
     }
 }
 
-/// Rejects phases whose slices interleave at separate positions.
 pub(crate) fn refuse_interleaved(ordered: &[Slice]) -> Result<()> {
     for keyword in WHOLE_PHASE {
         let values: Vec<String> = ordered.iter().map(|one| told(one, keyword)).collect();
@@ -109,7 +106,6 @@ pub(crate) fn told(one: &Slice, keyword: Keyword) -> String {
     one.get(keyword).to_string()
 }
 
-/// Choice among phases with printable values.
 pub(crate) fn choice(slices: &[Slice], keyword: Keyword) -> Mend {
     let different: BTreeSet<String> = slices.iter().map(|one| told(one, keyword)).collect();
     let mut values: Vec<String> = different.into_iter().collect();

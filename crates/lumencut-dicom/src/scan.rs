@@ -66,7 +66,6 @@ fn common<'a>(slices: &[Slice<'a>], keyword: Keyword) -> Option<&'a Value> {
     slices.iter().all(|one| one.get(keyword) == first).then_some(first)
 }
 
-/// A value as one printable line, if it can be shown.
 fn text(value: &Value) -> Option<String> {
     let plain = |value: &Value| !value.is_empty() && !matches!(value, Value::Odd | Value::List(_));
     let parts: Vec<String> =

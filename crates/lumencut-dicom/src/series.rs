@@ -12,7 +12,7 @@ use crate::slices::{Pair, Slice, slices_of};
 use crate::wording::{counted, listed};
 
 #[derive(Debug)]
-pub struct Series<'a> {
+pub(crate) struct Series<'a> {
     /// May be empty.
     pub uid: String,
     /// Number of single-slice series it was gathered from; normally 1.
@@ -22,37 +22,35 @@ pub struct Series<'a> {
 }
 
 #[derive(Debug)]
-pub struct Placed<'a> {
+pub(crate) struct Placed<'a> {
     pub slices: Vec<Slice<'a>>,
     /// Slices of copies, each after the slice read.
     pub copies: Vec<Pair<'a>>,
 }
 
 impl Series<'_> {
-    pub fn number(&self) -> String {
+    pub(crate) fn number(&self) -> String {
         plain(&self.text(Keyword::SeriesNumber))
     }
 
-    /// Whether it, or a gathered part, has this UID.
-    pub fn has_uid(&self, uid: &str) -> bool {
+    pub(crate) fn has_uid(&self, uid: &str) -> bool {
         self.uid == uid || self.images.iter().any(|image| image.text(Keyword::SeriesInstanceUID) == uid)
     }
 
-    pub fn description(&self) -> String {
+    pub(crate) fn description(&self) -> String {
         self.text(Keyword::SeriesDescription)
     }
 
-    pub fn modality(&self) -> String {
+    pub(crate) fn modality(&self) -> String {
         self.text(Keyword::Modality)
     }
 
-    /// Stated number of images (frames).
-    pub fn image_count(&self) -> i64 {
+    pub(crate) fn image_count(&self) -> i64 {
         self.images.iter().fold(0, |sum, image| sum.saturating_add(image.frame_count))
     }
 
     /// All slices, without copies, and without localisers if there are others.
-    pub fn slices(&self, unlike: &[Unlike], notes: &mut Vec<String>) -> Result<Placed<'_>> {
+    pub(crate) fn slices(&self, unlike: &[Unlike], notes: &mut Vec<String>) -> Result<Placed<'_>> {
         require_one_patient(&self.images)?;
         let is_scout = |image: &&Image| image.frame_count == 1 && image.is_localizer(0);
         let (scouts, mut images): (Vec<&Image>, Vec<&Image>) = self.images.iter().partition(is_scout);
@@ -75,7 +73,6 @@ impl Series<'_> {
     }
 }
 
-/// Groups images by series, in order of first appearance.
 pub(crate) fn grouped(images: Vec<Image>) -> Vec<Series> {
     let groups = groups(images.iter().map(|image| image.text(Keyword::SeriesInstanceUID)));
     let mut images: Vec<Option<Image>> = images.into_iter().map(Some).collect();

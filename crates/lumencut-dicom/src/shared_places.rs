@@ -15,7 +15,6 @@ use crate::slices::{Pair, Slice, are_unlike};
 use crate::spacing::ONE_PLACE;
 use crate::wording::{counted, listed};
 
-/// One slice per position of a sorted stack, and the pairs to compare.
 pub(crate) fn one_per_place<'a>(
     ordered: Vec<Slice<'a>>,
     unlike: &[Unlike],
@@ -83,7 +82,6 @@ fn firsts<'a>(places: &[&[Slice<'a>]], keyword: Option<Keyword>) -> (Vec<Slice<'
     (kept, pairs)
 }
 
-/// Error for slices at one position with different values.
 fn refused(found: &str, differing: &[Pair], apart: Option<(&[Slice], Keyword)>) -> Error {
     let found = format!("{found}, of different values: {}", names(differing));
     let Some((ordered, keyword)) = apart else {

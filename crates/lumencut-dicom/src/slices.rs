@@ -10,7 +10,6 @@ use crate::image::Image;
 use crate::keyword::Keyword;
 use crate::value::Value;
 
-/// A slice to read, and another considered equal.
 pub(crate) type Pair<'a> = (Slice<'a>, Slice<'a>);
 
 pub(crate) fn are_unlike((kept, other): &Pair, unlike: &[Unlike]) -> bool {
@@ -22,7 +21,7 @@ pub(crate) fn are_unlike((kept, other): &Pair, unlike: &[Unlike]) -> bool {
 
 /// One grey slice and its position (mm, LPS).
 #[derive(Debug, Clone)]
-pub struct Slice<'a> {
+pub(crate) struct Slice<'a> {
     pub image: &'a Image<'a>,
     pub frame: usize,
     /// Columns and rows.
@@ -37,17 +36,16 @@ pub struct Slice<'a> {
 }
 
 impl<'a> Slice<'a> {
-    /// See [`Image::frame_name`].
-    pub fn name(&self) -> String {
+    pub(crate) fn name(&self) -> String {
         self.image.frame_name(self.frame)
     }
 
     /// Slices are sorted along it.
-    pub fn normal(&self) -> DVec3 {
+    pub(crate) fn normal(&self) -> DVec3 {
         self.directions.normal()
     }
 
-    pub fn get(&self, keyword: Keyword) -> &'a Value {
+    pub(crate) fn get(&self, keyword: Keyword) -> &'a Value {
         self.image.of_frame(self.frame, keyword)
     }
 }

@@ -38,7 +38,6 @@ pub(crate) fn has_run(steps: &[i64]) -> bool {
     steps.windows(RUN).any(|run| run[0] > 1 && run.iter().all(|step| *step == run[0]))
 }
 
-/// Number of positions that a part lacks, and of all positions.
 pub(crate) fn left_out(every: &[f64], part: &[f64]) -> (usize, usize) {
     let (every, own) = (places(every), places(part));
     let has = |place: f64| {
@@ -55,7 +54,6 @@ fn places(heights: &[f64]) -> Vec<f64> {
     sorted
 }
 
-/// Lists a few different distances with counts, otherwise their range.
 pub(crate) fn told(gaps: &[f64]) -> String {
     let allowed = tolerance(median(gaps));
     let mut groups: Vec<(f64, usize)> = Vec::new();

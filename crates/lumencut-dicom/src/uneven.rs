@@ -102,7 +102,6 @@ impl Uneven<'_, '_> {
         std::iter::once(0.0).chain(above).collect()
     }
 
-    /// Distances much longer than their neighbours.
     fn wide(&self) -> Vec<usize> {
         let beside = |n: Option<usize>| n.and_then(|n| self.gaps.get(n)).copied().unwrap_or_default();
         let is_wide = |&n: &usize| self.gaps[n] > HOLE * beside(n.checked_sub(1)).max(beside(Some(n + 1)));
@@ -114,7 +113,6 @@ impl Uneven<'_, '_> {
         wide < self.gaps.iter().sum::<f64>() / 2.0
     }
 
-    /// First gap, and number of others.
     fn hole(&self) -> Option<String> {
         let wide = self.wide();
         let first = self.gap(*wide.first()?);
@@ -123,7 +121,6 @@ impl Uneven<'_, '_> {
         Some(format!("of {first}{more}"))
     }
 
-    /// First of the widest distances, up to rounding.
     fn widest(&self) -> usize {
         let widest = ends(&self.gaps).1;
         self.gaps.iter().position(|gap| gap + ROUNDING >= widest).unwrap_or_default()
@@ -170,7 +167,6 @@ fn places_on_grid(heights: &[f64], smallest: f64) -> Vec<f64> {
     heights.iter().map(|height| whole_where_rounded(height / total * steps)).collect()
 }
 
-/// Whether every slice has a separate index on a grid of this distance.
 fn holds(places: &[f64], heights: &[f64], step: f64) -> bool {
     let is_there = |(place, height): (&f64, &f64)| (height - place * step).abs() <= tolerance(step);
     places.windows(2).all(|pair| pair[0] < pair[1]) && places.iter().zip(heights).all(is_there)

@@ -7,7 +7,6 @@ const SHOWN: usize = 60;
 /// Maximum length of a free text.
 const LINE: usize = 64;
 
-/// With a plural s.
 pub(crate) fn counted(count: i64, what: &str) -> String {
     format!("{count} {what}{}", if count == 1 { "" } else { "s" })
 }
@@ -45,7 +44,6 @@ pub(crate) fn bracketed(numbers: &[f64]) -> String {
     format!("({})", numbers.join(", "))
 }
 
-/// Quoted as in Python.
 pub(crate) fn quoted(text: &str) -> String {
     let mark = if text.contains('\'') && !text.contains('"') { '"' } else { '\'' };
     let mut told = String::from(mark);
@@ -76,7 +74,6 @@ pub(crate) fn printable(text: &str) -> String {
     text.chars().map(|letter| if is_printable(letter) { letter } else { '\u{fffd}' }).collect()
 }
 
-/// A coded value as one short printable line.
 pub(crate) fn shown(value: &str) -> String {
     let text = printable(value);
     if text.chars().count() <= SHOWN {
@@ -85,7 +82,6 @@ pub(crate) fn shown(value: &str) -> String {
     text.chars().take(SHOWN - 1).chain(['…']).collect()
 }
 
-/// A free text as one short printable line.
 pub(crate) fn line(text: &str) -> String {
     let words: Vec<&str> = text.split_whitespace().collect();
     words.join(" ").chars().filter(|&letter| is_printable(letter)).take(LINE).collect()

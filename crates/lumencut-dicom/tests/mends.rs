@@ -6,14 +6,12 @@ use lumencut_dicom::{Mend, json};
 use made::{SYNTAX, as_they_are, even, refused, stack};
 use serde_json::{Value, json};
 
-/// The JSON error.
 fn document(files: &[Value]) -> Value {
     let headers = json!({"transfer_syntaxes": [SYNTAX], "files": files}).to_string();
     let answer: Value = serde_json::from_str(&json::judge(headers.as_bytes(), b"{}")).expect("JSON");
     answer["error"].clone()
 }
 
-/// Five positions in each of these phases.
 fn phases(times: &[&str]) -> Vec<Value> {
     let of = |time: &&str| {
         stack(&even(5), |k, attributes| {

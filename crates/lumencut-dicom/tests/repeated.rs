@@ -18,7 +18,6 @@ fn acquired(parts: &[std::ops::Range<usize>]) -> Vec<Value> {
     parts.iter().enumerate().flat_map(of).collect()
 }
 
-/// The judgement with these pairs found to differ.
 fn with_unlike(files: &[Value], unlike: &[[usize; 2]]) -> Value {
     let frame = |file: usize| json!({"file": file, "frame": 0});
     let pairs: Vec<Value> =
@@ -90,7 +89,6 @@ fn copies_are_compared_and_what_differs_is_refused() {
     assert_eq!(plan(&files).slices.len(), 4);
 }
 
-/// A separate series per slice.
 fn own_series(k: usize, attributes: &mut Value) {
     attributes["SeriesInstanceUID"] = format!("1.5.{k}").into();
 }

@@ -6,7 +6,6 @@ use lumencut_dicom::{ErrorKind, describe, json};
 use made::{SYNTAX, as_they_are, even, headers, judged, plan, refused, stack, with};
 use serde_json::{Value, json};
 
-/// A separate series.
 fn series(number: &str, description: &str, change: impl Fn(usize, &mut Value)) -> Vec<Value> {
     stack(&even(5), |k, attributes| {
         attributes["SeriesInstanceUID"] = format!("1.2.{number}").into();

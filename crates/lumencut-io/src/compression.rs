@@ -25,7 +25,6 @@ impl Compressor {
         }
     }
 
-    /// Maximum bytes unpacked from one byte.
     fn largest_ratio(self) -> usize {
         match self {
             Self::Zlib => 1032,
@@ -76,7 +75,6 @@ fn read_up_to(reader: impl Read, size: usize, out: &mut Vec<u8>) -> std::result:
     reader.take(limit).read_to_end(out).map(|_| ()).map_err(|error| error.to_string())
 }
 
-/// Bytes that the arrays of a file may still use.
 #[derive(Debug)]
 pub(crate) struct Budget {
     left: u64,
@@ -89,7 +87,6 @@ impl Budget {
         Self { left: (size as u64).saturating_mul(16).saturating_add(1 << 20) }
     }
 
-    /// Charges `size` bytes.
     pub(crate) fn take(&mut self, subject: &str, size: u64) -> Result<usize> {
         let too_much = || {
             let found = format!("{size} bytes to unpack");

@@ -77,7 +77,6 @@ pub(crate) fn number_of_word(subject: &str, word: &str, kind: NumberType) -> Res
     number.map_err(|_| Error::new(subject, excerpt(word), "a number"))
 }
 
-/// `number` as an index below `limit`.
 pub(crate) fn index(subject: &str, number: f64, limit: usize) -> Result<usize> {
     if number >= 0.0 && number < limit as f64 && number.fract() == 0.0 {
         Ok(number as usize)

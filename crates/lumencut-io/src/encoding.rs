@@ -56,7 +56,6 @@ impl<'a> Bytes<'a> {
     }
 }
 
-/// Next four characters, skipping white space.
 fn next_group(text: &mut &[u8]) -> Option<[u8; 4]> {
     let mut group = [0; 4];
     let mut filled = 0;

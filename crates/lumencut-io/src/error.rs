@@ -48,7 +48,6 @@ impl Error {
         self
     }
 
-    /// An error for a file that ends early.
     pub(crate) fn truncated(
         subject: impl Into<String>,
         found: impl Into<String>,

@@ -137,7 +137,6 @@ impl<'a> Scene<'a> {
         Self { objects, by_id }
     }
 
-    /// Transform of an object through all its parents.
     fn world_from_object(&self, object: &MetaObject, out: &mut Centerlines) -> Result<DAffine3> {
         let mut world = object.parent_from_object()?;
         let mut at = object;
@@ -159,7 +158,6 @@ impl<'a> Scene<'a> {
     }
 }
 
-/// Transforms a line to world space, scaling the radius too.
 fn placed(mut line: Line, world: DAffine3, out: &mut Centerlines) -> Line {
     if world == DAffine3::IDENTITY {
         return line;

@@ -8,7 +8,6 @@ use serde_json::value::RawValue;
 
 use crate::error::Result;
 
-/// A value of a valid JSON text.
 #[derive(Clone, Copy)]
 pub(crate) struct Json<'a>(&'a RawValue);
 

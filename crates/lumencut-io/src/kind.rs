@@ -59,7 +59,6 @@ fn packed(content: &[u8], name: &str) -> Result<()> {
     Err(Error::new("", found, "a centerline file").mend(mend))
 }
 
-/// Whether the first line is a leading MetaIO field.
 fn is_meta_io(content: &[u8]) -> bool {
     let key = content.split(|b| *b == b'=').next().unwrap_or_default().trim_ascii();
     key.len() < content.len() && [&b"ObjectType"[..], b"Comment", b"NDims", b"FormTypeName"].contains(&key)

@@ -34,7 +34,6 @@ pub(crate) struct MetaObject {
     pub line: Option<Line>,
 }
 
-/// Case-insensitive.
 pub(crate) fn one_of(name: &str, wanted: &[&str]) -> bool {
     wanted.iter().any(|wanted| name.eq_ignore_ascii_case(wanted))
 }
@@ -56,7 +55,6 @@ impl MetaObject {
         Ok(())
     }
 
-    /// Keeps a field, the first of duplicates.
     pub(crate) fn set(&mut self, key: &str, value: &str) {
         if let Some(key) = KNOWN.iter().find(|known| **known == key).filter(|key| self.get(key).is_none()) {
             self.fields.push((key, value.to_owned()));
@@ -75,7 +73,6 @@ impl MetaObject {
         self.get(key)?.parse().ok().filter(|id| *id >= 0)
     }
 
-    /// The name in errors and notes.
     pub(crate) fn title(&self) -> String {
         format!("{} {}", self.kind, self.get("ID").unwrap_or("without ID"))
     }
@@ -97,7 +94,6 @@ impl MetaObject {
         Ok(DAffine3::from_mat3_translation(matrix, offset.map_or(DVec3::ZERO, DVec3::from)))
     }
 
-    /// Numbers of the first existing field.
     fn numbers<const N: usize>(&self, keys: &[&str]) -> Result<Option<[f64; N]>> {
         let Some(text) = keys.iter().find_map(|key| self.get(key)) else { return Ok(None) };
         let numbers: Option<Vec<f64>> = text

@@ -230,7 +230,6 @@ fn radius(measurements: Option<Json>, placed: &[bool], [own, wanted]: [Unit; 2])
     Ok(Some(out))
 }
 
-/// Values and unit of the first radius measurement.
 fn measured_radius(measurements: Json) -> Option<[Option<Json>; 2]> {
     let mut found = None;
     measurements.each(|_, measurement| {

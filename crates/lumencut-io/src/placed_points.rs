@@ -5,7 +5,6 @@ use crate::error::{Error, Result, excerpt};
 
 const FEWEST: usize = 2;
 
-/// What a table column states.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum PlacedBy {
     /// Defined, 0 or 1.

@@ -272,7 +272,6 @@ fn check_format(version: Option<f64>) -> Result<()> {
     Err(error.mend(format!("{mend}the curves in it can still be read as centerlines")))
 }
 
-/// Checks that all parts are consistent.
 fn check(lines: &[Line], session: &Session) -> Result<()> {
     if session.format < session.least_format() {
         let what = if session.one_millimetre_assumed { "an assumed millimetre" } else { "noted diameters" };

@@ -74,7 +74,6 @@ fn whole(line: usize, field: &str) -> Result<i64> {
         .ok_or_else(|| Error::new(format!("line {line}"), excerpt(field), "a whole number as id or parent"))
 }
 
-/// Children of every node, contiguous.
 struct Tree {
     roots: Vec<usize>,
     children: Vec<usize>,
@@ -131,7 +130,6 @@ impl Tree {
         &self.children[self.begins[node]..self.begins[node + 1]]
     }
 
-    /// Branches, each after its parent.
     fn branches(&self, nodes: &[Node]) -> Result<Vec<Line>> {
         let mut lines = Vec::new();
         let mut reached = vec![false; nodes.len()];

@@ -115,7 +115,6 @@ fn separator_of(row: &str) -> Separator {
     }
 }
 
-/// Fields of a row, ignoring a trailing separator.
 fn fields_of(row: &str, separator: Separator) -> Vec<&str> {
     let mut fields = text::fields(row, separator);
     if fields.len() > 1 && fields.last() == Some(&"") {
@@ -235,7 +234,6 @@ impl Rows {
         placed.is_placed(fields[column]).map_err(|error| error.in_file(&subject))
     }
 
-    /// Starts a new line if the line column changed.
     fn begin_line(&mut self, key: &str) {
         if self.key.as_deref() == Some(key) {
             return;

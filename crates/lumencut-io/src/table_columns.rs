@@ -45,7 +45,6 @@ const POINT_PREFIXES: [&str; 6] = ["points:", "points_", "point_", "position_", 
 const EXPECTED: &str =
     "numbers, or a header that names x, y, z (or L, P, S; R, A, S; Points:0, Points:1, Points:2)";
 
-/// Lower-case name and unit.
 struct Name {
     base: String,
     unit: Option<String>,
@@ -116,7 +115,6 @@ impl Columns {
         Ok(out)
     }
 
-    /// x, y, z, and the radius as a fourth column.
     pub(crate) fn of_count(line: usize, count: usize) -> Result<Self> {
         if !matches!(count, 3 | 4) {
             let found = format!("{count} column(s) of numbers without a header");
@@ -171,7 +169,6 @@ fn is_twice(names: &[Name], axis: &str) -> bool {
     names.iter().filter(|name| name.axis() == axis).nth(1).is_some()
 }
 
-/// Coordinate columns, and the space their names state.
 fn coordinates(names: &[Name]) -> Option<([usize; 3], Option<Space>)> {
     let of = |axes: [&str; 3]| {
         let [x, y, z] = axes.map(|axis| names.iter().position(|name| name.axis() == axis));

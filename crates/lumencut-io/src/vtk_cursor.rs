@@ -112,7 +112,6 @@ impl<'a> Cursor<'a> {
         Ok(taken)
     }
 
-    /// Skips to the next `word`, or to the end.
     pub(crate) fn skip_to(&mut self, word: &[u8]) {
         let at = self.rest.windows(word.len()).position(|window| window == word);
         self.rest = at.map_or(&[], |at| &self.rest[at..]);

@@ -39,7 +39,6 @@ fn space_of_title(title: &str) -> Option<crate::Space> {
     poly_data::space_of(stated.get(..3)?)
 }
 
-/// What the next arrays belong to, with its count.
 #[derive(Clone, Copy)]
 enum At {
     File,
@@ -135,7 +134,6 @@ impl Sections<'_> {
         Ok((offsets.drain(..).skip(1).collect(), connectivity))
     }
 
-    /// Field arrays of points, cells or the file.
     fn field(&mut self) -> Result<()> {
         self.cursor.word("FIELD")?;
         for _ in 0..self.cursor.count("FIELD")? {
@@ -160,7 +158,6 @@ impl Sections<'_> {
         Ok(())
     }
 
-    /// Point or cell arrays in the old fixed forms.
     fn attribute(&mut self, keyword: &str) -> Result<()> {
         let (At::Points(count) | At::Cells(count)) = self.at else {
             return Err(unknown(keyword));

@@ -41,7 +41,6 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Centerlines> {
     if out.joined { out.tidy() } else { out.without_zero_radii().tidy() }
 }
 
-/// XML before the appended data, and the data after its `_`.
 fn split(bytes: &[u8]) -> Result<(&[u8], Option<Appended<'_>>)> {
     const TAG: &[u8] = b"<AppendedData";
     let Some(start) = bytes.windows(TAG.len()).position(|window| window == TAG) else {
@@ -133,7 +132,6 @@ impl Arrays<'_> {
         })
     }
 
-    /// Names of cells, each ending with a zero.
     fn names(&mut self, piece: &Piece) -> Result<Option<Vec<String>>> {
         let is_name = |array: &&Declared| {
             let has = |key, value| array.attributes.get(key) == Some(value);
@@ -147,7 +145,6 @@ impl Arrays<'_> {
         Ok(Some(texts.map(|text| String::from_utf8_lossy(text).into_owned()).collect()))
     }
 
-    /// Relevant arrays of a section, each name once.
     fn data_of(&mut self, piece: &Piece, section: &str) -> Result<Vec<Array>> {
         let mut out: Vec<Array> = Vec::new();
         for array in piece.arrays.iter().filter(|array| array.section == section) {

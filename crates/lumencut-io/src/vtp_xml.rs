@@ -6,7 +6,6 @@ use quick_xml::events::{BytesStart, Event};
 use crate::error::{Error, Result};
 use crate::xml::{self, Attributes};
 
-/// A `DataArray` or `Array`.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Declared {
     /// Enclosing element, such as `Points` or `FieldData`.

@@ -28,7 +28,6 @@ fn dictionary(code: u8) -> u64 {
     u64::from(2 | code & 1) << (code / 2 + 11)
 }
 
-/// Offsets of the dictionary code and the header checksum.
 struct Place {
     code: usize,
     sum: usize,

@@ -69,7 +69,6 @@ impl Style {
         format!("byte_order=\"{order}\" header_type=\"{header}\" compressor=\"{compressor}\"")
     }
 
-    /// Header with block sizes, then the blocks.
     fn packed(&self, content: &[u8]) -> Vec<u8> {
         let blocks: Vec<Vec<u8>> = content.chunks(self.block).map(|block| self.block(block)).collect();
         let last = (content.len() % self.block).wrapping_add_signed(isize::from(self.lie));

@@ -52,7 +52,6 @@ pub(super) fn follow(points: &[DVec3], paths: &mut [Path], spacing: f64) -> Foll
     Followed { ends: followed, whole: left.get() > 0 }
 }
 
-/// A stretch at the start of a path along another one.
 struct Shared {
     other: usize,
     backwards: bool,

@@ -6,7 +6,6 @@ use super::Path;
 use super::ids::{Id, Incidence, Table, id, make_room};
 use crate::centerlines::Line;
 
-/// The continuation of an edge at one end.
 #[derive(Clone, Copy, PartialEq)]
 enum Partner {
     None,
@@ -41,7 +40,6 @@ impl Edge {
     }
 }
 
-/// Chains between junctions, in path order.
 pub(super) fn chains(points: &[DVec3], paths: &[Path]) -> Vec<Line> {
     let (mut graph, steps) = Graph::of(points.len(), paths);
     for (path, steps) in paths.iter().zip(&steps) {
@@ -106,7 +104,6 @@ impl Graph {
         path.nodes.windows(2).enumerate().map(step).collect()
     }
 
-    /// Records that a path continues from `a` to `b` at `node`.
     fn pair(&mut self, node: Id, a: Id, b: Id) {
         if a == b {
             return;
@@ -164,7 +161,6 @@ impl Graph {
         (at, current)
     }
 
-    /// Edges from `start` to the next junction, or around a loop.
     fn chain(&self, start: Id, first: Id, done: &mut [bool]) -> Vec<Id> {
         let mut out = Vec::new();
         let (mut at, mut current) = (start, Some(first));
@@ -177,7 +173,6 @@ impl Graph {
         out
     }
 
-    /// Points of a chain, and radii if every edge has them.
     fn along(
         &self,
         start: Id,

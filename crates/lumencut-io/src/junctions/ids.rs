@@ -30,7 +30,6 @@ struct Slot {
 }
 
 impl Table {
-    /// Ids whose key may match.
     pub(super) fn like(&self, key: &impl Hash) -> impl Iterator<Item = Id> {
         let hash = self.hash(key);
         self.from(hash).take_while(|slot| slot.id != NONE).filter(move |slot| slot.hash == hash).map(|s| s.id)
@@ -74,7 +73,6 @@ pub(super) fn make_room<T>(all: &mut Vec<T>, most: usize) {
     }
 }
 
-/// Edges at every place, sorted by id.
 pub(super) struct Incidence {
     /// Start index per place, plus the end.
     begins: Vec<Id>,

@@ -28,7 +28,6 @@ use ids::{Id, MOST_POINTS};
 /// More lines skip step 3, which compares all pairs.
 const MOST_LINES_TO_FOLLOW: usize = 1024;
 
-/// A line as ids of welded points.
 struct Path {
     nodes: Vec<Id>,
     radius: Option<Vec<f64>>,

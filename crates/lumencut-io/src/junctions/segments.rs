@@ -122,7 +122,6 @@ impl Cloud {
     }
 }
 
-/// Drops duplicates in either direction.
 fn distinct(mut segments: Vec<Path>) -> Vec<Path> {
     let mut known = HashSet::new();
     segments.retain(|path| {
@@ -132,7 +131,6 @@ fn distinct(mut segments: Vec<Path>) -> Vec<Path> {
     segments
 }
 
-/// Orients chains independently of file order.
 struct Orientation<'a> {
     points: &'a [DVec3],
     chains: Vec<Option<Path>>,
@@ -157,7 +155,6 @@ impl<'a> Orientation<'a> {
         [f64::from(u8::from(chains.len() == 1)), radius.copied().fold(0.0, f64::max), z, y, x]
     }
 
-    /// Orients all chains away from their root, widest root first.
     fn away_from_roots(mut self) -> Vec<Path> {
         let ends = (0..self.points.len()).filter(|place| !self.ends.at(*place).is_empty()).map(id);
         let mut roots: Vec<([f64; 5], Id)> = ends.map(|node| (self.rank(node), node)).collect();

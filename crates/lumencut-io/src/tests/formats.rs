@@ -72,7 +72,6 @@ fn markups_are_read_in_their_space_and_unit() {
     assert!(message(&sample::mrk_json("LPS", "inch", 1.0), "a.json").contains("coordinateUnits"));
 }
 
-/// The first markup of one file with the second of another.
 fn mixed(first: Vec<u8>, second: Vec<u8>) -> Vec<u8> {
     let [first, second] = [first, second].map(|bytes| String::from_utf8(bytes).unwrap());
     let at = |text: &str| text.find("{\"type\": \"Curve\", \"name\": \"curve 3\"").unwrap();

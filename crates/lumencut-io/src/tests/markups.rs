@@ -12,7 +12,6 @@ fn message(markups: &str) -> String {
     read(markups.as_bytes(), "a.mrk.json").unwrap_err().to_string()
 }
 
-/// A file of one curve with additional fields.
 fn curve(fields: &str) -> String {
     let points = r#"{"position": [1, 2, 3]}, {"position": [1e0, -0.0, 18446744073709551615e-19]}"#;
     format!(r#"{{"markups": [{{"type": "Curve", "controlPoints": [{points}]{fields}}}]}}"#)
@@ -112,7 +111,6 @@ fn an_empty_unit_of_a_radius_is_that_of_its_curve() {
     assert_eq!(of(r#""units": ["mm", "UCUM", "millimeter"],"#).unwrap()[1], 0.05);
 }
 
-/// A file of one curve with these `positionStatus` values.
 fn with_statuses(statuses: &[&str]) -> String {
     let point =
         |(i, status): (usize, &&str)| format!(r#"{{"position": [{i}, 0, 0], "positionStatus": {status}}}"#);

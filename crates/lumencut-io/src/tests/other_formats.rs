@@ -110,7 +110,6 @@ fn swc_errors_name_the_line() {
     assert!(message("# nothing\n", "a.swc").contains("no node"));
 }
 
-/// A tube with additional fields.
 fn tube(fields: &str, points: &str) -> String {
     format!(
         "ObjectType = Scene\nNDims = 3\nNObjects = 1\nObjectType = Tube\nObjectSubType = Vessel\nNDims = 3\n{fields}\n\

@@ -274,7 +274,6 @@ pub fn pth() -> Vec<u8> {
     out.into_bytes()
 }
 
-/// Rows of line `i`: x, y, z, radius.
 fn rows(i: usize) -> Vec<[f64; 4]> {
     let begin = if i == 0 { 0 } else { ENDS[0] };
     line(i).iter().zip(&RADIUS[begin..]).map(|(p, r)| [p.x, p.y, p.z, *r]).collect()

@@ -27,7 +27,6 @@ fn polyline(from: DVec3, to: DVec3, count: usize, radius: [f64; 2]) -> Line {
     }
 }
 
-/// A trunk that forks twice.
 fn tree(steps: usize) -> Vec<Line> {
     let places = [
         [0.0; 3],
@@ -48,7 +47,6 @@ fn tree(steps: usize) -> Vec<Line> {
     ]
 }
 
-/// Every segment as a separate line.
 fn cut(lines: &[Line]) -> Vec<Line> {
     let of_line = |line: &Line| -> Vec<Line> {
         let radius = line.radius.clone();
@@ -63,7 +61,6 @@ fn cut(lines: &[Line]) -> Vec<Line> {
     lines.iter().flat_map(of_line).collect()
 }
 
-/// In any order and direction, some twice.
 fn shuffled(mut segments: Vec<Line>, seed: u64) -> Vec<Line> {
     let mut random = Random(seed);
     segments.push(segments[0].clone());

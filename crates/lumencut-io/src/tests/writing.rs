@@ -11,7 +11,6 @@ type Writer = fn(&[Line]) -> Result<Vec<u8>, Error>;
 
 const FORMATS: [(Writer, &str); 2] = [(write_vtp, "a.vtp"), (write_mrk_json, "a.mrk.json")];
 
-/// Text with every bit, including signs of zero.
 fn bits(lines: &[Line]) -> String {
     format!("{lines:?}")
 }
@@ -49,7 +48,6 @@ fn straight(from: [f64; 3], to: [f64; 3], radius: Option<f64>) -> Line {
     Line { points, radius, ..Line::default() }
 }
 
-/// A trunk with two branches at its end.
 fn fork(radius: Option<f64>) -> Vec<Line> {
     let end = [0.0, 0.0, 20.0];
     [([0.0; 3], end), (end, [9.0, 0.0, 30.0]), (end, [-9.0, 0.0, 31.0])]

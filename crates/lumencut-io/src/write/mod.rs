@@ -33,7 +33,6 @@ fn confidences(vessels: &[Line]) -> Option<Vec<f64>> {
     })
 }
 
-/// Checks that every vessel can be read back.
 pub(crate) fn check_all(vessels: &[Line]) -> Result<()> {
     if vessels.is_empty() {
         return Err(Error::new("vessels", "none", "at least one vessel"));

@@ -71,7 +71,6 @@ fn cell_data(vessels: &[Line]) -> String {
     format!("CELL_DATA {count}\nFIELD FieldData {}\n{}", arrays.len(), arrays.concat())
 }
 
-/// VTK text encoding: special characters as `%` and code.
 fn encoded(text: &str) -> String {
     text.bytes()
         .map(|byte| match byte {

@@ -37,7 +37,6 @@ fn branches(points: usize) -> Vec<Vec<Row>> {
     out
 }
 
-/// Every line from the root, as tools write one per outlet.
 fn with_trunks(tree: &[Vec<Row>]) -> Vec<Vec<Row>> {
     let mut out: Vec<Vec<Row>> = Vec::new();
     for rows in tree {
