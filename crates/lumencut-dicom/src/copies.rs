@@ -9,7 +9,6 @@ use crate::slices::{Pair, are_unlike, slices_of};
 use crate::value::Value;
 use crate::wording::{counted, listed};
 
-/// Patient attributes are compared separately.
 const OF_THE_PATIENT: [Keyword; 4] =
     [Keyword::PatientID, Keyword::IssuerOfPatientID, Keyword::PatientName, Keyword::PatientBirthDate];
 

@@ -6,7 +6,6 @@ use crate::report::Report;
 use crate::series::Series;
 use crate::wording::counted;
 
-/// Modalities of angiography volumes.
 const MODALITIES: [&str; 3] = ["CT", "MR", "XA"];
 const FEWEST_SLICES: i64 = 3;
 

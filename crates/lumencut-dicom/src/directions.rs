@@ -12,7 +12,6 @@ pub(crate) struct Directions {
     pub along_i: DVec3,
     pub along_j: DVec3,
     stated: [DVec3; 2],
-    /// Whether the cosines were rounded and therefore made orthonormal.
     pub is_rounded: bool,
 }
 

@@ -8,7 +8,6 @@ use crate::keyword::Keyword;
 use crate::patients::Patient;
 use crate::series::{Series, grouped};
 
-/// Minimum number of slices of a scan.
 const FEWEST: usize = 3;
 /// Attributes that the slices of a series share, besides their grid.
 const SHARED: [Keyword; 6] = [

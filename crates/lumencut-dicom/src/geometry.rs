@@ -37,9 +37,7 @@ pub(crate) struct Stack<'a> {
     pub slices: Vec<Slice<'a>>,
     /// Index k of each slice; fractional only if resampled.
     pub places: Vec<f64>,
-    /// Centre of the first voxel (mm, LPS).
     pub origin: DVec3,
-    /// Vectors between voxels along i, j, k.
     pub steps: [DVec3; 3],
     pub is_resampled: bool,
     /// Skipped slices, each after the slice read at its position.

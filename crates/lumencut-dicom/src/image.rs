@@ -12,14 +12,12 @@ static EMPTY: Value = Value::Empty;
 #[derive(Debug)]
 pub(crate) struct Image<'a> {
     pub file: usize,
-    /// Name of its file on one printable line.
     pub name: String,
     pub kind: &'a str,
     /// Whether the host can decode its pixels.
     pub is_decodable: bool,
     /// As stated, which may be wrong.
     pub frame_count: i64,
-    /// Numbers per pixel.
     pub samples: i64,
     pub header: &'a Header,
 }
@@ -79,12 +77,10 @@ impl<'a> Image<'a> {
         stated.number().map(Some).ok_or_else(|| damaged(keyword, "a number").of(self.file))
     }
 
-    /// File name, plus the frame number (from 1) if there are several.
     pub(crate) fn frame_name(&self, frame: usize) -> String {
         if self.frame_count > 1 { format!("{} frame {}", self.name, frame + 1) } else { self.name.clone() }
     }
 
-    /// Whether a frame is marked as localiser (scout, topogram).
     pub(crate) fn is_localizer(&self, frame: usize) -> bool {
         let is = |value: &Value| matches!(value, Value::Text(text) if text == "LOCALIZER");
         let stated = [self.get(Keyword::ImageType), self.of_frame(frame, Keyword::FrameType)];

@@ -30,7 +30,6 @@ pub struct Report {
     pub trouble: String,
 }
 
-/// On one line.
 impl fmt::Display for Report {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         let or = |text: &str, otherwise: &str| if text.is_empty() { otherwise } else { text }.to_owned();
@@ -47,7 +46,6 @@ impl fmt::Display for Report {
     }
 }
 
-/// The fields, plus the line as `shown`.
 impl Serialize for Report {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let mut fields = serializer.serialize_struct("Report", 10)?;

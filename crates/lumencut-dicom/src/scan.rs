@@ -8,7 +8,6 @@ use crate::slices::Slice;
 use crate::value::Value;
 use crate::wording::{line, rounded};
 
-/// Significant digits.
 const DIGITS: usize = 6;
 
 /// How a scan was made, without patient data; None where not stated or not common to all slices.
@@ -60,7 +59,6 @@ fn phase(slices: &[Slice]) -> Option<String> {
     (!all.is_empty()).then(|| all.join(", "))
 }
 
-/// Value common to all slices.
 fn common<'a>(slices: &[Slice<'a>], keyword: Keyword) -> Option<&'a Value> {
     let first = slices.first()?.get(keyword);
     slices.iter().all(|one| one.get(keyword) == first).then_some(first)

@@ -67,7 +67,6 @@ fn may_overlap(places: &[&[Slice]], keyword: Keyword) -> bool {
     shared < places.len() && (extend_each_other || 2 * shared <= places.len())
 }
 
-/// The first slice of each position by the attribute, and pairs of it with the others.
 fn firsts<'a>(places: &[&[Slice<'a>]], keyword: Option<Keyword>) -> (Vec<Slice<'a>>, Vec<Pair<'a>>) {
     let (mut kept, mut pairs) = (Vec::new(), Vec::new());
     for place in places {

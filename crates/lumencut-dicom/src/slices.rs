@@ -19,14 +19,11 @@ pub(crate) fn are_unlike((kept, other): &Pair, unlike: &[Unlike]) -> bool {
     unlike.iter().any(|pair| is(kept, pair.kept) && is(other, pair.other))
 }
 
-/// One grey slice and its position (mm, LPS).
 #[derive(Debug, Clone)]
 pub(crate) struct Slice<'a> {
     pub image: &'a Image<'a>,
     pub frame: usize,
-    /// Columns and rows.
     pub size: [i64; 2],
-    /// Centre of the first pixel.
     pub position: DVec3,
     pub directions: Directions,
     /// Distance between columns, then between rows.

@@ -20,12 +20,10 @@ const ROUNDING: f64 = 1e-6;
 #[derive(Debug)]
 pub(crate) struct Uneven<'s, 'a> {
     pub ordered: &'s [Slice<'a>],
-    /// Distances along the normal (mm).
     pub gaps: Vec<f64>,
 }
 
 impl Uneven<'_, '_> {
-    /// Error without a request to resample.
     pub(crate) fn refused(&self) -> Error {
         if let Err(error) = self.require_line() {
             return error;
@@ -132,7 +130,6 @@ impl Uneven<'_, '_> {
     }
 }
 
-/// Index of the first maximum; NaN exceeds all.
 fn largest(numbers: &[f64]) -> usize {
     let mut largest = 0;
     for (n, number) in numbers.iter().enumerate() {

@@ -1,10 +1,7 @@
 //! Formats counts, lists and numbers for messages.
 
-/// Maximum names in a list.
 pub(crate) const MENTIONED: usize = 4;
-/// Maximum length of a value.
 const SHOWN: usize = 60;
-/// Maximum length of a free text.
 const LINE: usize = 64;
 
 pub(crate) fn counted(count: i64, what: &str) -> String {

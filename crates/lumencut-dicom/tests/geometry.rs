@@ -144,7 +144,6 @@ fn holes_between_uneven_slices_are_filled_only_where_that_is_asked_for() {
     let far = heights.map(|height| if height > 20.0 { height + 40.0 } else { height });
     let error = judged(&stack(&far, as_they_are), wanted).expect_err("mostly a hole");
     assert_eq!((error.advice.as_str(), error.mended_by), ("add the missing files", None));
-    // A rejected remedy is not offered.
     let error = refused(&stack(&far, as_they_are));
     assert_eq!(
         (error.advice.as_str(), error.mended_by),

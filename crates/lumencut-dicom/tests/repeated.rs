@@ -6,7 +6,6 @@ use lumencut_dicom::{Error, Mend, Plan, json};
 use made::{SYNTAX, as_they_are, even, judged, plan, refused, stack};
 use serde_json::{Value, json};
 
-/// Acquisitions of 40 positions each, 2 mm apart.
 fn acquired(parts: &[std::ops::Range<usize>]) -> Vec<Value> {
     let of = |(n, part): (usize, &std::ops::Range<usize>)| {
         let heights: Vec<f64> = part.clone().map(|k| 2.0 * k as f64).collect();

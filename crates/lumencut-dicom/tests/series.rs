@@ -195,7 +195,6 @@ fn frames_come_before_what_they_share_before_the_top_level() {
     assert_eq!(refused(&[one]).found, "2000000000 frames and functional groups for 3");
 }
 
-/// Attributes whose texts are shown.
 const TOLD: [&str; 19] = [
     "SeriesInstanceUID",
     "SeriesNumber",
