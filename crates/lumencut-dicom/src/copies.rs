@@ -57,8 +57,8 @@ pub(crate) fn compared<'i>(
 }
 
 fn no_copy(kept: &Image, copy: &Image, what: &str) -> Error {
-    let found = format!("the SOPInstanceUID of {}, but other {what}", kept.name);
-    let error = Error::new(found, "one identifier for each image").of(copy.file);
+    let found = format!("the SOPInstanceUID of {}, but different {what}", kept.name);
+    let error = Error::new(found, "a unique identifier for each image").of(copy.file);
     error.mend("remove the wrong one of the two, or export the series again")
 }
 

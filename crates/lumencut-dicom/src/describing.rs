@@ -35,7 +35,7 @@ pub(crate) fn described(series: &Series) -> Report {
                 report.trouble = counted(missing, "missing slice");
             } else if report.can_be_volume && !stack.repeats.is_empty() {
                 let repeats = counted(stack.repeats.len() as i64, "slice");
-                report.trouble = format!("{repeats} at places of others");
+                report.trouble = format!("{repeats} at positions of others");
             }
         }
         Err(error) if report.can_be_volume => report.trouble = error.found,

@@ -45,7 +45,7 @@ fn alike(
         listed(&names),
     );
     let error = Error::new(found, "one stack of equal slices");
-    Err(error.mend("move the others to a folder of their own"))
+    Err(error.mend("move the others to a separate folder"))
 }
 
 /// Rejects a stack with gaps; `steps` are distances in usual ones.

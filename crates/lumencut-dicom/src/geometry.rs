@@ -170,7 +170,7 @@ fn alone(only: &Slice, notes: &mut Vec<String>) -> Result<Places> {
         let stated = only.image.number(only.frame, keyword)?;
         if let Some(thickness) = stated.filter(|thickness| thickness.is_finite() && *thickness > 0.0) {
             let (name, words) = (keyword.name(), only.get(keyword));
-            notes.push(format!("a single slice: {name} {words} mm taken as its thickness"));
+            notes.push(format!("a single slice: {name} {words} mm is used as its thickness"));
             return Ok((vec![0.0], thickness * only.normal(), false));
         }
     }
@@ -190,7 +190,7 @@ fn note_tilt(ordered: &[Slice], places: &[f64], step: DVec3, notes: &mut Vec<Str
     } else if let Some(tilt) = stated.filter(|tilt| tilt.abs() > TILT) {
         let tilt = rounded(tilt, 6);
         notes.push(format!(
-            "GantryDetectorTilt says {tilt} degrees, the positions show none: positions are used"
+            "GantryDetectorTilt is {tilt} degrees, but the positions show no tilt: positions are used"
         ));
     }
     Ok(())

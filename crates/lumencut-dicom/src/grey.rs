@@ -46,7 +46,7 @@ pub(crate) fn plane_size(image: &Image) -> Option<[i64; 2]> {
 
 fn require_size(image: &Image) -> Result<()> {
     let numbers = plane_size(image).map(|_| ());
-    numbers.ok_or_else(|| Error::new("Rows and Columns that are no numbers", "a number each"))
+    numbers.ok_or_else(|| Error::new("Rows and Columns that are not numbers", "one number each"))
 }
 
 fn require_one_number(image: &Image) -> Result<()> {
@@ -68,7 +68,7 @@ fn require_rescaling(image: &Image) -> Result<()> {
     if image.get(Keyword::ModalityLUTSequence).is_nothing() {
         return Ok(());
     }
-    Err(Error::new("values behind a modality look-up table", "RescaleSlope and RescaleIntercept"))
+    Err(Error::new("a modality look-up table", "RescaleSlope and RescaleIntercept"))
 }
 
 fn require_decoder(image: &Image) -> Result<()> {
@@ -77,7 +77,7 @@ fn require_decoder(image: &Image) -> Result<()> {
     }
     let named = uids::name(&image.header.transfer_syntax).unwrap_or("an unknown transfer syntax");
     let expected = "uncompressed, RLE, JPEG, JPEG-LS, JPEG 2000 or HTJ2K pixels";
-    let mend = "convert it to one of these, lossless where it can be";
+    let mend = "convert it to one of these, lossless if possible";
     Err(Error::new(format!("pixels in {named}"), expected).mend(mend))
 }
 
@@ -95,7 +95,7 @@ fn require_bits(image: &Image) -> Result<()> {
         return Err(Error::new(format!("BitsStored {}", told(stored)), format!("1 to {most}")));
     }
     if !matches!(image.get(Keyword::PixelRepresentation).integer(), Some(0 | 1)) {
-        let found = "no word on whether its values have a sign";
+        let found = "PixelRepresentation not stated";
         return Err(Error::new(found, "PixelRepresentation 0 or 1"));
     }
     Ok(())

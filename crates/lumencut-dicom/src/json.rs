@@ -40,8 +40,9 @@ pub fn describe(headers: &[u8]) -> String {
 /// Errors give the position only, because the parser's message quotes values.
 fn read<T: DeserializeOwned>(document: &[u8], what: &str) -> Result<T> {
     serde_json::from_slice(document).map_err(|error| {
-        let found = format!("{what} of another form at line {}, column {}", error.line(), error.column());
-        Error::new(found, "a document as lumencut-dicom describes it")
+        let found =
+            format!("{what} in an unexpected form at line {}, column {}", error.line(), error.column());
+        Error::new(found, "the JSON form of lumencut-dicom")
     })
 }
 

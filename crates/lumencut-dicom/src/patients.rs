@@ -61,7 +61,7 @@ pub(crate) fn require_one_patient(images: &[Image]) -> Result<()> {
     } else {
         format!("slices of several patients: PatientID is {}", ids(images, &every))
     };
-    Err(Error::new(found, "one patient").mend("move the slices of each patient to a folder of their own"))
+    Err(Error::new(found, "one patient").mend("move the slices of each patient to a separate folder"))
 }
 
 fn ids(images: &[Image], every: &[Patient]) -> String {

@@ -73,9 +73,9 @@ pub(crate) fn of_phase<'a>(
     };
     let is = |keyword: Keyword| format!("{} is {}", keyword.name(), values_of(slices, keyword));
     let told: Vec<String> = PHASE_KEYWORDS.into_iter().filter(separates).map(is).take(MENTIONED).collect();
-    let told = if told.is_empty() { "nothing tells phases apart".to_owned() } else { told.join("; ") };
+    let told = if told.is_empty() { "no attribute distinguishes phases".to_owned() } else { told.join("; ") };
     let found = format!("no phase {}: {told}", quoted(phase));
-    Err(Error::new(found, "the value of an attribute that some slices have"))
+    Err(Error::new(found, "an attribute value of some slices"))
 }
 
 fn note_left_out(every: &[Slice], own: &[Slice], phase: &str, notes: &mut Vec<String>) {
@@ -83,7 +83,7 @@ fn note_left_out(every: &[Slice], own: &[Slice], phase: &str, notes: &mut Vec<St
     let heights = |slices: &[Slice]| slices.iter().map(|one| one.position.dot(normal)).collect::<Vec<f64>>();
     let (count, places) = spacing::left_out(&heights(every), &heights(own));
     if count > 0 {
-        notes.push(format!("phase {} leaves out {count} of {places} places", shown(phase)));
+        notes.push(format!("phase {} lacks {count} of {places} positions", shown(phase)));
     }
 }
 

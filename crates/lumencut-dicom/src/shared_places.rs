@@ -28,11 +28,11 @@ pub(crate) fn one_per_place<'a>(
         .iter()
         .flat_map(|place| place.windows(2).map(|two| (two[0].clone(), two[1].clone())))
         .collect();
-    let found = format!("{} slices at {}", ordered.len(), counted(places.len() as i64, "place"));
+    let found = format!("{} slices at {}", ordered.len(), counted(places.len() as i64, "position"));
     let keyword = telling(&neighbours);
     if let Some(keyword) = keyword.filter(|&keyword| !may_overlap(&places, keyword)) {
         let found = format!("{found}: {}; {}", names(&neighbours), mixed(&ordered, keyword));
-        return Err(Error::new(found, "one slice per place").mended_by(choice(&ordered, keyword)));
+        return Err(Error::new(found, "one slice per position").mended_by(choice(&ordered, keyword)));
     }
     let (kept, pairs) = firsts(&places, keyword);
     let differing: Vec<Pair> = pairs.iter().filter(|pair| are_unlike(pair, unlike)).cloned().collect();
@@ -41,11 +41,11 @@ pub(crate) fn one_per_place<'a>(
     }
     notes.push(match keyword {
         Some(keyword) => format!(
-            "{found}, with the same values at shared ones: overlapping parts are read as one scan ({} is {})",
+            "{found}, with the same values at shared positions: overlapping parts are read as one scan ({} is {})",
             keyword.name(),
             values_of(&ordered, keyword)
         ),
-        None => format!("{found}, with the same values at shared ones: one of each is read"),
+        None => format!("{found}, with the same values at shared positions: one slice of each position is read"),
     });
     Ok((kept, pairs))
 }
@@ -82,13 +82,13 @@ fn firsts<'a>(places: &[&[Slice<'a>]], keyword: Option<Keyword>) -> (Vec<Slice<'
 }
 
 fn refused(found: &str, differing: &[Pair], apart: Option<(&[Slice], Keyword)>) -> Error {
-    let found = format!("{found}, of different values: {}", names(differing));
+    let found = format!("{found}, with different values: {}", names(differing));
     let Some((ordered, keyword)) = apart else {
-        return Error::new(found, "one slice per place").mend("remove all but one slice at each place");
+        return Error::new(found, "one slice per position").mend("remove all but one slice at each position");
     };
     let values = values_of(ordered, keyword);
     let found = format!("{found}; {} is {values}: phases, or overlapping parts of one scan", keyword.name());
-    let error = Error::new(found, "one slice per place").mend("remove one of each pair where they are parts");
+    let error = Error::new(found, "one slice per position").mend("remove one of each pair if they are parts");
     let different: BTreeSet<String> = ordered.iter().map(|one| told(one, keyword)).collect();
     // A value per slice does not indicate phases.
     if 2 * different.len() > ordered.len() { error } else { error.mended_by(choice(ordered, keyword)) }

@@ -89,7 +89,7 @@ fn scaling(image: &Image, frame: usize) -> Result<(f64, f64)> {
         return Err(Error::new(found, "finite numbers"));
     }
     if slope == 0.0 {
-        let error = Error::new("RescaleSlope 0, which makes all values one", "any other slope");
+        let error = Error::new("RescaleSlope 0, which makes all values equal", "a slope other than 0");
         return Err(error.mend("export the series again"));
     }
     Ok((slope, intercept))

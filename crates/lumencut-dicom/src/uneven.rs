@@ -32,7 +32,7 @@ impl Uneven<'_, '_> {
         match self.hole() {
             None => error.mended_by(Mend::ResampleSlices),
             Some(hole) => {
-                let error = error.mend(format!("add what is missing {hole}"));
+                let error = error.mend(format!("add the missing slices {hole}"));
                 if self.is_mostly_measured() { error.mended_by(Mend::ResampleAndFill) } else { error }
             }
         }
@@ -43,8 +43,8 @@ impl Uneven<'_, '_> {
     pub(crate) fn places(&self, fill_gaps: bool) -> Result<Vec<f64>> {
         self.require_line()?;
         if let Some(hole) = self.hole().filter(|_| !(fill_gaps && self.is_mostly_measured())) {
-            let found = format!("{}, with a hole {hole}", self.found());
-            let error = Error::new(found, "a series without holes").mend("add the missing files");
+            let found = format!("{}, with a gap {hole}", self.found());
+            let error = Error::new(found, "a series without gaps").mend("add the missing files");
             return Err(if fill_gaps { error } else { error.mended_by(Mend::FillGaps) });
         }
         if self.gaps.len() < 2 {
@@ -87,7 +87,7 @@ impl Uneven<'_, '_> {
             return Ok(());
         }
         let (name, by) = (self.ordered[worst].name(), rounded(off[worst], 3));
-        let found = format!("uneven slices: {name} is {by} mm off the line of the others");
+        let found = format!("uneven slices: {name} is {by} mm off the line through the others");
         Err(Error::new(found, format!("slices on a straight line within {} mm", rounded(allowed, 3))))
     }
 
@@ -115,7 +115,7 @@ impl Uneven<'_, '_> {
         let wide = self.wide();
         let first = self.gap(*wide.first()?);
         let others = wide.len() as i64 - 1;
-        let more = if others > 0 { format!(" and {}", counted(others, "more hole")) } else { String::new() };
+        let more = if others > 0 { format!(" and {}", counted(others, "more gap")) } else { String::new() };
         Some(format!("of {first}{more}"))
     }
 

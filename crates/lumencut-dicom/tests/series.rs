@@ -114,12 +114,12 @@ fn images_that_are_no_grey_slices_are_refused() {
             "a colour image (PhotometricInterpretation unknown)",
         ),
         ("SamplesPerPixel", json!(3), "a colour image (PhotometricInterpretation unknown)"),
-        ("ModalityLUTSequence", json!(1), "values behind a modality look-up table"),
+        ("ModalityLUTSequence", json!(1), "a modality look-up table"),
         ("BitsAllocated", json!(12), "BitsAllocated 12"),
         ("BitsStored", Value::Null, "BitsStored not stated"),
-        ("PixelRepresentation", Value::Null, "no word on whether its values have a sign"),
+        ("PixelRepresentation", Value::Null, "PixelRepresentation not stated"),
         ("NumberOfFrames", json!("3"), "a multi-frame image of 3 frames without a position for each"),
-        ("RescaleSlope", json!("0"), "RescaleSlope 0, which makes all values one"),
+        ("RescaleSlope", json!("0"), "RescaleSlope 0, which makes all values equal"),
         ("RescaleSlope", json!("nan"), "slope and intercept (nan, -1024.0)"),
         ("PixelSpacing", json!(["0", "1"]), "PixelSpacing [0.0, 1.0]"),
         (
@@ -261,7 +261,9 @@ fn documents_of_another_form_are_refused_without_their_values() {
     {
         let answer = json::judge(document.as_bytes(), b"{}");
         assert!(
-            answer.starts_with(r#"{"error":{"kind":"format","file":null,"found":"headers of another form"#)
+            answer.starts_with(
+                r#"{"error":{"kind":"format","file":null,"found":"headers in an unexpected form"#
+            )
         );
         assert!(!answer.contains("DOE"), "{answer}");
     }

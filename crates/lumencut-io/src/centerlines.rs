@@ -91,7 +91,7 @@ impl Centerlines {
             radius.iter_mut().filter(|radius| radius.is_nan()).for_each(|radius| *radius = 0.0);
         }
         if unknown > 0 {
-            self.notes.push(format!("{unknown} of {all} radii are not stated: unknown there"));
+            self.notes.push(format!("{unknown} of {all} radii are missing"));
         }
         self
     }
@@ -115,15 +115,13 @@ impl Centerlines {
     pub(crate) fn doubt_unnamed_columns(&mut self) {
         let mut numbers = self.lines.iter().flat_map(|line| &line.points).flat_map(|p| p.to_array());
         if numbers.all(|number| number.fract() == 0.0) {
-            self.note_once(
-                "all coordinates are whole numbers: perhaps indices of voxels, which are not mm".into(),
-            );
+            self.note_once("all coordinates are integers: these may be voxel indices instead of mm".into());
         }
         let mut radii = self.lines.iter().filter_map(|line| line.radius.as_ref()).flatten();
         if let Some(first) = radii.next() {
             let same =
                 if radii.all(|r| r == first) { format!(" ({first} everywhere)") } else { String::new() };
-            self.note_once(format!("radius from the fourth column, which nothing names{same}"));
+            self.note_once(format!("radius from the unnamed fourth column{same}"));
         }
     }
 
@@ -164,7 +162,7 @@ impl Centerlines {
         if self.lines.is_empty() {
             let found = match found {
                 0 => "no line".into(),
-                n => format!("{n} line(s) of a single place each"),
+                n => format!("{n} line(s) with a single distinct point"),
             };
             return Err(Error::new("lines", found, "at least one line of two or more points"));
         }

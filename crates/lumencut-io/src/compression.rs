@@ -61,11 +61,7 @@ impl Compressor {
         if out.len() - before == size {
             return Ok(());
         }
-        Err(Error::new(
-            subject,
-            format!("a block that unpacks to another size than {size} bytes"),
-            expected(),
-        ))
+        Err(Error::new(subject, format!("a block that does not unpack to {size} bytes"), expected()))
     }
 }
 
@@ -91,7 +87,7 @@ impl Budget {
         let too_much = || {
             let found = format!("{size} bytes to unpack");
             Error::new(subject, found, format!("at most {} bytes from a file of this size", self.left))
-                .mend("the file is damaged, or no centerline file")
+                .mend("the file is damaged or not a centerline file")
         };
         let left = self.left.checked_sub(size).ok_or_else(too_much)?;
         let length = usize::try_from(size).map_err(|_| too_much())?;

@@ -51,11 +51,11 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Centerlines> {
         hidden += usize::from(visible.is_some_and(|visible| *visible == "0"));
         line.points.push(text::point(number, [x, y, z])?);
     }
-    out.notes.push(format!("a list of {} fiducials is taken as one line, in its order", line.points.len()));
+    out.notes.push(format!("the {} fiducials are read as one line, in file order", line.points.len()));
     out.lines.push(line);
-    note_left_out(&mut out, without_place, "fiducial(s) without a place", "with one")?;
+    note_left_out(&mut out, without_place, "fiducial(s) without a position", "with one")?;
     if hidden > 0 {
-        out.notes.push(format!("{hidden} fiducial(s) that are hidden in 3D Slicer are part of the line"));
+        out.notes.push(format!("{hidden} fiducial(s) hidden in 3D Slicer are included"));
     }
     out.tidy()
 }

@@ -30,7 +30,7 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Centerlines> {
         }
     }
     if out.lines.is_empty() {
-        return Err(Error::new("", format!("{} object(s) and no tube", objects.len()), "a scene with tubes"));
+        return Err(Error::new("", format!("{} object(s) but no tube", objects.len()), "a scene with tubes"));
     }
     out.without_zero_radii().tidy()
 }
@@ -56,7 +56,7 @@ fn objects(bytes: &[u8], out: &mut Centerlines) -> Result<Vec<MetaObject>> {
                 object.line = Some(line);
             }
             ("Points", Some(_)) => {
-                out.note_once("objects that are no tubes were left out".into());
+                out.note_once("objects other than tubes were ignored".into());
                 cursor.skip_to(b"ObjectType");
             }
             (_, Some(object)) => object.set(key, value),
@@ -143,7 +143,9 @@ impl<'a> Scene<'a> {
         for _ in 0..MOST_PARENTS {
             let Some(id) = at.id("ParentID") else { return Ok(world) };
             let Some(parent) = self.by_id.get(&id) else {
-                out.note_once("objects whose parent is not in the file are taken as its first level".into());
+                out.note_once(
+                    "objects whose parent is not in the file are treated as top-level objects".into(),
+                );
                 return Ok(world);
             };
             at = &self.objects[*parent];
@@ -153,8 +155,8 @@ impl<'a> Scene<'a> {
             }
             world = transform * world;
         }
-        let found = format!("more than {MOST_PARENTS} parents, or parents in a circle");
-        Err(Error::new(object.title(), found, "parents that end at -1"))
+        let found = format!("more than {MOST_PARENTS} parents, or a cycle of parents");
+        Err(Error::new(object.title(), found, "a chain of parents that ends at -1"))
     }
 }
 
@@ -166,7 +168,7 @@ fn placed(mut line: Line, world: DAffine3, out: &mut Centerlines) -> Line {
     let scale = DMat3::determinant(&world.matrix3).abs().cbrt();
     if (scale - 1.0).abs() > 1e-6 {
         line.radius.iter_mut().flatten().for_each(|r| *r *= scale);
-        out.note_once("a transform that scales was applied to the radius too".into());
+        out.note_once("the scaling of a transform was also applied to the radius".into());
     }
     line
 }

@@ -20,14 +20,12 @@ impl Centerlines {
             self.lines.extend(parted(line, list, ends));
         }
         let parts = self.lines.len();
-        let kind = format!("steps more than {JUMP} times as long as the usual one");
+        let kind = format!("steps longer than {JUMP} times the median");
         if parts > count {
-            self.notes
-                .push(format!("{count} list(s) of points with {kind}: parted into {parts} lines there"));
+            self.notes.push(format!("{count} point list(s) with {kind}: split into {parts} lines there"));
         }
         if kept > 0 {
-            self.notes
-                .push(format!("{kept} {kind} at an end or beside other long ones were kept in their line"));
+            self.notes.push(format!("{kept} {kind} at an end or next to other long steps were not split"));
         }
         self
     }

@@ -53,7 +53,7 @@ fn packed(content: &[u8], name: &str) -> Result<()> {
             ("an archive of NumPy arrays (.npz)", "save one array with numpy.save")
         }
         [b'P', b'K', 3, 4, ..] => ("a ZIP archive", "unpack it first"),
-        [0x1f, 0x8b, ..] => ("a file packed by gzip", "unpack it first"),
+        [0x1f, 0x8b, ..] => ("a gzip file", "unpack it first"),
         _ => return Ok(()),
     };
     Err(Error::new("", found, "a centerline file").mend(mend))
@@ -89,10 +89,10 @@ fn text_kind(content: &[u8], name: &str) -> Result<Option<Kind>> {
 
 fn unknown(name: &str) -> Error {
     let known: [(&str, &str, &str); 6] = [
-        (".vtp", "content that is no XML", "a VTK XML file that begins with '<VTKFile'"),
+        (".vtp", "content that is not XML", "a VTK XML file that begins with '<VTKFile'"),
         (".vtk", "another first line", "a legacy VTK file that begins with '# vtk DataFile Version'"),
-        (".json", "content that is no JSON object", "a 3D Slicer markups file that begins with '{'"),
-        (".pth", "content that is no XML", "a SimVascular path file that begins with '<'"),
+        (".json", "content that is not a JSON object", "a 3D Slicer markups file that begins with '{'"),
+        (".pth", "content that is not XML", "a SimVascular path file that begins with '<'"),
         (".tre", "another first line", "an ITK tube file that begins with 'ObjectType = '"),
         (".npy", "another beginning", "a NumPy array that begins with '\\x93NUMPY'"),
     ];

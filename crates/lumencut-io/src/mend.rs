@@ -67,7 +67,7 @@ impl fmt::Display for Mend {
             Self::Place => {
                 write!(f, "state the space, {values}, and the unit if the file belongs to this volume")
             }
-            Self::Reorder => f.write_str("put the points in order along the vessel"),
+            Self::Reorder => f.write_str("sort the points along the vessel"),
         }
     }
 }

@@ -43,9 +43,9 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Centerlines> {
         let expected = "a markup of type Curve, ClosedCurve or Line";
         return Err(Error::new("markups", others.text(), expected));
     }
-    note_left_out(&mut out, unplaced, "control point(s) without a place", "with one")?;
+    note_left_out(&mut out, unplaced, "control point(s) without a position", "with one")?;
     if others.count > 0 {
-        out.notes.push(format!("markups that are no curves were left out: {}", others.text()));
+        out.notes.push(format!("markups other than curves were ignored: {}", others.text()));
     }
     // Files of this crate are read back unchanged.
     if out.joined { out.tidy() } else { out.without_zero_radii().tidy() }
@@ -98,7 +98,7 @@ fn markup_line(markup: &Markup, kind: &str, out: &mut Centerlines) -> Result<usi
     let unit = *out.unit.get_or_insert(own);
     if unit != own {
         out.note_once(format!(
-            "markups in different units were brought into {}, that of the first",
+            "markups in different units were converted to {}, the unit of the first",
             unit.name()
         ));
     }
@@ -109,7 +109,7 @@ fn markup_line(markup: &Markup, kind: &str, out: &mut Centerlines) -> Result<usi
     } else if space.unwrap_or(Space::Lps) != out.space.unwrap_or(Space::Lps) {
         // LPS and RAS differ in the signs of x and y.
         points.iter_mut().for_each(|p| *p *= DVec3::new(-1.0, -1.0, 1.0));
-        out.note_once("markups in different spaces were brought into the space of the first".into());
+        out.note_once("markups in different coordinate systems were converted to that of the first".into());
     }
     let mut radius = radius(markup.measurements, &placed, [own, unit])?;
     if radius.is_some() {
@@ -121,8 +121,7 @@ fn markup_line(markup: &Markup, kind: &str, out: &mut Centerlines) -> Result<usi
     }
     if kind != "Line" && !out.joined && points.windows(3).any(is_corner) {
         out.note_once(
-            "control points far apart were joined by straight lines, where 3D Slicer may show a smooth curve"
-                .into(),
+            "distant control points were joined by straight lines; 3D Slicer may show a smooth curve".into(),
         );
     }
     out.lines.push(Line { points, radius, name: markup.name.and_then(Json::text), ..Line::default() });

@@ -42,7 +42,8 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Centerlines> {
 }
 
 fn split(bytes: &[u8]) -> Result<(&str, &[u8])> {
-    let broken = || Error::truncated("header", "fewer bytes than the header has", "a whole NumPy header");
+    let broken =
+        || Error::truncated("header", "fewer bytes than the header states", "a complete NumPy header");
     let rest = bytes.get(MAGIC.len()..).ok_or_else(broken)?;
     let ([major, _], rest) = rest.split_first_chunk::<2>().ok_or_else(broken)?;
     let (length, rest) = match major {
@@ -57,7 +58,7 @@ fn split(bytes: &[u8]) -> Result<(&str, &[u8])> {
     }
     let (header, data) = rest.split_at_checked(length).ok_or_else(broken)?;
     let header = std::str::from_utf8(header)
-        .map_err(|_| Error::new("header", "bytes that are no text", "a NumPy header"))?;
+        .map_err(|_| Error::new("header", "bytes that are not text", "a NumPy header"))?;
     Ok((header, data))
 }
 

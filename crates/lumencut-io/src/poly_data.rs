@@ -70,7 +70,7 @@ impl PolyData {
             return Err(Error::new("points", format!("{} coordinates", self.points.len()), "3 per point"));
         }
         if self.ends.is_empty() && !points.is_empty() {
-            let found = format!("{} point(s), {} other cell(s) and no line", points.len(), self.other_cells);
+            let found = format!("{} point(s), {} other cell(s) but no line", points.len(), self.other_cells);
             return Err(Error::new("lines", found, "at least one line through the points")
                 .mend("give a file of centerlines, not of points or surfaces"));
         }
@@ -85,7 +85,11 @@ impl PolyData {
         for (cell, end) in self.ends.iter().enumerate() {
             let end = data_array::index("offsets of the lines", *end, self.connectivity.len() + 1)?;
             let ids = self.connectivity.get(start..end).ok_or_else(|| {
-                Error::new("offsets of the lines", format!("{end} after {start}"), "offsets that never fall")
+                Error::new(
+                    "offsets of the lines",
+                    format!("{end} after {start}"),
+                    "offsets that never decrease",
+                )
             })?;
             start = end;
             let index = |id: &f64| data_array::index("point ids of the lines", *id, points.len());

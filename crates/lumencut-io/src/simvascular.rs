@@ -100,7 +100,7 @@ impl Walk {
         }
         if self.later_time_steps > 0 {
             let count = self.later_time_steps;
-            out.notes.push(format!("{count} time step(s) behind the first were left out"));
+            out.notes.push(format!("{count} time step(s) after the first were ignored"));
         }
         for path in self.paths {
             let points = if path.points.is_empty() {

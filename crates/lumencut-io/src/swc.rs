@@ -88,14 +88,14 @@ impl Tree {
         order.sort_unstable();
         if let Some(pair) = order.windows(2).find(|pair| pair[0].0 == pair[1].0) {
             let [first, again] = [pair[0].1, pair[1].1].map(|i| nodes[i].line);
-            let found = format!("the id {} once more, first in line {first}", pair[0].0);
-            return Err(Error::new(format!("line {again}"), found, "every id once"));
+            let found = format!("the id {} again, first used in line {first}", pair[0].0);
+            return Err(Error::new(format!("line {again}"), found, "unique ids"));
         }
         let index = |id: i64| order.binary_search_by_key(&id, |(id, _)| *id).ok().map(|at| order[at].1);
         let parent = |node: &Node| match node.parent {
             None => Ok(None),
             Some(id) => index(id).map(Some).ok_or_else(|| {
-                let found = format!("the parent {id}, which is no node of the file");
+                let found = format!("the parent {id}, which is not a node of the file");
                 let expected = "the id of a node, or -1 for a root";
                 let error = Error::truncated(format!("line {}", node.line), found, expected);
                 if id == 0 { error.mend("write -1 as the parent of roots") } else { error }
@@ -155,8 +155,8 @@ impl Tree {
         match reached.iter().position(|reached| !reached) {
             None => Ok(lines),
             Some(i) => {
-                let found = format!("the node {}, whose parents lead around in a circle", nodes[i].id);
-                let expected = "parents that lead to a root, whose parent is -1";
+                let found = format!("the node {}, whose parents form a cycle", nodes[i].id);
+                let expected = "parents that lead to a root (parent -1)";
                 Err(Error::new(format!("line {}", nodes[i].line), found, expected))
             }
         }

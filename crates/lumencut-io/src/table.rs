@@ -44,7 +44,7 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Centerlines> {
         }
     }
     rows.finish_line();
-    note_left_out(&mut rows.out, rows.undefined, "point(s) that are not defined", "defined points")?;
+    note_left_out(&mut rows.out, rows.undefined, "undefined point(s)", "defined points")?;
     if guessed {
         rows.out.doubt_unnamed_columns();
         refuse_counter(&rows.out.lines)?;
@@ -172,8 +172,8 @@ pub(crate) fn refuse_counter(lines: &[Line]) -> Result<()> {
     if !counts || lines.iter().all(|line| line.radius.is_none()) {
         return Ok(());
     }
-    Err(Error::new("column 1", "a number that counts the rows", "columns x, y, z, radius")
-        .mend("name the columns in the first line, or leave the counter out"))
+    Err(Error::new("column 1", "a row number", "columns x, y, z, radius")
+        .mend("name the columns in the first line, or remove the row number"))
 }
 
 struct Rows {
@@ -240,7 +240,9 @@ impl Rows {
         }
         self.finish_line();
         if !self.known_keys.insert(key.to_owned()) {
-            self.out.note_once("rows of one line stand apart: each stretch is a line of its own".into());
+            self.out.note_once(
+                "rows of one line are not consecutive: each run of rows is a separate line".into(),
+            );
         }
         self.key = Some(key.to_owned());
     }

@@ -93,7 +93,7 @@ impl Columns {
         if let Some(axis) = ["x", "y", "z"].into_iter().find(|axis| is_twice(&names, axis)) {
             let found = format!("more than one column {axis}, {}", excerpt(header));
             let error = Error::new(format!("line {line}"), found, "one column each for x, y and z");
-            return Err(error.mend("leave out the columns that are not meant"));
+            return Err(error.mend("remove the columns that are not coordinates"));
         }
         let units = xyz.map(|column| unit(fields[column], &names[column]));
         let [x, y, z] = units;

@@ -44,8 +44,8 @@ pub(crate) fn rows<'t>(
         let mut at = At::Begin.behind(&row, separator);
         while at == At::Quoted {
             let Some((_, more)) = lines.next() else {
-                let found = "a quotation mark without its end";
-                return Some(Err(Error::new(format!("line {number}"), found, "one at the end of the field")));
+                let found = "an unclosed quotation mark";
+                return Some(Err(Error::new(format!("line {number}"), found, "a closing quotation mark")));
             };
             at = at.behind(&more, separator);
             row = Cow::Owned(row.into_owned() + "\n" + &more);

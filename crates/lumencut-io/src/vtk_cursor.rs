@@ -61,7 +61,7 @@ impl<'a> Cursor<'a> {
     }
 
     pub(crate) fn word(&mut self, subject: &str) -> Result<String> {
-        self.next_word().ok_or_else(|| Error::truncated(subject, "the end of the file", "one more word"))
+        self.next_word().ok_or_else(|| Error::truncated(subject, "the end of the file", "another word"))
     }
 
     pub(crate) fn count(&mut self, subject: &str) -> Result<usize> {

@@ -99,7 +99,7 @@ impl Arrays<'_> {
             let Some(array) = array else {
                 return match expected {
                     Some(0) => Ok(Vec::new()),
-                    _ => Err(Error::new(what, "no such array", "the array that the counts speak of")),
+                    _ => Err(Error::new(what, "no such array", "the array that the counts refer to")),
                 };
             };
             let values = self.numbers(array)?;

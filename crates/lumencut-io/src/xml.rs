@@ -53,7 +53,7 @@ pub(crate) fn damaged(reader: &Reader<&[u8]>, cause: &quick_xml::Error, expected
 
 /// A document type could define entities of unlimited size.
 pub(crate) fn document_type(expected: &str) -> Error {
-    Error::new("", "a document type (<!DOCTYPE)", format!("{expected}, which has none"))
+    Error::new("", "a document type (<!DOCTYPE)", format!("{expected}, which has no document type"))
 }
 
 /// Name of the first element after declarations and comments.

@@ -70,12 +70,11 @@ pub fn vessels(centerlines: Centerlines) -> Centerlines {
     let followed = if paths.len() <= MOST_LINES_TO_FOLLOW {
         let followed = follow::follow(&points, &mut paths, spacing);
         if !followed.whole {
-            notes.push("lines near too many others were joined only at points that coincide".into());
+            notes.push("lines near too many others were joined only at coincident points".into());
         }
         followed.ends
     } else {
-        notes
-            .push(format!("of more than {MOST_LINES_TO_FOLLOW} lines only points that coincide were joined"));
+        notes.push(format!("more than {MOST_LINES_TO_FOLLOW} lines: only coincident points were joined"));
         0
     };
     let vessels = graph::chains(&points, &paths);

@@ -25,7 +25,7 @@ pub(super) fn join(points: &[DVec3], mut paths: Vec<Path>, notes: &mut Vec<Strin
         if !cloud.directed {
             chains = Orientation::new(points, chains).away_from_roots();
             let end = if cloud.has_radius() { "with the largest radius" } else { "that is highest" };
-            notes.push(format!("the segments have no common direction: vessels run away from the end {end}"));
+            notes.push(format!("the segments have no common direction: vessels start at the end {end}"));
         }
     }
     chains.extend(others);

@@ -129,13 +129,13 @@ fn the_status_of_a_point_means_what_it_says() {
     ]));
     assert_eq!(read.lines[0].points.iter().map(|p| p.x).collect::<Vec<_>>(), [0.0, 4.0]);
     assert!(
-        read.notes.contains(&"3 control point(s) without a place were left out".into()),
+        read.notes.contains(&"3 control point(s) without a position were left out".into()),
         "{:?}",
         read.notes
     );
     assert_eq!(ok(&with_statuses(&["2", "0", "null", "3", "1"])).lines[0].points.len(), 2, "by numbers");
     let none = message(&with_statuses(&[r#""undefined""#, r#""preview""#]));
-    assert!(none.contains("2 control point(s) without a place; expected at least 2 with one"), "{none}");
+    assert!(none.contains("2 control point(s) without a position; expected at least 2 with one"), "{none}");
     let unknown = message(&with_statuses(&[r#""defined""#, r#""placed""#, r#""defined""#]));
     assert!(unknown.contains("positionStatus of control point 1: found 'placed'"), "{unknown}");
 }
@@ -145,5 +145,5 @@ fn a_radius_that_is_null_is_unknown() {
     let radius = r#", "measurements": [{"name": "Radius", "controlPointValues": [null, 1.5]}]"#;
     let read = ok(&curve(radius));
     assert_eq!(read.lines[0].radius.as_deref(), Some(&[0.0, 1.5][..]));
-    assert!(read.notes.contains(&"1 of 2 radii are not stated: unknown there".into()), "{:?}", read.notes);
+    assert!(read.notes.contains(&"1 of 2 radii are missing".into()), "{:?}", read.notes);
 }

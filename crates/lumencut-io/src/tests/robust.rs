@@ -107,9 +107,7 @@ fn radii_as_wide_as_the_tree_end_in_time() {
         ..Line::default()
     };
     let found = vessels(Centerlines { lines: vec![line(0.0), line(5.0)], ..Centerlines::default() });
-    assert!(
-        found.notes.contains(&"lines near too many others were joined only at points that coincide".into())
-    );
+    assert!(found.notes.contains(&"lines near too many others were joined only at coincident points".into()));
     assert_eq!(found.lines.len(), 2);
 }
 

@@ -23,7 +23,7 @@ impl Stenosis {
     pub fn group(&self, territory: Territory) -> Result<String> {
         if self.method != Method::Nascet {
             let found = format!("'{}'", self.method.name());
-            let expected = "'nascet': the groups are those of diameters beside a normal reference";
+            let expected = "'nascet', because the groups refer to a normal diameter";
             return Err(Error::new(ErrorKind::Measuring, "method of the stenosis", found, expected));
         }
         // Grades are defined for whole percents.

@@ -326,9 +326,9 @@ pub(crate) fn assumed(voxels: &Voxels) -> f64 {
 fn no_lumen(scale: &Scale) -> Error {
     let [lumen, outside] = [scale.value(1.0), scale.outside];
     let found =
-        format!("no wall around it: {} on the vessel and {} beside it", in_words(lumen), in_words(outside));
+        format!("no wall around it: {} on the vessel and {} next to it", in_words(lumen), in_words(outside));
     let expected = "a lumen around the points of the vessel";
-    let mend = "centerlines must lie in the lumen, or within its radius of it";
+    let mend = "centerlines must lie in the lumen or within one radius of it";
     Error::new(ErrorKind::Measuring, "lumen of the vessel", found, expected).mend(mend)
 }
 

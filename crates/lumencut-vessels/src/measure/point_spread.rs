@@ -63,10 +63,10 @@ pub(crate) enum Told {
 }
 
 /// Reason if the vessel is too narrow.
-pub(crate) const NARROW: &str = "no vessel is wide enough to tell it";
+pub(crate) const NARROW: &str = "no vessel is wide enough to estimate it";
 
 /// Reason if the wide stretch is too short.
-const SHORT: &str = "wide vessels are free and round along too short a stretch to tell it";
+const SHORT: &str = "free, round stretches of wide vessels are too short to estimate it";
 
 /// Point spread with which the widest sections fit best at their visible lumen level.
 pub(crate) fn estimated(
@@ -117,7 +117,7 @@ fn agreed(best: &mut [f64], [low, high]: [f64; 2]) -> std::result::Result<Level,
     let Some(fwhm) = median(best).filter(|_| best.len() >= SECTIONS.1) else { return Err(NARROW) };
     let margin = 0.02 * (high - low);
     if fwhm < low + margin {
-        return Err("the walls of wide vessels are sharper than voxels tell");
+        return Err("the walls of wide vessels are sharper than the voxels can show");
     }
     let away: Vec<f64> = best.iter().map(|one| (one - fwhm).abs()).collect();
     match median(&mut { away }) {
@@ -125,7 +125,7 @@ fn agreed(best: &mut [f64], [low, high]: [f64; 2]) -> std::result::Result<Level,
             // Not divided by √n, because sections share walls and noise.
             Ok([fwhm, (1.4826 * away).max(LEAST_SPREAD * fwhm)])
         }
-        _ => Err("the walls of wide vessels do not agree on it"),
+        _ => Err("the walls of wide vessels give different widths"),
     }
 }
 

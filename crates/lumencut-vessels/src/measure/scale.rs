@@ -63,8 +63,8 @@ impl Scale {
         let slopes: Vec<f64> = rings.windows(3).map(|three| three[2] - three[0]).collect();
         let steepest = slopes.iter().map(|slope| slope.abs()).fold(0.0, f64::max);
         let none = || {
-            let found = format!("{} on the vessel and as much around it", in_words(lumen));
-            let expected = "a lumen that is brighter or darker than what is around it";
+            let found = format!("{} both on the vessel and around it", in_words(lumen));
+            let expected = "a lumen that is brighter or darker than its surroundings";
             Error::new(ErrorKind::Measuring, "lumen of the vessel", found, expected)
         };
         let mut wall = slopes.iter().position(|slope| slope.abs() >= STEEP * steepest).ok_or_else(none)?;

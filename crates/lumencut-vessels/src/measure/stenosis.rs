@@ -110,7 +110,7 @@ impl Profile {
         };
         if reference < diameter {
             let found =
-                format!("{reference:.2} mm, where the stenosis at {at:.1} mm measures {diameter:.2} mm");
+                format!("{reference:.2} mm, but the stenosis at {at:.1} mm measures {diameter:.2} mm");
             let expected = "a diameter that is not below that of the stenosis";
             return Err(measuring("reference of the stenosis", found, expected));
         }
@@ -234,7 +234,7 @@ impl Profile {
             if let Some(beside) = comparison
                 && *diameter <= NARROWED_BESIDE * beside
             {
-                let found = format!("{diameter:.2} mm at {place:.1} mm, beside {beside:.2} mm");
+                let found = format!("{diameter:.2} mm at {place:.1} mm, next to a vessel of {beside:.2} mm");
                 return Err(near_occlusion(found, NARROWED_BESIDE, "the vessel it is compared with"));
             }
         }
@@ -261,8 +261,8 @@ fn measuring(subject: &str, found: String, expected: &str) -> Error {
 }
 
 fn near_occlusion(found: String, share: f64, of: &str) -> Error {
-    let expected = format!("a reference above {share} of {of}: behind a near-occlusion no place is normal");
-    measuring("reference of the stenosis", found, &expected).mend("state the diameter in mm alone")
+    let expected = format!("a reference above {share} of {of}: no place beyond a near-occlusion is normal");
+    measuring("reference of the stenosis", found, &expected).mend("state only the diameter in mm")
 }
 
 fn original(diameter: Option<f64>) -> Result<f64> {

@@ -56,7 +56,12 @@ impl Profile {
         let direction = (slope * (to - from).signum()).try_normalize();
         direction.ok_or_else(|| {
             let found = format!("a stretch from {from:.1} to {to:.1} mm without direction");
-            Error::new(ErrorKind::Measuring, "stretch of the vessel", found, "one that leads somewhere")
+            Error::new(
+                ErrorKind::Measuring,
+                "stretch of the vessel",
+                found,
+                "a stretch between two different positions",
+            )
         })
     }
 
@@ -120,7 +125,7 @@ fn least_turned(along: DVec3) -> CArm {
 fn angulated(along: DVec3, lao: f64) -> Result<CArm> {
     let flat = along.x * lao.sin() - along.y * lao.cos();
     if !lao.is_finite() || (along.z.abs() < 1e-9 && flat.abs() > 1e-9) {
-        let found = format!("{:.1}° for a stretch that lies flat", lao.to_degrees());
+        let found = format!("{:.1}° for a stretch within the plane of rotation", lao.to_degrees());
         return Err(Error::new(ErrorKind::Measuring, "rotation of the C-arm", found, "another rotation"));
     }
     let cranial = if flat.abs() < 1e-9 { 0.0 } else { (-flat / along.z).atan() };

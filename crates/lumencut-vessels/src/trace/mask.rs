@@ -70,7 +70,7 @@ pub fn trace_mask(mask: &Volume, request: &MaskRequest) -> Result<TracedMask> {
         progress.end_view();
     }
     if vessels.is_empty() {
-        let found = format!("lumen of {voxels} voxels that is nowhere longer than wide");
+        let found = format!("lumen of {voxels} voxels that is never longer than wide");
         return Err(Error::new(ErrorKind::Volume, "mask", found, "a vessel"));
     }
     Ok(TracedMask { vessels, gaps, filled, pieces })

@@ -141,15 +141,15 @@ pub(crate) fn no_lumen(between: [DVec3; 2], gap: &Gap, model: &LumenModel) -> Er
         gap.value
     );
     Error::new(ErrorKind::Tracing, subject(between), found, expected(model))
-        .mend("add a point where the vessel goes on")
+        .mend("add a point where the vessel continues")
         .mended_by(Mend::Bridge)
         .at(gap.place, f64::from(gap.value))
 }
 
 pub(crate) fn no_way(between: [DVec3; 2], model: &LumenModel) -> Error {
-    let found = "no way between them that leaves out what is forbidden and stays within reach";
+    let found = "no path between them within reach that avoids forbidden places";
     Error::new(ErrorKind::Tracing, subject(between), found, expected(model))
-        .mend("add points along the vessel, or take stoppers away")
+        .mend("add points along the vessel, or remove stoppers")
 }
 
 fn subject([from, to]: [DVec3; 2]) -> String {
@@ -157,7 +157,7 @@ fn subject([from, to]: [DVec3; 2]) -> String {
 }
 
 fn expected(model: &LumenModel) -> String {
-    format!("lumen of about {} all the way", range(model))
+    format!("lumen of about {} between them", range(model))
 }
 
 fn range(model: &LumenModel) -> String {

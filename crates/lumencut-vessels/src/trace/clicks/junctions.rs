@@ -46,10 +46,10 @@ fn joined_at_start(earlier: &[&Centerline], line: Traced, n: usize) -> Result<Tr
     let inside =
         points.iter().take_while(|point| earlier.iter().any(|vessel| holds(vessel, **point))).count();
     if inside + 1 >= points.len() {
-        let found = "clicks whose vessel runs within earlier ones from end to end";
+        let found = "points whose vessel lies entirely within earlier vessels";
         let error =
-            Error::new(ErrorKind::Tracing, format!("points of vessel {n}"), found, "a vessel of its own");
-        let error = error.mend("leave these points out, or click where the vessel is not the other one");
+            Error::new(ErrorKind::Tracing, format!("points of vessel {n}"), found, "a separate vessel");
+        let error = error.mend("remove these points, or click outside the other vessels");
         return Err(error.about(Clicked::Vessel(n)));
     }
     let junction = if inside > 0 {

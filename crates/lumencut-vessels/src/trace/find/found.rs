@@ -79,16 +79,16 @@ impl TrackDoubt {
     /// The reason in a word or two, for lists and counts.
     pub fn short(self) -> &'static str {
         match self {
-            Self::Scarce => "no contrast?",
-            Self::BrightSides => "beside bone",
-            Self::Flat => "flat",
-            Self::Uneven => "uneven inside",
-            Self::PaleAndWide => "like an organ",
+            Self::Scarce => "no contrast agent?",
+            Self::BrightSides => "near bone",
+            Self::Flat => "flat, like bone",
+            Self::Uneven => "marrow-like",
+            Self::PaleAndWide => "wide and pale",
             Self::Short => "short",
             Self::Rough => "uneven width",
             Self::Faint => "faint",
-            Self::Open => "few walls",
-            Self::Gap => "across a gap",
+            Self::Open => "open contour",
+            Self::Gap => "bridges a gap",
         }
     }
 }

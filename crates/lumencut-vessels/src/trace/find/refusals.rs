@@ -10,8 +10,8 @@ use lumencut_core::error::{Error, ErrorKind, Mend};
 pub fn no_vessel(doubtful: usize, smallest_radius: f64) -> Error {
     let found = match doubtful {
         0 => format!("none whose radius is {smallest_radius} mm or more"),
-        1 => "none that is sure, but one that is doubtful".to_owned(),
-        several => format!("none that is sure, but {several} that are doubtful"),
+        1 => "no certain vessel, but one doubtful vessel".to_owned(),
+        several => format!("no certain vessel, but {several} doubtful vessels"),
     };
     let expected = "an angiography, whose vessels are brighter than the tissue around them";
     let error = Error::new(ErrorKind::Tracing, "no vessel found", found, expected);
@@ -37,26 +37,24 @@ pub(crate) fn not_here(seed: DVec3, value: f64, nearest: DVec3, distance: f64) -
 pub fn no_whole_vessel(click: DVec3, value: f64, reason: NoVessel) -> Error {
     let (found, expected) = match reason {
         NoVessel::NotHere(distance) if distance.is_infinite() => {
-            ("no vessel in all of this scan".to_owned(), "a point within a vessel")
+            ("no vessel in this scan".to_owned(), "a point within a vessel")
         }
         NoVessel::NotHere(distance) => (
-            format!("none of the vessels that were found; the nearest one is {distance:.1} mm away"),
+            format!("none of the vessels found; the nearest one is {distance:.1} mm away"),
             "a point within a vessel",
         ),
-        NoVessel::Already => ("a vessel that is traced already".to_owned(), "one that is not"),
+        NoVessel::Already => ("a vessel that is already traced".to_owned(), "one that is not"),
     };
     let error = Error::new(ErrorKind::Tracing, "this point", found, expected).at(click, value);
     match reason {
-        NoVessel::NotHere(_) => {
-            error.mend("click the vessel at a second place: the way between both is traced")
-        }
+        NoVessel::NotHere(_) => error.mend("click the vessel at a second point to trace between both"),
         NoVessel::Already => error,
     }
 }
 
 /// Error for a seed whose part has only doubtful vessels; `doubt` is the reason of the first.
 pub(crate) fn only_doubtful(seed: DVec3, value: f64, doubt: &str) -> Error {
-    let found = format!("a vessel there that is doubtful: {doubt}");
+    let found = format!("a doubtful vessel there: {doubt}");
     let error = Error::new(ErrorKind::Tracing, format!("seed {}", in_words(seed)), found, "one that is sure");
     error.mend("trace between two points along it").at(seed, value)
 }
