@@ -13,7 +13,7 @@ const CODES: std::ops::Range<u8> = 0..40;
 pub(crate) fn with_small_dictionary(block: &[u8], size: usize) -> (Cow<'_, [u8]>, u32) {
     let code = CODES.into_iter().find(|code| dictionary(*code) >= size as u64).unwrap_or(CODES.end);
     let memory = READER_KIB.saturating_add(u32::try_from(dictionary(code) >> 10).unwrap_or(u32::MAX));
-    let smaller = dictionary_place(block).filter(|place| block[place.code] > code).map(|place| {
+    let smaller = dictionary_field(block).filter(|place| block[place.code] > code).map(|place| {
         let mut changed = block.to_vec();
         changed[place.code] = code;
         let mut sum = flate2::Crc::new();
@@ -28,12 +28,12 @@ fn dictionary(code: u8) -> u64 {
     u64::from(2 | code & 1) << (code / 2 + 11)
 }
 
-struct Place {
+struct DictionaryField {
     code: usize,
     sum: usize,
 }
 
-fn dictionary_place(block: &[u8]) -> Option<Place> {
+fn dictionary_field(block: &[u8]) -> Option<DictionaryField> {
     let [size, flags, fields @ ..] = block.get(STREAM_HEADER..)? else { return None };
     let sum = STREAM_HEADER + usize::from(*size) * 4;
     if block.len() < sum + 4 || flags & 0x3f != 0 {
@@ -46,5 +46,5 @@ fn dictionary_place(block: &[u8]) -> Option<Place> {
     }
     let is_lzma2 = fields.get(at..at + 2)? == [0x21, 1];
     let code = STREAM_HEADER + 2 + at + 2;
-    (is_lzma2 && code < sum).then_some(Place { code, sum })
+    (is_lzma2 && code < sum).then_some(DictionaryField { code, sum })
 }

@@ -13,7 +13,7 @@ use crate::watching::interruptible;
 
 /// The point spread of a scan, and the level of the walls in it.
 #[pyclass(frozen, module = "lumencut._lumencut")]
-pub struct ToldByTree(pub lumencut::measure::told_by_tree::ToldByTree);
+pub struct ToldByTree(pub lumencut::measure::tree_findings::TreeFindings);
 
 /// What the vessels of a tree tell for all that is measured along them.
 #[pyfunction]
@@ -32,7 +32,7 @@ pub fn told_by_tree<'py>(
     let tree = tree.iter().map(vessel_of).collect::<PyResult<Vec<_>>>()?;
     interruptible(py, None, |stop| {
         let request = MeasureRequest { step, fwhm, wall: wall_request(wall), tree: &tree, stop };
-        pool::install(|| measuring::told_by_tree(&volume, &request))?.map_err(to_python)
+        pool::install(|| measuring::tree_findings(&volume, &request))?.map_err(to_python)
     })
     .map(ToldByTree)
 }

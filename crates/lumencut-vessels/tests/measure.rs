@@ -11,7 +11,7 @@ use lumencut_core::volume::{Volume, Voxels};
 use lumencut_vessels::measure::blur::variance_of;
 use lumencut_vessels::measure::ellipse::{Boundary, Ellipse, Whitening};
 use lumencut_vessels::measure::flags::RECENTERED;
-use lumencut_vessels::measure::measuring::{TreeMeasuring, measure, told_by_tree};
+use lumencut_vessels::measure::measuring::{TreeMeasuring, measure, tree_findings};
 use lumencut_vessels::measure::profile::{Profile, Source};
 use lumencut_vessels::measure::request::MeasureRequest;
 use lumencut_vessels::measure::stenosis::{Compared, Method};
@@ -85,7 +85,7 @@ fn a_point_spread_that_nobody_waited_for_is_not_told() {
         let stop = || asked.fetch_add(1, Ordering::Relaxed) >= questions;
         let request =
             MeasureRequest { step: 0.5, fwhm: None, wall: WallRequest::Automatic, tree: &tree, stop: &stop };
-        let told = told_by_tree(&volume, &request);
+        let told = tree_findings(&volume, &request);
         assert_eq!(told.map_err(|error| error.kind), Err(ErrorKind::Interrupted), "{questions} questions");
     }
 }
@@ -103,8 +103,8 @@ fn vessels_of_a_tree_are_measured_as_by_themselves() {
     for wall in [WallRequest::Automatic, WallRequest::Level([30.0, 10.0]), WallRequest::Off] {
         let request = MeasureRequest { step: 0.5, fwhm: None, wall, tree: &tree, stop: &|| false };
         let measuring = TreeMeasuring::new(&volume, &request).unwrap();
-        let told = measuring.told(&|| false).unwrap();
-        assert_eq!(told, told_by_tree(&volume, &request).unwrap());
+        let told = measuring.findings(&|| false).unwrap();
+        assert_eq!(told, tree_findings(&volume, &request).unwrap());
         for (n, vessel) in tree.iter().enumerate() {
             let alone = measure(&volume, vessel, &request).unwrap();
             let among = measuring.profile(n, told.clone(), &|| false).unwrap();

@@ -6,10 +6,10 @@ use lumencut_core::error::Result;
 use lumencut_core::stop::Stop;
 use lumencut_core::vessel_tree::Vessel;
 use lumencut_core::volume::Volume;
-use lumencut_vessels::measure::measuring::{measure_under, told_by_tree};
+use lumencut_vessels::measure::measuring::{measure_with, tree_findings};
 use lumencut_vessels::measure::profile::Profile;
 use lumencut_vessels::measure::request::MeasureRequest;
-use lumencut_vessels::measure::told_by_tree::ToldByTree;
+use lumencut_vessels::measure::tree_findings::TreeFindings;
 use lumencut_vessels::measure::wall_level::WallRequest;
 
 /// A volume and the tree in it. Both decide what is measured: profiles that were kept are those of other ones no longer.
@@ -37,7 +37,7 @@ pub struct Asking<'a> {
 /// The profiles that are kept, by what their host calls a vessel.
 pub struct KeptProfiles<K> {
     /// What the tree tells for all of its vessels, by the level of walls and the point spread that were asked for.
-    told: Vec<((WallRequest, Option<f64>), ToldByTree)>,
+    told: Vec<((WallRequest, Option<f64>), TreeFindings)>,
     kept: Vec<Kept<K>>,
 }
 
@@ -70,7 +70,7 @@ impl<K: PartialEq> KeptProfiles<K> {
         }
         let request = MeasureRequest { step, fwhm, wall, tree: scan.tree, stop };
         let told = self.told(scan.volume, &request)?;
-        let profile = Arc::new(measure_under(told, scan.volume, vessel, &request)?);
+        let profile = Arc::new(measure_with(told, scan.volume, vessel, &request)?);
         self.kept.push(Kept { of: key, step, fwhm, wall, profile });
         Ok(self.kept.len() - 1)
     }
@@ -86,12 +86,12 @@ impl<K: PartialEq> KeptProfiles<K> {
     }
 
     /// What the tree tells, which is found once.
-    fn told(&mut self, volume: &Volume, request: &MeasureRequest) -> Result<ToldByTree> {
+    fn told(&mut self, volume: &Volume, request: &MeasureRequest) -> Result<TreeFindings> {
         let asked = (request.wall, request.fwhm);
         if let Some((_, told)) = self.told.iter().find(|(other, _)| *other == asked) {
             return Ok(told.clone());
         }
-        let told = told_by_tree(volume, request)?;
+        let told = tree_findings(volume, request)?;
         self.told.push((asked, told.clone()));
         Ok(told)
     }

@@ -19,12 +19,12 @@ pub(crate) struct AllSections {
 
 impl AllSections {
     /// Prior knowledge of section `n`, when every `every`-th section was fitted, and its second solution
-    /// ([`Fit::other`]). Interpolates the lumen between the fitted sections; without them it uses `rough`.
+    /// ([`Fit::other`]). Interpolates the lumen between the fitted sections; without them it uses `estimate`.
     pub(crate) fn known(
         &self,
         n: usize,
         every: usize,
-        rough: Option<Ellipse>,
+        estimate: Option<Ellipse>,
     ) -> Option<(Known, Option<Ellipse>)> {
         let (before, share) = (n / every, (n % every) as f64 / every as f64);
         let after = (before + usize::from(share > 0.0)).min(self.fits.len() - 1);
@@ -32,7 +32,7 @@ impl AllSections {
         let fitted = self.fits[before].zip(self.fits[after]);
         let between = fitted.map(|(before, after)| before.ellipse.towards(&after.ellipse, share));
         let known = Known {
-            ellipse: between.or(rough)?,
+            ellipse: between.or(estimate)?,
             lumen: self.lumen[nearest],
             noise: Some(self.noise),
             wall: self.walls.as_ref().map(|walls| walls[nearest]),

@@ -4,7 +4,7 @@ use std::f64::consts::LN_2;
 
 use glam::{DMat2, DMat3, DVec3};
 
-use super::place::Place;
+use super::section_plane::SectionPlane;
 
 /// Variance of averaging over a voxel, in squared sides.
 const AVERAGING: f64 = 1.0 / 12.0;
@@ -35,28 +35,28 @@ impl Blur {
     }
 
     /// In-plane covariance of voxel values (mm²).
-    pub(crate) fn of_voxels(&self, place: &Place) -> DMat2 {
+    pub(crate) fn of_voxels(&self, place: &SectionPlane) -> DMat2 {
         self.in_plane(place, AVERAGING)
     }
 
     /// In-plane covariance of interpolated values (mm²).
-    pub(crate) fn interpolated(&self, place: &Place) -> DMat2 {
+    pub(crate) fn interpolated(&self, place: &SectionPlane) -> DMat2 {
         self.in_plane(place, AVERAGING + INTERPOLATION)
     }
 
     /// In-plane FWHM of voxel values, averaged over directions (mm).
-    pub(crate) fn width(&self, place: &Place) -> f64 {
+    pub(crate) fn width(&self, place: &SectionPlane) -> f64 {
         fwhm_of(self.of_voxels(place).determinant().sqrt())
     }
 
     /// Variance along the vessel (mm²) of voxels weighted by distance to the plane, up to `thickness` mm.
-    pub(crate) fn along(&self, place: &Place, thickness: f64) -> f64 {
+    pub(crate) fn along(&self, place: &SectionPlane, thickness: f64) -> f64 {
         let voxel = place.normal.dot(self.voxel * place.normal) * AVERAGING;
         // t²/6 is the variance of a triangular weight.
         self.point_spread + voxel + thickness * thickness / 6.0
     }
 
-    fn in_plane(&self, place: &Place, share: f64) -> DMat2 {
+    fn in_plane(&self, place: &SectionPlane, share: f64) -> DMat2 {
         let [u, v] = place.axes;
         let along = |a: DVec3, b: DVec3| a.dot(self.voxel * b) * share;
         let mixed = along(u, v);

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::place::Place;
+use super::section_plane::SectionPlane;
 use lumencut_core::vessel_tree::Vessel;
 
 /// Points this close (mm) are the same point.
@@ -12,7 +12,7 @@ const SAME_PLACE: f64 = 1e-3;
 const STEP: f64 = 0.5;
 
 /// Whether a disc of `radius` mm meets the lumen of any other vessel.
-pub(crate) fn meets(place: &Place, center: DVec3, radius: f64, others: &[Lumen]) -> bool {
+pub(crate) fn meets(place: &SectionPlane, center: DVec3, radius: f64, others: &[Lumen]) -> bool {
     others.iter().any(|other| other.meets(place, center, radius))
 }
 
@@ -45,7 +45,7 @@ impl Lumen {
         Self { balls, around: (middle, reach) }
     }
 
-    fn meets(&self, place: &Place, center: DVec3, radius: f64) -> bool {
+    fn meets(&self, place: &SectionPlane, center: DVec3, radius: f64) -> bool {
         if self.around.0.distance(center) > self.around.1 + radius {
             return false;
         }

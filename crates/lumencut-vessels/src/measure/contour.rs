@@ -4,8 +4,8 @@ use glam::{DVec2, DVec3};
 
 use super::ellipse::{Boundary, Ellipse};
 use super::model::{Model, ThreeLevels};
-use super::place::Place;
 use super::rays::{RAYS, Ray, direction};
+use super::section_plane::SectionPlane;
 use lumencut_core::math::lanes::{FAN, Isa, Kernel, dispatch};
 use lumencut_core::math::statistics::median;
 
@@ -52,12 +52,12 @@ pub(crate) fn wall(ellipse: &Ellipse, values: &impl Shares, rays: &[Ray], level:
         .map(|n| {
             let own = ellipse.radius_towards(direction(n));
             let ray = &rays[n];
-            let told = ray.edge.filter(|edge| *edge < ray.limit).and_then(|edge| {
+            let seen = ray.edge.filter(|edge| *edge < ray.limit).and_then(|edge| {
                 let blurred = crossing(values, ellipse.center, direction(n), level, own)?;
                 Some(own + edge - blurred)
             });
             let most = (FARTHEST.0 * own).max(FARTHEST.1);
-            told.filter(|wall| (wall - own).abs() <= most && *wall > 0.0).unwrap_or(own)
+            seen.filter(|wall| (wall - own).abs() <= most && *wall > 0.0).unwrap_or(own)
         })
         .collect();
     quiet(&walls, |n| ellipse.radius_towards(direction(n)))
@@ -114,7 +114,7 @@ pub(crate) fn irregularity(ellipse: &Ellipse, wall: &[f64]) -> f64 {
     ((0..RAYS).map(off).sum::<f64>() / RAYS as f64).sqrt()
 }
 
-pub(crate) fn points(place: &Place, center: DVec2, wall: &[f64]) -> Vec<DVec3> {
+pub(crate) fn points(place: &SectionPlane, center: DVec2, wall: &[f64]) -> Vec<DVec3> {
     (0..RAYS).map(|n| place.point(center + direction(n) * wall[n])).collect()
 }
 

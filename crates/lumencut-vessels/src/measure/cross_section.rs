@@ -2,8 +2,8 @@
 
 use glam::{DVec2, DVec3};
 
-use super::place::{Place, Track, known_radius};
 use super::profile::Profile;
+use super::section_plane::{SectionPlane, Track, known_radius};
 use crate::voxels::Voxels;
 use lumencut_core::error::{Error, ErrorKind, Result};
 use lumencut_core::limits::Limits;
@@ -20,7 +20,7 @@ const MOST_PIXELS: f64 = 4096.0;
 #[derive(Clone, Debug)]
 pub struct CrossSection {
     /// The plane.
-    pub place: Place,
+    pub place: SectionPlane,
     /// Pixels along each side.
     pub pixels: usize,
     /// Side of a pixel (mm).
@@ -31,7 +31,7 @@ pub struct CrossSection {
 
 impl CrossSection {
     /// Samples a square of `size` mm. [`ErrorKind::Settings`] for an invalid size or pixel spacing.
-    pub fn new(volume: &Volume, place: Place, size: f64, pixel_spacing: f64) -> Result<Self> {
+    pub fn new(volume: &Volume, place: SectionPlane, size: f64, pixel_spacing: f64) -> Result<Self> {
         SIDE.check("size of the cross-section", size)?;
         SIDE.check("pixel_spacing of the cross-section", pixel_spacing)?;
         let pixels = (size / pixel_spacing).round().max(1.0);
@@ -57,7 +57,7 @@ impl CrossSection {
 /// Plane of a section at an arc length (mm): with `profile` the plane of the nearest measured section,
 /// otherwise by [`Track`]. [`ErrorKind::Measuring`] for a wrong arc length or profile;
 /// [`ErrorKind::VesselTree`] for a vessel without length.
-pub fn section_place(vessel: &Vessel, at: f64, profile: Option<&Profile>) -> Result<Place> {
+pub fn section_place(vessel: &Vessel, at: f64, profile: Option<&Profile>) -> Result<SectionPlane> {
     let length = vessel.arc_length().last().copied().unwrap_or(0.0);
     if !(0.0..=length).contains(&at) {
         let expected = format!("an arc length from 0 to {length:.3} mm");

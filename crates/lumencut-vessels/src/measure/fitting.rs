@@ -6,9 +6,9 @@ use super::blur::Blur;
 use super::ellipse::{Boundary, Ellipse, Whitening};
 use super::fit::{Expected, Fit, Unsure};
 use super::obstacles::Obstacles;
-use super::place::Place;
 use super::pooled::Level;
 use super::rays::{RAYS, direction};
+use super::section_plane::SectionPlane;
 use super::sections::{Bench, Known};
 use super::slab::{Samples, Window};
 use super::texture::Pairs;
@@ -38,7 +38,7 @@ struct Cleared {
 }
 
 pub(crate) struct Ready {
-    place: Place,
+    place: SectionPlane,
     start: Ellipse,
     cleared: Cleared,
     expected: Expected<'static>,
@@ -53,7 +53,7 @@ impl Ready {
 
 impl Bench<'_, '_> {
     /// Fits a section; None if it is too obstructed or no ellipse fits.
-    pub(crate) fn fit(&self, place: &Place, known: &Known) -> Option<Fit> {
+    pub(crate) fn fit(&self, place: &SectionPlane, known: &Known) -> Option<Fit> {
         let ready = self.ready(place, known)?;
         let wider = self.doubt.as_ref().and_then(|doubt| doubt.wider);
         let unsure = self.doubt.as_ref().map(|doubt| Unsure {
@@ -67,7 +67,7 @@ impl Bench<'_, '_> {
         Some(Fit { free: ready.cleared.obstacles.free, ..fit })
     }
 
-    pub(crate) fn ready(&self, place: &Place, known: &Known) -> Option<Ready> {
+    pub(crate) fn ready(&self, place: &SectionPlane, known: &Known) -> Option<Ready> {
         let cleared = self.cleared(place, known)?;
         let seen = self.level_seen(place, known, |point| cleared.obstacles.keeps(point));
         let expected = Expected {
@@ -83,7 +83,7 @@ impl Bench<'_, '_> {
         Some(Ready { place: *place, start: known.ellipse, cleared, expected })
     }
 
-    pub(crate) fn pairs(&self, place: &Place, known: &Known, fit: &Fit) -> Option<Pairs> {
+    pub(crate) fn pairs(&self, place: &SectionPlane, known: &Known, fit: &Fit) -> Option<Pairs> {
         let samples = self.cleared(place, known)?.samples;
         let missing = fit.missing(&samples, Whitening::new(self.blur.of_voxels(place)));
         Some(Pairs::new(&samples, &missing, known.noise() as f32))
@@ -94,7 +94,7 @@ impl Bench<'_, '_> {
     }
 
     /// Voxels of a section without obstacles; None if too few directions are free.
-    fn cleared(&self, place: &Place, known: &Known) -> Option<Cleared> {
+    fn cleared(&self, place: &SectionPlane, known: &Known) -> Option<Cleared> {
         let width = self.blur.width(place);
         let ellipse = &known.ellipse;
         let rays = self.rays.all(place, ellipse.center, &self.look(place, known));
@@ -114,7 +114,7 @@ impl Bench<'_, '_> {
         Some(Cleared { samples, obstacles })
     }
 
-    fn level_seen(&self, place: &Place, known: &Known, keep: impl Fn(DVec2) -> bool) -> Option<Level> {
+    fn level_seen(&self, place: &SectionPlane, known: &Known, keep: impl Fn(DVec2) -> bool) -> Option<Level> {
         let ellipse = &known.ellipse;
         let peak =
             Boundary::new(ellipse, Whitening::new(self.blur.interpolated(place))).value(ellipse.center);

@@ -7,8 +7,8 @@ use rayon::prelude::*;
 
 use super::fit::Fit;
 use super::golden::least;
-use super::place::Place;
 use super::pooled::{Level, pooled};
+use super::section_plane::SectionPlane;
 use super::sections::{Bench, Known, noise};
 use lumencut_core::error::Result;
 use lumencut_core::stop::{Stop, go_on};
@@ -31,27 +31,27 @@ const ROUNDS: usize = 11;
 /// Lumen level and its standard deviation at each section, as shares.
 pub(crate) fn lumen_levels(
     bench: &Bench,
-    places: &[Place],
+    places: &[SectionPlane],
     fits: &[Option<Fit>],
     stop: Stop,
 ) -> Result<Vec<Level>> {
     let at: Vec<f64> = places.iter().map(|place| place.at).collect();
-    let told: Vec<Option<Level>> =
+    let levels: Vec<Option<Level>> =
         fits.iter().map(|fit| fit.map(|fit| fit.lumen).filter(|level| level[1] <= TELLS.0)).collect();
-    if told.iter().flatten().count() >= TELLS.1 {
-        return Ok(pooled(&at, &told));
+    if levels.iter().flatten().count() >= TELLS.1 {
+        return Ok(pooled(&at, &levels));
     }
     let level = together(bench, places, fits, stop)?;
     Ok(vec![[level, DEVIATION * level]; places.len()])
 }
 
 /// Common level with which the sections fit best.
-fn together(bench: &Bench, places: &[Place], fits: &[Option<Fit>], stop: Stop) -> Result<f64> {
+fn together(bench: &Bench, places: &[SectionPlane], fits: &[Option<Fit>], stop: Stop) -> Result<f64> {
     let noise = noise(fits);
-    let fitted: Vec<(&Place, Fit)> =
+    let fitted: Vec<(&SectionPlane, Fit)> =
         places.iter().zip(fits).filter_map(|(place, fit)| fit.map(|fit| (place, fit))).collect();
     let every = fitted.len().div_ceil(TOGETHER).max(1);
-    let some: Vec<(&Place, Fit)> = fitted.into_iter().step_by(every).collect();
+    let some: Vec<(&SectionPlane, Fit)> = fitted.into_iter().step_by(every).collect();
     let cost = |level: f64| -> Result<f64> {
         let costs: Vec<f64> = some
             .par_iter()

@@ -1,7 +1,7 @@
 //! The measurable part of a vessel: all of it, or the longest stretch with a wall.
 
-use super::place::Place;
 use super::scale::Scale;
+use super::section_plane::SectionPlane;
 use crate::voxels::Voxels;
 use lumencut_core::error::Result;
 
@@ -22,7 +22,7 @@ pub(crate) struct MeasuredPart {
 impl MeasuredPart {
     /// The measurable part; `radius` is the approximate radius (mm), if known. If the whole vessel has no
     /// wall, it is the longest run of pieces of 10 mm with a wall.
-    pub(crate) fn of(voxels: &Voxels, places: &[Place], radius: Option<f64>) -> Result<Self> {
+    pub(crate) fn of(voxels: &Voxels, places: &[SectionPlane], radius: Option<f64>) -> Result<Self> {
         let whole = Scale::of(voxels, places, radius);
         match whole {
             Ok(scale) => Ok(Self { scale, ends: ends(places) }),
@@ -30,26 +30,26 @@ impl MeasuredPart {
         }
     }
 
-    pub(crate) fn holds(&self, place: &Place) -> bool {
+    pub(crate) fn holds(&self, place: &SectionPlane) -> bool {
         (self.ends[0]..=self.ends[1]).contains(&place.at)
     }
 
     /// Stretches before and after it (arc lengths, mm).
-    pub(crate) fn left_out(&self, places: &[Place]) -> Vec<[f64; 2]> {
+    pub(crate) fn left_out(&self, places: &[SectionPlane]) -> Vec<[f64; 2]> {
         let [first, last] = ends(places);
         let beside = [[first, self.ends[0]], [self.ends[1], last]];
         beside.into_iter().filter(|[from, to]| from < to).collect()
     }
 }
 
-fn ends(places: &[Place]) -> [f64; 2] {
+fn ends(places: &[SectionPlane]) -> [f64; 2] {
     [places.first(), places.last()].map(|place| place.map_or(0.0, |place| place.at))
 }
 
-fn longest(voxels: &Voxels, places: &[Place], radius: Option<f64>) -> Option<MeasuredPart> {
+fn longest(voxels: &Voxels, places: &[SectionPlane], radius: Option<f64>) -> Option<MeasuredPart> {
     let [first, last] = ends(places);
     let count = (((last - first) / PIECE).round() as usize).clamp(1, MOST_PIECES);
-    let pieces: Vec<&[Place]> = places.chunks(places.len().div_ceil(count)).collect();
+    let pieces: Vec<&[SectionPlane]> = places.chunks(places.len().div_ceil(count)).collect();
     let has_wall: Vec<bool> = pieces.iter().map(|piece| Scale::of(voxels, piece, radius).is_ok()).collect();
     (LEAST_PIECES..=pieces.len()).rev().find_map(|length| {
         let mut begins =

@@ -6,13 +6,13 @@ use std::sync::OnceLock;
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::looked::{DEFAULT_FWHM, Looked, assumed};
-use super::place::known_radius;
-use super::point_spread::{NARROW, SharpEdges, Told};
+use super::point_spread::{NARROW, SharpEdges, SpreadEstimate};
+use super::prepared::{DEFAULT_FWHM, PreparedVessel, assumed};
 use super::profile::{PointSpread, Profile, Source};
 use super::request::MeasureRequest;
-use super::told_by_tree::ToldByTree;
-use super::tree_walls::ToldWall;
+use super::section_plane::known_radius;
+use super::tree_findings::TreeFindings;
+use super::tree_walls::VesselWall;
 use super::wall_level::WallRequest;
 use crate::voxels::Voxels;
 use lumencut_core::error::{ErrorKind, Result};
@@ -35,67 +35,67 @@ const MOST_ASKED: usize = 8;
 pub fn measure(volume: &Volume, vessel: &Vessel, request: &MeasureRequest) -> Result<Profile> {
     request.check()?;
     let voxels = Voxels::new(volume);
-    let looked = Looked::new(&voxels, vessel, request)?;
+    let prepared = PreparedVessel::new(&voxels, vessel, request)?;
     let found = match request.fwhm {
         None if request.tree.is_empty() => {
-            let spread = match looked.point_spread(&voxels, request.stop)? {
-                Told::Width(found) => told(&found, found.on()),
-                Told::Nothing(reason) => default(&voxels, reason),
+            let spread = match prepared.point_spread(&voxels, request.stop)? {
+                SpreadEstimate::Width(found) => spread_of(&found, found.on()),
+                SpreadEstimate::Nothing(reason) => default(&voxels, reason),
             };
-            ToldByTree { spread, walls: Vec::new() }
+            TreeFindings { spread, walls: Vec::new() }
         }
-        _ => told_by_tree(volume, request)?,
+        _ => tree_findings(volume, request)?,
     };
-    looked.profile(&voxels, vessel, request, found)
+    prepared.profile(&voxels, vessel, request, found)
 }
 
-/// As [`measure`], with the result of [`told_by_tree`] instead of computing it again. Errors: As [`measure`].
-pub fn measure_under(
-    told: ToldByTree,
+/// As [`measure`], with the result of [`tree_findings`] instead of computing it again. Errors: As [`measure`].
+pub fn measure_with(
+    findings: TreeFindings,
     volume: &Volume,
     vessel: &Vessel,
     request: &MeasureRequest,
 ) -> Result<Profile> {
     let voxels = Voxels::new(volume);
-    Looked::new(&voxels, vessel, request)?.profile(&voxels, vessel, request, told)
+    PreparedVessel::new(&voxels, vessel, request)?.profile(&voxels, vessel, request, findings)
 }
 
 /// Estimates the point spread (unless given) and the wall levels on the widest vessels of a tree. Errors:
 /// [`ErrorKind::Settings`] for an invalid width, [`ErrorKind::Interrupted`].
-pub fn told_by_tree(volume: &Volume, request: &MeasureRequest) -> Result<ToldByTree> {
-    TreeMeasuring::new(volume, request)?.told(request.stop)
+pub fn tree_findings(volume: &Volume, request: &MeasureRequest) -> Result<TreeFindings> {
+    TreeMeasuring::new(volume, request)?.findings(request.stop)
 }
 
 /// The vessels of a tree in a volume, with their intermediate results cached.
 pub struct TreeMeasuring<'a, 'v> {
     voxels: Voxels<'v>,
     request: MeasureRequest<'a>,
-    looked: Vec<OnceLock<Looked>>,
+    prepared: Vec<OnceLock<PreparedVessel>>,
 }
 
 impl<'a, 'v> TreeMeasuring<'a, 'v> {
     /// Errors: [`ErrorKind::Settings`] for an invalid point spread or wall.
     pub fn new(volume: &Volume<'v>, request: &MeasureRequest<'a>) -> Result<Self> {
         request.check()?;
-        let looked = request.tree.iter().map(|_| OnceLock::new()).collect();
-        Ok(Self { voxels: Voxels::new(volume), request: *request, looked })
+        let prepared = request.tree.iter().map(|_| OnceLock::new()).collect();
+        Ok(Self { voxels: Voxels::new(volume), request: *request, prepared })
     }
 
-    /// See [`told_by_tree`].
-    pub fn told(&self, stop: Stop) -> Result<ToldByTree> {
+    /// See [`tree_findings`].
+    pub fn findings(&self, stop: Stop) -> Result<TreeFindings> {
         let request = MeasureRequest { stop, ..self.request };
         let spread = match request.fwhm {
             Some(fwhm) => given(fwhm),
-            None => self.told_spread(&request)?,
+            None => self.estimated_spread(&request)?,
         };
-        let walls = self.told_walls(spread.fwhm, &request)?;
-        Ok(ToldByTree { spread, walls })
+        let walls = self.wall_levels(spread.fwhm, &request)?;
+        Ok(TreeFindings { spread, walls })
     }
 
     /// Measures vessel number `n` of the tree. Errors: As [`measure`].
-    pub fn profile(&self, n: usize, told: ToldByTree, stop: Stop) -> Result<Profile> {
+    pub fn profile(&self, n: usize, findings: TreeFindings, stop: Stop) -> Result<Profile> {
         let request = MeasureRequest { stop, ..self.request };
-        self.looked(n, &request)?.profile(&self.voxels, &request.tree[n], &request, told)
+        self.prepared(n, &request)?.profile(&self.voxels, &request.tree[n], &request, findings)
     }
 
     /// Numbers of the widest vessels, independent of their order in the tree.
@@ -108,51 +108,51 @@ impl<'a, 'v> TreeMeasuring<'a, 'v> {
     }
 
     /// Wall levels of the widest vessels under a point spread (FWHM, mm). Needs at least two vessels.
-    fn told_walls(&self, fwhm: f64, request: &MeasureRequest) -> Result<Vec<ToldWall>> {
+    fn wall_levels(&self, fwhm: f64, request: &MeasureRequest) -> Result<Vec<VesselWall>> {
         if request.tree.len() < 2 || request.wall == WallRequest::Off {
             return Ok(Vec::new());
         }
-        let wall = |n: usize| -> Result<Option<ToldWall>> {
-            let Some(looked) = self.looked_or_none(n, request)? else { return Ok(None) };
-            let level = looked.wall_level(&self.voxels, fwhm, request.stop)?;
-            Ok(level.map(|level| ToldWall { vessel: n, level }))
+        let wall = |n: usize| -> Result<Option<VesselWall>> {
+            let Some(prepared) = self.prepared_or_none(n, request)? else { return Ok(None) };
+            let level = prepared.wall_level(&self.voxels, fwhm, request.stop)?;
+            Ok(level.map(|level| VesselWall { vessel: n, level }))
         };
-        let found: Vec<Option<ToldWall>> = self.asked().into_par_iter().map(wall).collect::<Result<_>>()?;
+        let found: Vec<Option<VesselWall>> = self.asked().into_par_iter().map(wall).collect::<Result<_>>()?;
         Ok(found.into_iter().flatten().collect())
     }
 
-    fn told_spread(&self, request: &MeasureRequest) -> Result<PointSpread> {
+    fn estimated_spread(&self, request: &MeasureRequest) -> Result<PointSpread> {
         let mut why = NARROW;
         for n in self.asked() {
             go_on(request.stop)?;
-            let Some(wide) = self.looked_or_none(n, request)? else { continue };
+            let Some(wide) = self.prepared_or_none(n, request)? else { continue };
             match wide.point_spread(&self.voxels, request.stop)? {
-                Told::Width(found) => {
+                SpreadEstimate::Width(found) => {
                     let on = format!("{} of vessel {n} of the tree", found.on());
-                    return Ok(told(&found, on));
+                    return Ok(spread_of(&found, on));
                 }
-                Told::Nothing(NARROW) => {}
-                Told::Nothing(reason) => why = reason,
+                SpreadEstimate::Nothing(NARROW) => {}
+                SpreadEstimate::Nothing(reason) => why = reason,
             }
         }
         Ok(default(&self.voxels, why))
     }
 
     /// None if the vessel cannot be measured.
-    fn looked_or_none(&self, n: usize, request: &MeasureRequest) -> Result<Option<&Looked>> {
-        match self.looked(n, request) {
-            Ok(looked) => Ok(Some(looked)),
+    fn prepared_or_none(&self, n: usize, request: &MeasureRequest) -> Result<Option<&PreparedVessel>> {
+        match self.prepared(n, request) {
+            Ok(prepared) => Ok(Some(prepared)),
             Err(error) if error.kind == ErrorKind::Interrupted => Err(error),
             Err(_) => Ok(None),
         }
     }
 
-    fn looked(&self, n: usize, request: &MeasureRequest) -> Result<&Looked> {
-        if let Some(looked) = self.looked[n].get() {
-            return Ok(looked);
+    fn prepared(&self, n: usize, request: &MeasureRequest) -> Result<&PreparedVessel> {
+        if let Some(prepared) = self.prepared[n].get() {
+            return Ok(prepared);
         }
-        let looked = Looked::new(&self.voxels, &request.tree[n], request)?;
-        Ok(self.looked[n].get_or_init(|| looked))
+        let prepared = PreparedVessel::new(&self.voxels, &request.tree[n], request)?;
+        Ok(self.prepared[n].get_or_init(|| prepared))
     }
 }
 
@@ -172,7 +172,7 @@ fn given(fwhm: f64) -> PointSpread {
     PointSpread { fwhm, deviation: 0.0, source: Source::Given }
 }
 
-fn told(found: &SharpEdges, on: String) -> PointSpread {
+fn spread_of(found: &SharpEdges, on: String) -> PointSpread {
     PointSpread { fwhm: found.fwhm, deviation: found.deviation, source: Source::Estimated { on } }
 }
 

@@ -6,8 +6,8 @@ use rayon::prelude::*;
 use super::blur::Blur;
 use super::fit::Fit;
 use super::golden::least;
-use super::place::Place;
 use super::pooled::Level;
+use super::section_plane::SectionPlane;
 use super::sections::{Bench, Known, noise};
 use lumencut_core::error::Result;
 use lumencut_core::math::statistics::median;
@@ -17,7 +17,7 @@ use lumencut_core::stop::{Stop, go_on};
 const SECTIONS: (usize, usize) = (16, 3);
 
 /// Minimum width of a section, in point spreads.
-const WIDE: f64 = 3.0;
+const MIN_WIDTH: f64 = 3.0;
 
 /// Limits of suitable sections: free share of directions, residual relative to the others, ratio of the axes.
 const FREE: f64 = 0.95;
@@ -57,7 +57,7 @@ impl SharpEdges {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Told {
+pub(crate) enum SpreadEstimate {
     Width(SharpEdges),
     Nothing(&'static str),
 }
@@ -72,14 +72,14 @@ const SHORT: &str = "free, round stretches of wide vessels are too short to esti
 pub(crate) fn estimated(
     bench: &Bench,
     sides: DMat3,
-    places: &[Place],
+    places: &[SectionPlane],
     fits: &[Option<Fit>],
     stop: Stop,
-) -> Result<Told> {
+) -> Result<SpreadEstimate> {
     let noise = noise(fits);
     let wide = wide_sections(bench, fits, noise);
     if wide.len() < SECTIONS.1 {
-        return Ok(Told::Nothing(NARROW));
+        return Ok(SpreadEstimate::Nothing(NARROW));
     }
     let largest =
         [sides.x_axis, sides.y_axis, sides.z_axis].map(DVec3::length).into_iter().fold(0.0, f64::max);
@@ -103,13 +103,13 @@ pub(crate) fn estimated(
     }
     let [fwhm, deviation] = match agreed(&mut best, [low, high]) {
         Ok(agreed) => agreed,
-        Err(reason) => return Ok(Told::Nothing(reason)),
+        Err(reason) => return Ok(SpreadEstimate::Nothing(reason)),
     };
     let [first, last] = [wide.iter().min(), wide.iter().max()].map(|n| n.map_or(0.0, |n| places[*n].at));
     if last - first < STRETCH * fwhm {
-        return Ok(Told::Nothing(SHORT));
+        return Ok(SpreadEstimate::Nothing(SHORT));
     }
-    Ok(Told::Width(SharpEdges { fwhm, deviation, count: best.len(), ends: [first, last] }))
+    Ok(SpreadEstimate::Width(SharpEdges { fwhm, deviation, count: best.len(), ends: [first, last] }))
 }
 
 /// Median and standard deviation of consistent estimates within a range, or the reason for rejecting them.
@@ -136,7 +136,7 @@ fn wide_sections(bench: &Bench, fits: &[Option<Fit>], noise: f64) -> Vec<usize> 
             let fit = fits[n]?;
             let [short, long] = fit.ellipse.semi_axes();
             let is_good = fit.free > FREE && fit.missed <= LEAST_MISSED * noise && long < ROUND * short;
-            (is_good && 2.0 * short > WIDE * bench.fwhm.max(1.2 * side)).then_some((2.0 * short, n))
+            (is_good && 2.0 * short > MIN_WIDTH * bench.fwhm.max(1.2 * side)).then_some((2.0 * short, n))
         })
         .collect();
     wide.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));

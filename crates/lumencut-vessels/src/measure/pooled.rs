@@ -18,15 +18,15 @@ pub(crate) type Level = [f64; 2];
 
 pub(crate) fn pooled(at: &[f64], levels: &[Option<Level>]) -> Vec<Level> {
     let every = levels.len().div_ceil(MOST).max(1);
-    let mut told: Vec<(f64, Level)> =
+    let mut levels: Vec<(f64, Level)> =
         at.iter().zip(levels).step_by(every).filter_map(|(at, level)| level.map(|l| (*at, l))).collect();
-    told.sort_by(|a, b| a.1[0].total_cmp(&b.1[0]).then(a.0.total_cmp(&b.0)));
-    at.iter().map(|at| level(*at, &told)).collect()
+    levels.sort_by(|a, b| a.1[0].total_cmp(&b.1[0]).then(a.0.total_cmp(&b.0)));
+    at.iter().map(|at| level(*at, &levels)).collect()
 }
 
 /// Weighted median of the sorted levels, with the excess scatter of nearby ones as its standard deviation.
-fn level(at: f64, told: &[(f64, Level)]) -> Level {
-    let weights: Vec<f64> = told
+fn level(at: f64, levels: &[(f64, Level)]) -> Level {
+    let weights: Vec<f64> = levels
         .iter()
         .map(|(there, [_, deviation])| {
             (-(there - at).abs() / DISTANCE).exp() / (deviation * deviation + DEVIATION[0].powi(2))
@@ -38,9 +38,9 @@ fn level(at: f64, told: &[(f64, Level)]) -> Level {
         below += weight;
         below >= 0.5 * all
     });
-    let Some(level) = middle.map(|n| told[n].1[0]) else { return [1.0, WRONG] };
+    let Some(level) = middle.map(|n| levels[n].1[0]) else { return [1.0, WRONG] };
     let mut excess = 0.0;
-    for (weight, (_, [there, deviation])) in weights.iter().zip(told) {
+    for (weight, (_, [there, deviation])) in weights.iter().zip(levels) {
         let off = (there - level).abs().min(WRONG);
         excess += weight / all * (off * off - deviation * deviation);
     }

@@ -8,8 +8,8 @@ use super::ellipse::Ellipse;
 use super::fit::Fit;
 use super::flags::{CALCIUM, LEFT_OUT, METAL};
 use super::parts::Parts;
-use super::place::Place;
 use super::scale::Scale;
+use super::section_plane::SectionPlane;
 use super::sections::{Section, center};
 use super::wall::Wall;
 use super::wall_level::WallSource;
@@ -97,7 +97,7 @@ pub struct Profile {
 
 impl Profile {
     pub(crate) fn new(
-        places: &[Place],
+        places: &[SectionPlane],
         sections: &[Section],
         scale: &Scale,
         noise: f64,
@@ -179,8 +179,8 @@ impl Profile {
     }
 
     /// Plane of section `n`.
-    pub fn place(&self, n: usize) -> Place {
-        Place {
+    pub fn place(&self, n: usize) -> SectionPlane {
+        SectionPlane {
             at: self.arc_length[n],
             origin: self.on_vessel[n],
             axes: self.axes[n],
@@ -200,32 +200,33 @@ impl Profile {
 }
 
 /// Maximum standard deviation of the log thickness of a reported wall.
-const WALL_TOLD: f64 = 0.35;
+const MAX_WALL_DEVIATION: f64 = 0.35;
 
 /// Anything thicker (mm) is thrombus or other tissue.
-const THICKEST_TOLD: f64 = 3.0;
+const THICKEST_WALL: f64 = 3.0;
 
 /// No wall is reported in sections with these flags.
 const WALL_HIDDEN: u32 = LEFT_OUT | CALCIUM | METAL;
 
 fn wall((section, flags): (&Section, &u32)) -> [f64; 2] {
-    let told = section.fit.and_then(|fit| fit.wall);
-    let is_told = |wall: &Wall| wall.log_thickness[1] <= WALL_TOLD && wall.thickness() < THICKEST_TOLD;
-    let told = told.filter(|wall| is_told(wall) && flags & WALL_HIDDEN == 0);
-    told.map_or([f64::NAN; 2], |wall| [wall.thickness(), wall.thickness() * wall.log_thickness[1]])
+    let wall = section.fit.and_then(|fit| fit.wall);
+    let is_measured_wall =
+        |wall: &Wall| wall.log_thickness[1] <= MAX_WALL_DEVIATION && wall.thickness() < THICKEST_WALL;
+    let wall = wall.filter(|wall| is_measured_wall(wall) && flags & WALL_HIDDEN == 0);
+    wall.map_or([f64::NAN; 2], |wall| [wall.thickness(), wall.thickness() * wall.log_thickness[1]])
 }
 
 fn outer((section, flags): (&Section, &u32)) -> [f64; 2] {
     let [thickness, unsure] = wall((section, flags));
     section.fit.map_or([f64::NAN; 2], |fit| {
         let around = Ellipse { mean: fit.ellipse.mean + thickness, ..fit.ellipse };
-        let is_told = thickness.is_finite();
-        let diameter = if is_told { around.equivalent_diameter() } else { f64::NAN };
+        let is_measured_wall = thickness.is_finite();
+        let diameter = if is_measured_wall { around.equivalent_diameter() } else { f64::NAN };
         [diameter, (2.0 * unsure).hypot(fit.uncertainty)]
     })
 }
 
-fn half_axes(place: &Place, fit: Option<&Fit>) -> [DVec3; 2] {
+fn half_axes(place: &SectionPlane, fit: Option<&Fit>) -> [DVec3; 2] {
     let in_world = |axis: DVec2| place.axes[0] * axis.x + place.axes[1] * axis.y;
     fit.map_or([DVec3::NAN; 2], |fit| fit.ellipse.half_axes().map(in_world))
 }

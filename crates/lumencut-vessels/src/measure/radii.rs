@@ -8,7 +8,7 @@ use super::flags::LEFT_OUT;
 use super::measuring::TreeMeasuring;
 use super::profile::Profile;
 use super::request::MeasureRequest;
-use super::watched::watched;
+use super::with_progress::with_progress;
 use lumencut_core::error::{ErrorKind, Result};
 use lumencut_core::math::same_place::REPEATED_POINT;
 use lumencut_core::progress::Progress;
@@ -44,9 +44,9 @@ pub fn measured_radii(
     }
     let MeasureRequest { step, tree, stop, .. } = *request;
     let measuring = TreeMeasuring::new(volume, request)?;
-    watched(progress, (tree, step), stop, |stop| {
-        let told = measuring.told(stop)?;
-        let radii = |(n, vessel): (usize, &Vessel)| match measuring.profile(n, told.clone(), stop) {
+    with_progress(progress, (tree, step), stop, |stop| {
+        let findings = measuring.findings(stop)?;
+        let radii = |(n, vessel): (usize, &Vessel)| match measuring.profile(n, findings.clone(), stop) {
             Ok(profile) => Ok(of_profile(vessel, &profile)),
             Err(error) if matches!(error.kind, ErrorKind::Measuring | ErrorKind::VesselTree) => {
                 let kept = vessel.points().len();
@@ -59,44 +59,44 @@ pub fn measured_radii(
 }
 
 fn of_profile(vessel: &Vessel, profile: &Profile) -> Radii {
-    let is_told = |n: &usize| {
+    let is_measured = |n: &usize| {
         let diameter = 2.0 * (profile.area[*n] / PI).sqrt();
         profile.flags[*n] & LEFT_OUT == 0 && profile.uncertainty[*n] < UNSURE * diameter
     };
-    let told: Vec<(f64, f64)> = (0..profile.len())
-        .filter(is_told)
+    let known: Vec<(f64, f64)> = (0..profile.len())
+        .filter(is_measured)
         .map(|n| (profile.arc_length[n], (profile.area[n] / PI).sqrt()))
         .collect();
     let (mut measured, mut kept) = (0, 0);
     let mut radius = Vec::with_capacity(vessel.points().len());
     for (n, at) in vessel.arc_length().iter().enumerate() {
-        let here = between(&told, *at);
+        let here = between(&known, *at);
         measured += usize::from(here.is_some());
         kept += usize::from(here.is_none());
         radius.push(
-            here.or_else(|| vessel.radius().map(|radii| radii[n])).or_else(|| nearest_radius(&told, *at)),
+            here.or_else(|| vessel.radius().map(|radii| radii[n])).or_else(|| nearest_radius(&known, *at)),
         );
     }
     Radii { radius: radius.into_iter().collect(), measured, kept }
 }
 
 /// Radius interpolated between two sections that are close enough.
-fn between(told: &[(f64, f64)], at: f64) -> Option<f64> {
-    let after = told.partition_point(|(there, _)| *there < at);
-    let next = told.get(after);
+fn between(known: &[(f64, f64)], at: f64) -> Option<f64> {
+    let after = known.partition_point(|(there, _)| *there < at);
+    let next = known.get(after);
     if let Some((there, radius)) = next
         && *there - at <= REPEATED_POINT
     {
         return Some(*radius);
     }
-    let (before, next) = (told.get(after.checked_sub(1)?)?, next?);
+    let (before, next) = (known.get(after.checked_sub(1)?)?, next?);
     let apart = next.0 - before.0;
     (apart <= GAP).then(|| before.1 + (next.1 - before.1) * (at - before.0) / apart)
 }
 
-fn nearest_radius(told: &[(f64, f64)], at: f64) -> Option<f64> {
+fn nearest_radius(known: &[(f64, f64)], at: f64) -> Option<f64> {
     let away = |one: &&(f64, f64)| (one.0 - at).abs();
-    told.iter().min_by(|a, b| away(a).total_cmp(&away(b))).map(|(_, radius)| *radius)
+    known.iter().min_by(|a, b| away(a).total_cmp(&away(b))).map(|(_, radius)| *radius)
 }
 
 #[cfg(test)]

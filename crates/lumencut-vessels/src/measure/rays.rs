@@ -5,8 +5,8 @@ use std::sync::LazyLock;
 
 use glam::{DVec2, DVec3};
 
-use super::place::Place;
 use super::scale::Scale;
+use super::section_plane::SectionPlane;
 use crate::voxels::Voxels;
 use lumencut_core::math::lanes::FAN;
 
@@ -67,7 +67,7 @@ pub(crate) struct Rays<'a, 'v> {
 
 impl Rays<'_, '_> {
     /// Share at a point of a plane; NaN outside the volume.
-    pub(crate) fn at(&self, place: &Place, point: DVec2) -> f64 {
+    pub(crate) fn at(&self, place: &SectionPlane, point: DVec2) -> f64 {
         self.scale.share(f64::from(self.voxels.at(place.point(point))))
     }
 
@@ -75,7 +75,7 @@ impl Rays<'_, '_> {
         SAMPLE * self.voxels.sampling_side
     }
 
-    pub(crate) fn ray(&self, place: &Place, center: DVec2, direction: DVec2, look: &Look) -> Ray {
+    pub(crate) fn ray(&self, place: &SectionPlane, center: DVec2, direction: DVec2, look: &Look) -> Ray {
         let mut samples = Samples::new(self, place, center, direction);
         let half = f64::midpoint(look.levels[0], look.levels[1]);
         let mut ray = Ray {
@@ -123,7 +123,7 @@ impl Rays<'_, '_> {
         ray
     }
 
-    pub(crate) fn all(&self, place: &Place, center: DVec2, look: &Look) -> Vec<Ray> {
+    pub(crate) fn all(&self, place: &SectionPlane, center: DVec2, look: &Look) -> Vec<Ray> {
         (0..RAYS).map(|n| self.ray(place, center, direction(n), look)).collect()
     }
 }
@@ -152,7 +152,7 @@ struct Samples<'a, 'v> {
 }
 
 impl<'a, 'v> Samples<'a, 'v> {
-    fn new(rays: &'a Rays<'a, 'v>, place: &Place, center: DVec2, direction: DVec2) -> Self {
+    fn new(rays: &'a Rays<'a, 'v>, place: &SectionPlane, center: DVec2, direction: DVec2) -> Self {
         let index = &rays.voxels.index_from_world;
         let start = index.transform_point3(place.point(center));
         let stride = index.transform_vector3(place.point(direction) - place.origin) * rays.step();

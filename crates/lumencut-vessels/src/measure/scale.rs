@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::place::Place;
+use super::section_plane::SectionPlane;
 use crate::voxels::Voxels;
 use lumencut_core::error::{Error, ErrorKind, Result};
 use lumencut_core::math::statistics::median;
@@ -14,7 +14,7 @@ const DIRECTIONS: usize = 16;
 const MOST_PLACES: usize = 150;
 
 /// Search radius for a vessel of unknown radius (mm).
-const REACH: f64 = 30.0;
+const SEARCH_RADIUS_MM: f64 = 30.0;
 
 /// The wall is the first slope of at least this share of the steepest one.
 const STEEP: f64 = 0.4;
@@ -45,9 +45,9 @@ impl Scale {
     }
 
     /// Scale from the medians of rings around all sections; `radius` (mm) is approximate.
-    pub(crate) fn of(voxels: &Voxels, places: &[Place], radius: Option<f64>) -> Result<Self> {
+    pub(crate) fn of(voxels: &Voxels, places: &[SectionPlane], radius: Option<f64>) -> Result<Self> {
         let step = 0.5 * voxels.sampling_side;
-        let reach = radius.map_or(REACH, |radius| 2.5 * radius + 3.0);
+        let reach = radius.map_or(SEARCH_RADIUS_MM, |radius| 2.5 * radius + 3.0);
         let rings = rings(voxels, places, step, (reach / step).ceil() as usize);
         let [Some(lumen), ..] = rings[..] else {
             let expected = "a vessel within the volume";
@@ -95,14 +95,14 @@ pub(crate) fn in_words(value: f64) -> String {
     format!("{value:.*}", if value == 0.0 { 0 } else { decimals as usize })
 }
 
-fn scatter(voxels: &Voxels, places: &[Place], lumen: f64) -> f64 {
+fn scatter(voxels: &Voxels, places: &[SectionPlane], lumen: f64) -> f64 {
     let values = places.iter().map(|place| f64::from(voxels.at(place.origin)));
     let mut off: Vec<f64> = values.filter(|value| value.is_finite()).map(|v| (v - lumen).abs()).collect();
     1.4826 * median(&mut off).unwrap_or(f64::INFINITY)
 }
 
 /// Median at each distance from the vessel, over all sections and directions.
-fn rings(voxels: &Voxels, places: &[Place], step: f64, count: usize) -> Vec<Option<f64>> {
+fn rings(voxels: &Voxels, places: &[SectionPlane], step: f64, count: usize) -> Vec<Option<f64>> {
     let every = places.len().div_ceil(MOST_PLACES);
     (0..=count)
         .map(|n| {

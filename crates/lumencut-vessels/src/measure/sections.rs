@@ -3,20 +3,20 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::believed::{encloses_lumen, lumen_shares};
 use super::blooming;
 use super::blur::Blur;
 use super::contour::{ellipse_within, irregularity, points, wall, wall_by_rays};
+use super::contour_check::{encloses_lumen, lumen_shares};
 use super::ellipse::{Boundary, Ellipse, Whitening};
 use super::fit::Fit;
 use super::flags::{AT_LIMIT, CALCIUM, IRREGULAR, METAL, NO_EDGE, RECENTERED};
+use super::lumen_estimate::LumenEstimate;
 use super::model::ThreeLevels;
 use super::obstacles::flags_of;
 use super::parts::Parts;
-use super::place::Place;
 use super::pooled::Level;
 use super::rays::{Look, Rays, direction};
-use super::rough::Rough;
+use super::section_plane::SectionPlane;
 use super::texture::Texture;
 use super::wall::KnownWall;
 use lumencut_core::error::Result;
@@ -115,38 +115,40 @@ impl Section {
 }
 
 impl Bench<'_, '_> {
-    pub(crate) fn rough(
+    pub(crate) fn estimates(
         &self,
-        places: &[Place],
+        places: &[SectionPlane],
         search: f64,
         widest: f64,
         stop: Stop,
-    ) -> Result<Vec<Option<Rough>>> {
-        let look = |place: &Place| go_on(stop).map(|()| Rough::find(&self.rays, place, search, widest));
+    ) -> Result<Vec<Option<LumenEstimate>>> {
+        let look = |place: &SectionPlane| {
+            go_on(stop).map(|()| LumenEstimate::find(&self.rays, place, search, widest))
+        };
         places.par_iter().map(look).collect()
     }
 
     pub(crate) fn first_fits(
         &self,
-        places: &[Place],
-        rough: &[Option<Rough>],
+        places: &[SectionPlane],
+        estimates: &[Option<LumenEstimate>],
         stop: Stop,
     ) -> Result<Vec<Option<Fit>>> {
-        let fit = |(place, rough): (&Place, &Option<Rough>)| {
+        let fit = |(place, estimate): (&SectionPlane, &Option<LumenEstimate>)| {
             go_on(stop)?;
-            let Some(rough) = rough else { return Ok(None) };
+            let Some(estimate) = estimate else { return Ok(None) };
             let known = Known {
-                ellipse: Ellipse::circle(rough.center, rough.radius),
-                lumen: [rough.lumen.max(0.8), 0.5],
+                ellipse: Ellipse::circle(estimate.center, estimate.radius),
+                lumen: [estimate.lumen.max(0.8), 0.5],
                 noise: None,
                 wall: None,
             };
-            Ok(self.settled(place, &known))
+            Ok(self.stable_fit(place, &known))
         };
-        places.par_iter().zip(rough).map(fit).collect()
+        places.par_iter().zip(estimates).map(fit).collect()
     }
 
-    pub(super) fn look(&self, place: &Place, known: &Known) -> Look {
+    pub(super) fn look(&self, place: &SectionPlane, known: &Known) -> Look {
         let width = self.blur.width(place);
         let noise = known.noise();
         let is_bright_lumen = self.rays.scale.contrast > 0.0;
@@ -162,7 +164,7 @@ impl Bench<'_, '_> {
     }
 
     /// Measures a section with prior knowledge; `other` is its second solution ([`Fit::other`]).
-    pub(crate) fn section(&self, place: &Place, known: &Known, other: Option<Ellipse>) -> Section {
+    pub(crate) fn section(&self, place: &SectionPlane, known: &Known, other: Option<Ellipse>) -> Section {
         let fitted = self.fit_of_either(place, known, other).map(|fit| self.fitted(place, known, fit));
         match fitted {
             Some(section) if section.flags & METAL == 0 => section,
@@ -170,7 +172,7 @@ impl Bench<'_, '_> {
         }
     }
 
-    fn fitted(&self, place: &Place, known: &Known, fit: Fit) -> Section {
+    fn fitted(&self, place: &SectionPlane, known: &Known, fit: Fit) -> Section {
         let (ellipse, width) = (fit.ellipse, self.blur.width(place));
         let boundary = Boundary::new(&ellipse, Whitening::new(self.blur.interpolated(place)));
         // A narrow lumen peaks below its level.
@@ -207,7 +209,7 @@ impl Bench<'_, '_> {
         Section { contour, fit: Some(fit), flags: flags | self.place_flags(&ellipse), bounds }
     }
 
-    fn by_rays(&self, place: &Place, known: &Known) -> Option<Section> {
+    fn by_rays(&self, place: &SectionPlane, known: &Known) -> Option<Section> {
         let width = self.blur.width(place);
         let rays = self.rays.all(place, known.ellipse.center, &self.look(place, known));
         let walls = wall_by_rays(&rays, width)?;
@@ -257,6 +259,6 @@ pub(crate) fn noise(fits: &[Option<Fit>]) -> f64 {
     median(&mut missed).unwrap_or(FIRST_NOISE).max(1e-4)
 }
 
-pub(crate) fn center(place: &Place, fit: &Fit) -> DVec3 {
+pub(crate) fn center(place: &SectionPlane, fit: &Fit) -> DVec3 {
     place.point(fit.ellipse.center)
 }

@@ -5,8 +5,8 @@
 
 use glam::DVec2;
 
-use super::place::Place;
 use super::scale::Scale;
+use super::section_plane::SectionPlane;
 use crate::voxels::Voxels;
 use lumencut_core::math::lanes::FAN;
 
@@ -49,7 +49,7 @@ impl Samples {
     pub(crate) fn gather(
         voxels: &Voxels,
         scale: &Scale,
-        place: &Place,
+        place: &SectionPlane,
         window: &Window,
         keep: impl Fn(DVec2) -> bool,
     ) -> Self {
@@ -103,7 +103,7 @@ impl Samples {
 }
 
 /// Distance from the plane up to which voxels count (mm): the reach of linear interpolation.
-pub(crate) fn thickness(voxels: &Voxels, place: &Place) -> f64 {
+pub(crate) fn thickness(voxels: &Voxels, place: &SectionPlane) -> f64 {
     let sides = voxels.world_from_index.matrix3;
     [sides.x_axis, sides.y_axis, sides.z_axis].iter().map(|side| side.dot(place.normal).abs()).sum()
 }

@@ -12,7 +12,7 @@ use lumencut_core::math::statistics::{median, quantile};
 const PARALLEL: (f64, f64) = (2.5, 0.06);
 
 /// Distance range of references (mm).
-const AWAY: [f64; 2] = [3.0, 50.0];
+const REFERENCE_DISTANCE_MM: [f64; 2] = [3.0, 50.0];
 
 /// Minimum diameter of a reference, as a share of the typical diameter on its side.
 const NORMAL: f64 = 0.92;
@@ -117,15 +117,15 @@ impl Profile {
             .filter(|n| self.counts(*n))
             .max_by(|a, b| self.area[*a].total_cmp(&self.area[*b]));
         let longest = self.widest().map(|spot| self.nearest_section(spot.at));
-        let believed = longest.into_iter().chain(largest).find(|n| self.is_believed(*n))?;
-        let at = self.arc_length[believed];
+        let plausible = longest.into_iter().chain(largest).find(|n| self.is_plausible(*n))?;
+        let at = self.arc_length[plausible];
         let is_beside = |n: &usize| (self.arc_length[*n] - at).abs() <= BESIDE;
         let is_odd = |n: usize| self.flags[n] & (BRANCH | IRREGULAR) != 0;
         let is_plain = !(0..self.len()).filter(is_beside).any(is_odd);
-        is_plain.then_some(Spot { at, diameter: self.diameter_max[believed] })
+        is_plain.then_some(Spot { at, diameter: self.diameter_max[plausible] })
     }
 
-    fn is_believed(&self, n: usize) -> bool {
+    fn is_plausible(&self, n: usize) -> bool {
         let (reach, least, share) = NEIGHBOURS;
         let longest = self.diameter_max[n];
         let is_near = |m: &usize| *m != n && (self.arc_length[*m] - self.arc_length[n]).abs() <= reach;
@@ -172,13 +172,16 @@ impl Profile {
     /// Distance (mm) to the nearest branch on a side, ignoring one at the place itself.
     fn nearest_branch(&self, at: f64, side: f64) -> f64 {
         let away = (0..self.len()).filter(|n| self.flags[*n] & BRANCH != 0);
-        let away = away.map(|n| (self.arc_length[n] - at) * side).filter(|away| *away >= AWAY[0]);
+        let away =
+            away.map(|n| (self.arc_length[n] - at) * side).filter(|away| *away >= REFERENCE_DISTANCE_MM[0]);
         away.fold(f64::INFINITY, f64::min)
     }
 
     fn suggested_on(&self, (at, side): (f64, f64), reach: f64, normal: &[Spot]) -> Option<Spot> {
         let away = |there: f64| (there - at) * side;
-        let is_there = |there: f64| (AWAY[0]..=AWAY[1].min(reach)).contains(&away(there));
+        let is_there = |there: f64| {
+            (REFERENCE_DISTANCE_MM[0]..=REFERENCE_DISTANCE_MM[1].min(reach)).contains(&away(there))
+        };
         let mut widths = self.widths((0..self.len()).filter(|n| is_there(self.arc_length[*n])));
         let most = quantile(&mut widths, 0.75)?;
         let is_offered = |spot: &&Spot| {
@@ -211,7 +214,8 @@ fn thinner(a: &(usize, Spot), b: &(usize, Spot)) -> Ordering {
 }
 
 fn calibre_step((at, side): (f64, f64), normal: &[Spot]) -> f64 {
-    let mut there: Vec<&Spot> = normal.iter().filter(|spot| (spot.at - at) * side >= AWAY[0]).collect();
+    let mut there: Vec<&Spot> =
+        normal.iter().filter(|spot| (spot.at - at) * side >= REFERENCE_DISTANCE_MM[0]).collect();
     there.sort_by(|a, b| ((a.at - at) * side).total_cmp(&((b.at - at) * side)));
     let is_step = |two: &&[&Spot]| {
         let [a, b] = [two[0].diameter, two[1].diameter];

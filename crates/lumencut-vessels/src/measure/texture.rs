@@ -11,7 +11,7 @@ use lumencut_core::math::lanes::{FAN, Isa, Kernel, dispatch};
 const FAR: usize = 5;
 
 /// Minimum number of pairs, and minimum significance in standard deviations, of a correlation.
-const LEAST: (f64, f64) = (100.0, 2.0);
+const MIN_EVIDENCE: (f64, f64) = (100.0, 2.0);
 
 /// Residuals above this multiple of the typical value are not noise.
 const LARGEST: f32 = 4.0;
@@ -123,10 +123,10 @@ struct NearProducts {
 
 impl NearProducts {
     fn new(samples: &mut [([i16; 3], f32)], correlation: &[[[f32; FAR]; FAR]; FAR]) -> Self {
-        const AWAY: i32 = 1 << 20;
+        const FAR_INDEX: i32 = 1 << 20;
         let axis = put_in_order(samples);
         let axes = [axis, (axis + 1) % 3, (axis + 2) % 3];
-        let behind = || std::iter::repeat_n(AWAY, FAN);
+        let behind = || std::iter::repeat_n(FAR_INDEX, FAN);
         let voxel = axes
             .map(|axis| samples.iter().map(|(voxel, _)| i32::from(voxel[axis])).chain(behind()).collect());
         let weight = samples.iter().map(|(_, weight)| *weight).chain([0.0; FAN]).collect();
@@ -202,12 +202,12 @@ impl Texture {
             for j in 0..FAR {
                 for k in 0..FAR {
                     let count = pairs.count[i][j][k];
-                    if i + j + k == 0 || count < LEAST.0 || variance <= 0.0 {
+                    if i + j + k == 0 || count < MIN_EVIDENCE.0 || variance <= 0.0 {
                         continue;
                     }
-                    let told = (pairs.products[i][j][k] / count + taken) / variance;
-                    if told.abs() * count.sqrt() >= LEAST.1 {
-                        all.correlation[i][j][k] = told.clamp(-1.0, 1.0) as f32;
+                    let correlation = (pairs.products[i][j][k] / count + taken) / variance;
+                    if correlation.abs() * count.sqrt() >= MIN_EVIDENCE.1 {
+                        all.correlation[i][j][k] = correlation.clamp(-1.0, 1.0) as f32;
                     }
                 }
             }

@@ -12,7 +12,7 @@ const APART: [f64; 6] = [0.16, 0.32, 0.48, 0.64, 0.8, 0.96];
 
 /// Wall level from the sections of a vessel, without the prior.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct ToldWall {
+pub(crate) struct VesselWall {
     /// Number of the vessel in its tree.
     pub vessel: usize,
     /// Level and standard deviation, in the volume's unit.
@@ -30,24 +30,24 @@ pub struct PooledWall {
 
 /// Wall level expected from other vessels, except those that share voxels.
 pub(crate) fn wall_beside(
-    walls: &[ToldWall],
+    walls: &[VesselWall],
     tree: &[Vessel],
     vessel: &Vessel,
     expected: Level,
 ) -> Option<PooledWall> {
-    let told: Vec<Level> = walls
+    let levels: Vec<Level> = walls
         .iter()
         .filter(|wall| tree.get(wall.vessel).is_some_and(|other| !shares_line(other, vessel)))
         .map(|wall| wall.level)
         .collect();
-    (!told.is_empty()).then(|| PooledWall { level: by_others(expected, &told), vessels: told.len() })
+    (!levels.is_empty()).then(|| PooledWall { level: by_others(expected, &levels), vessels: levels.len() })
 }
 
-fn by_others(expected: Level, told: &[Level]) -> Level {
-    let mut told = told.to_vec();
+fn by_others(expected: Level, levels: &[Level]) -> Level {
+    let mut levels = levels.to_vec();
     // Makes the result independent of the order of the vessels.
-    told.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
-    let tried = APART.map(|share| by_others_apart(expected, share * expected[1], &told));
+    levels.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
+    let tried = APART.map(|share| by_others_apart(expected, share * expected[1], &levels));
     let likeliest = tried.iter().map(|(likely, _)| *likely).fold(f64::NEG_INFINITY, f64::max);
     let weights = tried.map(|(likely, _)| (likely - likeliest).exp());
     let mean_of = |of: &dyn Fn(&Level) -> f64| {
@@ -59,10 +59,10 @@ fn by_others(expected: Level, told: &[Level]) -> Level {
 }
 
 /// Level if vessels differ from their tree by a standard deviation `apart`, and the log-likelihood.
-fn by_others_apart([mean, deviation]: Level, apart: f64, told: &[Level]) -> (f64, Level) {
+fn by_others_apart([mean, deviation]: Level, apart: f64, levels: &[Level]) -> (f64, Level) {
     let between = apart.powi(2);
     let (mut level, mut variance, mut likely) = (mean, deviation.powi(2) - between, 0.0);
-    for [there, unsure] in told {
+    for [there, unsure] in levels {
         let all = variance + between + unsure.powi(2);
         likely -= 0.5 * (all.ln() + (there - level).powi(2) / all);
         let gain = variance / all;

@@ -33,46 +33,52 @@ pub(crate) fn pooled(
         .zip(fits)
         .filter_map(|(at, fit)| fit.and_then(|fit| Some((*at, fit.ellipse, fit.wall?))))
         .collect();
-    let [mean, deviation] = level_by(at, fits, known, Told::new(expected), inflation).level();
+    let [mean, deviation] = level_by(at, fits, known, WeightedLevel::new(expected), inflation).level();
     let level = [mean, deviation.max(LEAST_LEVEL)];
     let thickness = |here: f64, lumen: &Ellipse| {
         let first = beforehand(lumen);
-        let mut told = Told::new(first);
+        let mut weighted = WeightedLevel::new(first);
         let (mut slopes, mut shares) = (0.0, f64::MIN_POSITIVE);
         for (there, other, wall) in &walls {
             let weight = (-(there - here).abs() / EVEN.0).exp() * apart;
             // Pools the excess over the thickness expected from the lumen width.
             let [mean, deviation] = wall.log_thickness_at(level[0]);
-            told.add([mean - beforehand(other)[0] + first[0], deviation], first, weight);
+            weighted.add([mean - beforehand(other)[0] + first[0], deviation], first, weight);
             let share = weight / deviation.powi(2);
             (slopes, shares) = (slopes + share * wall.slope, shares + share);
         }
-        let [mean, deviation] = told.level();
+        let [mean, deviation] = weighted.level();
         ([mean, deviation.max(EVEN.1)], slopes / shares)
     };
     at.iter()
         .zip(fits)
         .map(|(at, fit)| {
-            let told = fit.map(|fit| thickness(*at, &fit.ellipse));
-            let slope = told.map_or(0.0, |(_, slope)| slope);
-            KnownWall { level, log_thickness: told.map(|(thickness, _)| thickness), slope }
+            let thickness = fit.map(|fit| thickness(*at, &fit.ellipse));
+            let slope = thickness.map_or(0.0, |(_, slope)| slope);
+            KnownWall { level, log_thickness: thickness.map(|(thickness, _)| thickness), slope }
         })
         .collect()
 }
 
 /// Wall level as a share without the prior `known`; None without information.
-pub(crate) fn told_level(
+pub(crate) fn unpooled_level(
     at: &[f64],
     fits: &[Option<Fit>],
     known: &KnownWall,
     inflation: f64,
 ) -> Option<Level> {
-    let told = level_by(at, fits, known, Told { precision: 0.0, weighted: 0.0 }, inflation);
-    let [mean, deviation] = told.level();
-    (told.precision > 0.0).then_some([mean, deviation.max(LEAST_LEVEL)])
+    let weighted = level_by(at, fits, known, WeightedLevel { precision: 0.0, weighted: 0.0 }, inflation);
+    let [mean, deviation] = weighted.level();
+    (weighted.precision > 0.0).then_some([mean, deviation.max(LEAST_LEVEL)])
 }
 
-fn level_by(at: &[f64], fits: &[Option<Fit>], known: &KnownWall, mut first: Told, inflation: f64) -> Told {
+fn level_by(
+    at: &[f64],
+    fits: &[Option<Fit>],
+    known: &KnownWall,
+    mut first: WeightedLevel,
+    inflation: f64,
+) -> WeightedLevel {
     let apart = independent(at, SHARED[0]) / inflation;
     for wall in fits.iter().flatten().filter_map(|fit| fit.wall) {
         first.add(wall.level, known.level, apart);
@@ -95,20 +101,20 @@ fn independent(at: &[f64], shared: f64) -> f64 {
     (step / shared).min(1.0)
 }
 
-struct Told {
+struct WeightedLevel {
     precision: f64,
     weighted: f64,
 }
 
-impl Told {
+impl WeightedLevel {
     fn new([mean, deviation]: Level) -> Self {
         let precision = 1.0 / (deviation * deviation);
         Self { precision, weighted: mean * precision }
     }
 
     /// Adds what a section says beyond its prior, with weight `weight`.
-    fn add(&mut self, told: Level, before: Level, weight: f64) {
-        let [after, prior] = [told, before].map(Self::new);
+    fn add(&mut self, level: Level, before: Level, weight: f64) {
+        let [after, prior] = [level, before].map(Self::new);
         let precision = (after.precision - prior.precision).max(0.0);
         if precision > 0.0 {
             self.precision += weight * precision;

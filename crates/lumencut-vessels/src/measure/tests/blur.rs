@@ -1,8 +1,8 @@
 use super::*;
 use glam::DVec3;
 
-fn across(axes: [DVec3; 2]) -> Place {
-    Place { at: 0.0, origin: DVec3::ZERO, axes, normal: axes[0].cross(axes[1]) }
+fn across(axes: [DVec3; 2]) -> SectionPlane {
+    SectionPlane { at: 0.0, origin: DVec3::ZERO, axes, normal: axes[0].cross(axes[1]) }
 }
 
 #[test]

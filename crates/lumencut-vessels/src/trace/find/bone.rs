@@ -41,7 +41,7 @@ const DOUBTS: [f64; 2] = [1.2, 1.7];
 /// An organ is paler than vessels by these shares of the contrast (possibly, surely), with a minimum radius
 /// (mm). For a vertebra's radius, less suffices.
 const PALE: [f64; 2] = [0.45, 0.55];
-const WIDE: f64 = 5.0;
+const WIDE_MM: f64 = 5.0;
 const PALE_AND_VERY_WIDE: [f64; 2] = [0.2, 0.3];
 const VERY_WIDE: f64 = 14.0;
 
@@ -79,7 +79,7 @@ const LUMEN_SPREAD: f64 = 0.1;
 const EXCUSED: f64 = 0.5;
 
 /// Tracks with less confidence are dropped.
-const LEAST: f64 = 0.05;
+const MIN_CONFIDENCE: f64 = 0.05;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Shape {
@@ -156,7 +156,7 @@ pub(crate) fn judged(
 }
 
 pub(crate) fn left(tracks: Vec<Track>) -> Vec<Track> {
-    tracks.into_iter().filter(|track| track.confidence >= LEAST).collect()
+    tracks.into_iter().filter(|track| track.confidence >= MIN_CONFIDENCE).collect()
 }
 
 fn shape(scan: &Scan, track: &Track, stop: Stop) -> Result<Option<Shape>> {
@@ -193,7 +193,7 @@ fn judge(scan: &Scan, track: &mut Track, shape: Shape) {
     let inside = lumen_inside(scan, track, &shape);
     let [flat, uneven] = [by(shape.elongation, ELONGATED) * (1.0 - inside), by(shape.spread, UNEVEN)];
     let lost = ((flat + uneven - DOUBTS[0]) / (DOUBTS[1] - DOUBTS[0])).clamp(0.0, 1.0);
-    let limits = [(VERY_WIDE, PALE_AND_VERY_WIDE), (WIDE, PALE)];
+    let limits = [(VERY_WIDE, PALE_AND_VERY_WIDE), (WIDE_MM, PALE)];
     let limits = limits.into_iter().find(|(radius, _)| track.radius() > *radius);
     let pale = limits
         .map_or(0.0, |(_, limits)| ramp((scan.level - shape.level) / scan.contrast, limits[0], limits[1]));

@@ -31,7 +31,7 @@ const RADIUS_RATIO: [f64; 2] = [0.5, 1.9];
 /// Maximum movement to the centre in radii, and for tubes wider than two voxels.
 const MOST_SHIFT: f64 = 1.0;
 const MOST_WIDE_SHIFT: f64 = 1.5;
-const WIDE: f64 = 2.0;
+const WIDE_RADIUS: f64 = 2.0;
 
 /// Centring rounds, and minimum radius (finest voxels).
 const ROUNDS: usize = 3;
@@ -77,24 +77,27 @@ impl Floors {
 
 pub(crate) fn candidates(
     pyramid: &Pyramid,
-    looked_at: &Range<usize>,
+    levels_examined: &Range<usize>,
     floors: &Floors,
     stop: Stop,
     stages: Stages,
 ) -> Result<Vec<Candidate>> {
     let mut found = Vec::new();
-    let all = looked_at.clone().map(|number| tiles(pyramid.levels[number].size).len()).sum();
+    let all = levels_examined.clone().map(|number| tiles(pyramid.levels[number].size).len()).sum();
     let pieces = stages.stage(Stage::Candidates, all);
-    for number in looked_at.clone() {
+    for number in levels_examined.clone() {
         let level = &pyramid.levels[number];
-        let limits = limits(level, number, looked_at, floors);
+        let limits = limits(level, number, levels_examined, floors);
         let of_level: Vec<Vec<Candidate>> = tiles(level.size)
             .into_par_iter()
             .map(|tile| {
                 go_on(stop)?;
                 pieces.done(1);
                 let seen = peaks(level, tile, &limits);
-                Ok(seen.into_iter().filter_map(|peak| judged(pyramid, looked_at, peak, floors)).collect())
+                Ok(seen
+                    .into_iter()
+                    .filter_map(|peak| judged(pyramid, levels_examined, peak, floors))
+                    .collect())
             })
             .collect::<Result<_>>()?;
         found.extend(of_level.into_iter().flatten());
@@ -105,20 +108,20 @@ pub(crate) fn candidates(
 /// Candidates within two radii of a place (finest voxels).
 pub(crate) fn candidates_near(
     pyramid: &Pyramid,
-    looked_at: &Range<usize>,
+    levels_examined: &Range<usize>,
     floors: &Floors,
     place: DVec3,
 ) -> Vec<Candidate> {
     let of_level = |number: usize| {
         let level = &pyramid.levels[number];
-        let limits = limits(level, number, looked_at, floors);
+        let limits = limits(level, number, levels_examined, floors);
         let voxel = (place / level.side).round().to_array().map(|c| c.max(0.0) as usize);
         let first = std::array::from_fn(|a| voxel[a].saturating_sub(TILE[a] / 2));
         let seen =
             if (0..3).all(|a| first[a] < level.size[a]) { peaks(level, first, &limits) } else { Vec::new() };
-        seen.into_iter().filter_map(|peak| judged(pyramid, looked_at, peak, floors)).collect::<Vec<_>>()
+        seen.into_iter().filter_map(|peak| judged(pyramid, levels_examined, peak, floors)).collect::<Vec<_>>()
     };
-    let found = looked_at.clone().flat_map(of_level);
+    let found = levels_examined.clone().flat_map(of_level);
     in_order(found.filter(|c| c.place.distance(place) <= NEAR * c.radius.max(1.0)).collect(), floors)
 }
 
@@ -129,8 +132,13 @@ fn in_order(mut candidates: Vec<Candidate>, floors: &Floors) -> Vec<Candidate> {
 }
 
 /// Flux radii of a level, each with response factor and threshold.
-fn limits(level: &Level, number: usize, looked_at: &Range<usize>, floors: &Floors) -> Vec<(usize, f32, f32)> {
-    let (first, last) = (looked_at.start, looked_at.end - 1);
+fn limits(
+    level: &Level,
+    number: usize,
+    levels_examined: &Range<usize>,
+    floors: &Floors,
+) -> Vec<(usize, f32, f32)> {
+    let (first, last) = (levels_examined.start, levels_examined.end - 1);
     let radii: &[usize] = match () {
         () if number == first && number == last => &[0, 1, 2, 3],
         () if number == first => &[0, 1, 2],
@@ -262,13 +270,13 @@ fn is_peak(responses: &Responses, voxel: [usize; 3], direction: DVec3) -> bool {
 
 fn judged(
     pyramid: &Pyramid,
-    looked_at: &Range<usize>,
+    levels_examined: &Range<usize>,
     peak: Candidate,
     floors: &Floors,
 ) -> Option<Candidate> {
-    let most = if peak.radius >= WIDE { MOST_WIDE_SHIFT } else { MOST_SHIFT } * peak.radius;
+    let most = if peak.radius >= WIDE_RADIUS { MOST_WIDE_SHIFT } else { MOST_SHIFT } * peak.radius;
     let look = |place: DVec3, radius: f64| {
-        Section::look(pyramid.level_for(radius, looked_at), place, peak.direction, radius)
+        Section::look(pyramid.level_for(radius, levels_examined), place, peak.direction, radius)
     };
     let (mut place, mut radius) = (peak.place, peak.radius);
     let mut section = look(place, radius);

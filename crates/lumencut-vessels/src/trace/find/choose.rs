@@ -9,7 +9,7 @@ use lumencut_core::error::Result;
 use lumencut_core::volume::Volume;
 
 /// Distance (in radii, at least a voxel) up to which a seed selects a vessel.
-pub const REACH: f64 = 1.5;
+pub const SELECT_RADII: f64 = 1.5;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Near {
@@ -60,11 +60,11 @@ pub fn vessel_at(
         .vessels
         .iter()
         .enumerate()
-        .map(|(number, vessel)| near(number, vessel, place, voxel / REACH))
+        .map(|(number, vessel)| near(number, vessel, place, voxel / SELECT_RADII))
         .collect();
     let within = |is_first: bool| {
         near.iter()
-            .filter(|near| near.radii <= REACH && comes_first(&trees.vessels[near.vessel]) == is_first)
+            .filter(|near| near.radii <= SELECT_RADII && comes_first(&trees.vessels[near.vessel]) == is_first)
             .min_by(|a, b| a.radii.total_cmp(&b.radii))
     };
     within(true).or_else(|| within(false)).map(|near| near.vessel).ok_or_else(|| {

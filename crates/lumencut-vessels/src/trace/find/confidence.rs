@@ -19,7 +19,7 @@ pub(crate) struct UsualVessels {
 
 /// Exponent of the product, and minimum of a factor.
 const POWER: f64 = 0.6;
-const LEAST: f64 = 0.02;
+const MIN_FACTOR: f64 = 0.02;
 
 /// Ring around the lumen, in radii plus voxels.
 const RING_FROM: [f64; 2] = [1.25, 0.7];
@@ -33,7 +33,7 @@ const SAMPLES: usize = 4;
 const MOST_SECTIONS: usize = 60;
 
 /// Range of radii (voxels) over which a tube counts as wide.
-const WIDE: [f64; 2] = [2.5, 5.5];
+const WIDE_VOXELS: [f64; 2] = [2.5, 5.5];
 
 /// Search distance for bone (radii plus voxels); its excess over the vessel level (share of the contrast).
 const BONE_REACH: [f64; 2] = [1.5, 1.5];
@@ -71,7 +71,7 @@ pub(crate) fn confidence(
     }
     let radius = usual(good.iter().copied(), |point| point.radius);
     let around = around(pyramid, voxels, &good, vessels);
-    let wide = ramp(radius, WIDE[0], WIDE[1]);
+    let wide = ramp(radius, WIDE_VOXELS[0], WIDE_VOXELS[1]);
     let closure = good.iter().map(|point| point.closure).sum::<f64>() / good.len() as f64;
     let share = good.len() as f64 / points.len() as f64;
     let parts = [
@@ -80,17 +80,17 @@ pub(crate) fn confidence(
         (ramp(closure, 0.75, 0.90), 0.7, TrackDoubt::Open),
         (ramp(around.contrast, 0.12, 0.37), 0.7, TrackDoubt::Faint),
         (ramp(length(points) / radius, 2.0, 8.0), 0.5, TrackDoubt::Short),
-        (ramp(-rough(&good, radius), -0.25, -0.15), 0.7, TrackDoubt::Rough),
+        (ramp(-radius_roughness(&good, radius), -0.25, -0.15), 0.7, TrackDoubt::Rough),
         (no_bone(&around, wide, vessels), 1.0, TrackDoubt::BrightSides),
         (ramp(share, 0.5, 0.8), 0.5, TrackDoubt::Open),
     ];
-    let weighed = parts.map(|(part, weight, doubt)| (weight * part.max(LEAST).ln(), doubt));
+    let weighed = parts.map(|(part, weight, doubt)| (weight * part.max(MIN_FACTOR).ln(), doubt));
     let sum: f64 = weighed.iter().map(|(part, _)| part).sum();
     let worst = weighed.into_iter().min_by(|a, b| a.0.total_cmp(&b.0)).filter(|(part, _)| *part < 0.0);
     ((POWER * sum).exp(), worst.map(|(_, doubt)| doubt))
 }
 
-fn rough(good: &[&TrackPoint], radius: f64) -> f64 {
+fn radius_roughness(good: &[&TrackPoint], radius: f64) -> f64 {
     let steps: Vec<f64> = good.windows(2).map(|pair| pair[1].radius - pair[0].radius).collect();
     if steps.is_empty() {
         return 0.0;

@@ -18,8 +18,8 @@ const SMOOTHING: [f32; 3] = [0.561_8, 0.202_5, 0.016_6];
 const BLUR: f64 = 0.6;
 
 /// Extent of the largest ball, and border of a tile (voxels).
-const REACH: usize = 3;
-pub(crate) const HALO: usize = 2 + REACH + 2;
+const TILE_BORDER: usize = 3;
+pub(crate) const HALO: usize = 2 + TILE_BORDER + 2;
 
 /// The weaker inflow of a tube is at least this share of the trace, which skips most eigenvalues.
 const LEAST_TRACE: f32 = 1.2;
@@ -58,7 +58,7 @@ impl Kernel for FluxOf<'_> {
     fn run(self) -> Responses {
         let smooth = smoothed(&self.values, self.size);
         let smooth_size = self.size.map(|n| n - 4);
-        let average_size = smooth_size.map(|n| n - 2 * REACH);
+        let average_size = smooth_size.map(|n| n - 2 * TILE_BORDER);
         let size = average_size.map(|n| n - 2);
         let count = size.iter().product();
         let mut found = Responses {
@@ -124,7 +124,7 @@ fn smoothed(values: &[f32], size: [usize; 3]) -> Vec<f32> {
 }
 
 fn ball(radius: f64) -> Vec<([i32; 3], f32)> {
-    let reach = REACH as i32;
+    let reach = TILE_BORDER as i32;
     let mut found = Vec::new();
     for k in -reach..=reach {
         for j in -reach..=reach {
@@ -157,11 +157,11 @@ fn share_within(voxel: [i32; 3], radius: f64) -> f32 {
     inside as f32 / (PARTS * PARTS * PARTS) as f32
 }
 
-/// Ball average; loses `REACH` voxels per side.
+/// Ball average; loses `TILE_BORDER` voxels per side.
 #[inline(always)]
 fn averaged(values: &[f32], size: [usize; 3], ball: &[([i32; 3], f32)]) -> Vec<f32> {
-    let next = size.map(|n| n - 2 * REACH);
-    let reach = REACH as i32;
+    let next = size.map(|n| n - 2 * TILE_BORDER);
+    let reach = TILE_BORDER as i32;
     let offsets: Vec<(usize, f32)> = ball
         .iter()
         .map(|(voxel, weight)| {

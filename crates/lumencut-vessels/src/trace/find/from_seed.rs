@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use crate::trace::find::candidates::{Floors, candidates_near};
-use crate::trace::find::choose::REACH;
+use crate::trace::find::choose::SELECT_RADII;
 use crate::trace::find::stages::Stages;
 use crate::trace::find::track::Track;
 use crate::trace::find::tracking::Tracking;
@@ -18,15 +18,19 @@ pub(crate) fn from_seed(tracking: &Tracking, seed: DVec3, known: &[Track]) -> Re
         return Ok(Vec::new());
     }
     let floors = Floors { contrast: FAINTER * tracking.floors.contrast, ..tracking.floors };
-    let around =
-        Tracking { floors, stages: Stages::default(), looked_at: tracking.looked_at.clone(), ..*tracking };
-    let near = candidates_near(tracking.pyramid, &around.looked_at, &floors, seed);
+    let around = Tracking {
+        floors,
+        stages: Stages::default(),
+        levels_examined: tracking.levels_examined.clone(),
+        ..*tracking
+    };
+    let near = candidates_near(tracking.pyramid, &around.levels_examined, &floors, seed);
     let found = around.tracks_beside(known, &near)?;
     Ok(found.into_iter().filter(|track| holds(track, seed)).collect())
 }
 
 fn holds(track: &Track, place: DVec3) -> bool {
-    track.points.iter().any(|point| point.place.distance(place) <= (REACH * point.radius).max(1.0))
+    track.points.iter().any(|point| point.place.distance(place) <= (SELECT_RADII * point.radius).max(1.0))
 }
 
 #[cfg(test)]

@@ -46,8 +46,8 @@ pub(crate) fn hidden(
         let track = (tracking.judge)(points);
         if is_known { Track { confidence: 0.0, ..track } } else { track }
     };
-    let looked_at = tracking.looked_at.clone();
-    Tracking { judge: &judge, looked_at, stages: Stages::default(), ..*tracking }
+    let levels_examined = tracking.levels_examined.clone();
+    Tracking { judge: &judge, levels_examined, stages: Stages::default(), ..*tracking }
         .tracks_beside(&those(false), &within)
 }
 

@@ -190,9 +190,11 @@ impl Pyramid {
     }
 
     /// Level for a tube of a radius (finest voxels): the finest where it is narrower than four voxels.
-    pub(crate) fn level_for(&self, radius: f64, looked_at: &Range<usize>) -> &Level {
-        let last = looked_at.end - 1;
-        let number = (looked_at.start..last).find(|n| radius < WIDE * self.levels[*n].side).unwrap_or(last);
+    pub(crate) fn level_for(&self, radius: f64, levels_examined: &Range<usize>) -> &Level {
+        let last = levels_examined.end - 1;
+        let number = (levels_examined.start..last)
+            .find(|n| radius < NEXT_LEVEL_RADIUS * self.levels[*n].side)
+            .unwrap_or(last);
         &self.levels[number]
     }
 
@@ -202,7 +204,7 @@ impl Pyramid {
 }
 
 /// Radius (voxels) from which a tube is examined on the next level.
-const WIDE: f64 = 4.0;
+const NEXT_LEVEL_RADIUS: f64 = 4.0;
 
 /// Resamples the volume; NaN becomes the lowest value.
 fn finest(voxels: &Voxels, grid: &Grid, [lowest, highest]: [f64; 2], stop: Stop) -> Result<Level> {

@@ -11,7 +11,7 @@ use lumencut_core::error::Result;
 use lumencut_core::stop::go_on;
 
 /// Minimum radius of a wide tube (finest voxels).
-const WIDE: f64 = 4.0;
+const MIN_WIDE_RADIUS: f64 = 4.0;
 
 /// Ranges of distance from the axis, and of the radius, in radii of the wide tube.
 const OFF_AXIS: [f64; 2] = [0.3, 1.2];
@@ -39,11 +39,16 @@ pub(crate) fn side_by_side(
     candidates: &[Candidate],
     tracks: &[Track],
 ) -> Result<Vec<Track>> {
-    let end = tracking.looked_at.end.saturating_sub(COARSE_LEVELS).max(tracking.looked_at.start + 1);
-    let fine = Tracking { looked_at: tracking.looked_at.start..end, stages: Stages::default(), ..*tracking };
+    let end =
+        tracking.levels_examined.end.saturating_sub(COARSE_LEVELS).max(tracking.levels_examined.start + 1);
+    let fine = Tracking {
+        levels_examined: tracking.levels_examined.start..end,
+        stages: Stages::default(),
+        ..*tracking
+    };
     let wide: Vec<TrackPoint> = tracks
         .iter()
-        .flat_map(|track| track.points.iter().filter(|point| point.is_good && point.radius > WIDE))
+        .flat_map(|track| track.points.iter().filter(|point| point.is_good && point.radius > MIN_WIDE_RADIUS))
         .copied()
         .collect();
     let is_inner = |candidate: &Candidate| {

@@ -59,7 +59,7 @@ const BEHIND: f64 = 4.0;
 /// Data for tracking. Lengths in finest voxels.
 pub(crate) struct Tracker<'a> {
     pub(crate) pyramid: &'a Pyramid,
-    pub looked_at: Range<usize>,
+    pub levels_examined: Range<usize>,
     pub paint: &'a Paint,
     /// Levels of the painted tracks.
     pub levels: &'a [f64],
@@ -87,7 +87,7 @@ type Look = fn(&Level, DVec3, DVec3, f64) -> Section;
 impl Tracker<'_> {
     /// Track points through a candidate (finest voxels), at most `most_steps` per direction.
     pub(crate) fn track(&self, from: &Candidate, most_steps: usize) -> Option<Vec<TrackPoint>> {
-        let level = self.pyramid.level_for(from.radius, &self.looked_at);
+        let level = self.pyramid.level_for(from.radius, &self.levels_examined);
         let section = Section::look(level, from.place, from.direction, from.radius);
         let contrast = section.contrast;
         if contrast <= self.floors.of_section() || section.closure < LEAST_CLOSURE {
@@ -114,11 +114,11 @@ impl Tracker<'_> {
     }
 
     fn side(&self) -> f64 {
-        self.pyramid.levels[self.looked_at.start].side
+        self.pyramid.levels[self.levels_examined.start].side
     }
 
     fn step(&self, radius: f64) -> f64 {
-        let level = self.pyramid.level_for(radius, &self.looked_at);
+        let level = self.pyramid.level_for(radius, &self.levels_examined);
         (STEP * radius).min(LONGEST_STEP * level.side).max(SHORTEST_STEP * self.side())
     }
 
@@ -187,7 +187,7 @@ impl Tracker<'_> {
 
     fn centered(&self, ahead: DVec3, running: &Running, look: Look) -> (DVec3, Section) {
         let at = |place: DVec3, radius: f64| {
-            look(self.pyramid.level_for(radius, &self.looked_at), place, running.direction, radius)
+            look(self.pyramid.level_for(radius, &self.levels_examined), place, running.direction, radius)
         };
         let mut place = ahead;
         let mut section = at(place, running.radius);

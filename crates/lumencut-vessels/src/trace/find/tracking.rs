@@ -29,8 +29,8 @@ const LEAST_OF_FIRST: f64 = 0.5;
 
 /// Painted radius in radii for narrow, wide and other tracks, and the two limits (voxels).
 const PAINTED: [f64; 3] = [0.9, 1.1, 1.0];
-const NARROW: f64 = 2.0;
-const WIDE: f64 = 4.0;
+const NARROW_RADIUS: f64 = 2.0;
+const WIDE_RADIUS: f64 = 4.0;
 
 /// Painted radius of a rejected track (voxels).
 const THIN: f64 = 1.0;
@@ -50,7 +50,7 @@ const MOST_LOOKED_AT: usize = 128;
 pub(crate) struct Tracking<'a> {
     pub(crate) pyramid: &'a Pyramid,
     /// Level range.
-    pub looked_at: Range<usize>,
+    pub levels_examined: Range<usize>,
     pub(crate) floors: Floors,
     pub stop: Stop<'a>,
     pub judge: &'a (dyn Fn(Vec<TrackPoint>) -> Track + Sync),
@@ -60,7 +60,7 @@ pub(crate) struct Tracking<'a> {
 struct Batch {
     candidates: Vec<Candidate>,
     /// Number of candidates consumed.
-    looked_at: usize,
+    levels_examined: usize,
 }
 
 struct Known {
@@ -77,11 +77,11 @@ enum Tried {
 
 impl Tracking<'_> {
     pub(crate) fn candidates(&self) -> Result<Vec<Candidate>> {
-        candidates(self.pyramid, &self.looked_at, &self.floors, self.stop, self.stages)
+        candidates(self.pyramid, &self.levels_examined, &self.floors, self.stop, self.stages)
     }
 
     fn side(&self) -> f64 {
-        self.pyramid.levels[self.looked_at.start].side
+        self.pyramid.levels[self.levels_examined.start].side
     }
 
     /// Tracks in finest voxels. Candidates are tracked in independent batches and painted in order; those
@@ -96,9 +96,9 @@ impl Tracking<'_> {
         let pieces = self.stages.stage(Stage::Tracks, candidates.len());
         while next < candidates.len() || !waiting.is_empty() {
             go_on(self.stop)?;
-            let Batch { candidates: batch, looked_at } =
+            let Batch { candidates: batch, levels_examined } =
                 self.batch(&paint, &levels, &candidates[next..], &mut waiting);
-            next += looked_at;
+            next += levels_examined;
             let tried: Vec<Tried> =
                 batch.par_iter().map(|candidate| self.tried(&paint, &levels, candidate)).collect();
             let before = found.len();
@@ -113,7 +113,7 @@ impl Tracking<'_> {
                 };
                 self.commit(tried, &mut paint, &mut found, &mut levels);
             }
-            pieces.done(looked_at);
+            pieces.done(levels_examined);
         }
         found.drain(..known.len());
         Ok(found)
@@ -139,7 +139,7 @@ impl Tracking<'_> {
         others: &[Candidate],
         waiting: &mut VecDeque<Candidate>,
     ) -> Batch {
-        let mut batch = Batch { candidates: Vec::with_capacity(BATCH), looked_at: 0 };
+        let mut batch = Batch { candidates: Vec::with_capacity(BATCH), levels_examined: 0 };
         let mut still = VecDeque::new();
         let mut take = |batch: &mut Batch, candidate: Candidate| {
             let is_near = |other: &Candidate| {
@@ -160,9 +160,9 @@ impl Tracking<'_> {
         {
             take(&mut batch, candidate);
         }
-        while batch.candidates.len() < BATCH && batch.looked_at < others.len().min(MOST_LOOKED_AT) {
-            let candidate = others[batch.looked_at];
-            batch.looked_at += 1;
+        while batch.candidates.len() < BATCH && batch.levels_examined < others.len().min(MOST_LOOKED_AT) {
+            let candidate = others[batch.levels_examined];
+            batch.levels_examined += 1;
             take(&mut batch, candidate);
         }
         still.append(waiting);
@@ -176,7 +176,8 @@ impl Tracking<'_> {
             Painted::Empty => true,
             Painted::Rejected => false,
             Painted::Lumen(track) => {
-                let level = self.pyramid.level_for(candidate.radius, &self.looked_at).at(candidate.place);
+                let level =
+                    self.pyramid.level_for(candidate.radius, &self.levels_examined).at(candidate.place);
                 let contrast = candidate.response;
                 let is_darker = levels[track as usize] < f64::from(level) - DARKER * contrast;
                 is_darker
@@ -187,8 +188,8 @@ impl Tracking<'_> {
     }
 
     fn tried(&self, paint: &Paint, levels: &[f64], candidate: &Candidate) -> Tried {
-        let (looked_at, floors) = (self.looked_at.clone(), self.floors);
-        let tracker = Tracker { pyramid: self.pyramid, looked_at, paint, levels, floors };
+        let (levels_examined, floors) = (self.levels_examined.clone(), self.floors);
+        let tracker = Tracker { pyramid: self.pyramid, levels_examined, paint, levels, floors };
         // The first steps reveal most non-vessels.
         let Some(points) = tracker.track(candidate, FIRST_STEPS) else { return Tried::Nothing };
         let Some(first) = self.kept(&points, LEAST_OF_FIRST) else { return Tried::Rejected(points) };
@@ -241,8 +242,8 @@ impl Tracking<'_> {
 fn painted(radius: f64) -> f64 {
     radius
         * match () {
-            () if radius < NARROW => PAINTED[0],
-            () if radius >= WIDE => PAINTED[1],
+            () if radius < NARROW_RADIUS => PAINTED[0],
+            () if radius >= WIDE_RADIUS => PAINTED[1],
             () => PAINTED[2],
         }
 }

@@ -68,7 +68,8 @@ pub(crate) fn tubes<'v>(
         let (confidence, doubt) = confidence(&pyramid, voxels, &points, &vessels);
         Track { points, confidence, doubt }
     };
-    let pass = Tracking { pyramid: &pyramid, looked_at: pyramid.all(), floors, stop, judge: &judge, stages };
+    let pass =
+        Tracking { pyramid: &pyramid, levels_examined: pyramid.all(), floors, stop, judge: &judge, stages };
     of_pass(&pass, scan, seed.map(|seed| pyramid.grid.grid_from_world.transform_point3(seed))).map(Some)
 }
 
@@ -132,8 +133,8 @@ fn usual(pyramid: &Pyramid, range: f64, stop: Stop) -> Result<Option<[f64; 2]>> 
     let noise = noise(&pyramid.levels[first]);
     let floors = Floors { noise, contrast: FIRST_CONTRAST * range };
     let judge = |points: Vec<TrackPoint>| Track { points, confidence: 1.0, doubt: None };
-    let looked_at = first..pyramid.levels.len();
-    let pass = Tracking { pyramid, looked_at, floors, stop, judge: &judge, stages: Stages::default() };
+    let levels_examined = first..pyramid.levels.len();
+    let pass = Tracking { pyramid, levels_examined, floors, stop, judge: &judge, stages: Stages::default() };
     let found = pass.tracks(&pass.candidates()?)?;
     let tracks: Vec<Vec<TrackPoint>> = found.into_iter().map(|track| track.points).collect();
     Ok(vessel_level(&tracks, noise))

@@ -5,7 +5,7 @@ use glam::DVec3;
 use lumencut_core::math::arc_length::arc_lengths;
 
 /// Cut-off of the Gaussian in standard deviations.
-const REACH: f64 = 3.0;
+const CUTOFF_SIGMAS: f64 = 3.0;
 
 /// Smooths by local parabolas weighted by `weights` and a Gaussian of `width` mm. Unlike an average this does
 /// not cut bends. Values with almost no weight stay unchanged.
@@ -18,8 +18,8 @@ pub fn smoothed_by_parabolas<const N: usize>(
     (0..values.len())
         .map(|i| {
             let width = width(i);
-            let first = lengths.partition_point(|l| *l < lengths[i] - REACH * width);
-            let end = lengths.partition_point(|l| *l <= lengths[i] + REACH * width);
+            let first = lengths.partition_point(|l| *l < lengths[i] - CUTOFF_SIGMAS * width);
+            let end = lengths.partition_point(|l| *l <= lengths[i] + CUTOFF_SIGMAS * width);
             let mut fit = Parabola::<N>::default();
             for j in first..end {
                 let s = (lengths[j] - lengths[i]) / width;
@@ -81,7 +81,7 @@ pub fn smoothed_by_gaussian(points: &[DVec3], sigma: &[f64], is_closed: bool) ->
     let mut made: Vec<DVec3> = (0..count)
         .map(|n| {
             let to_end = ways[n].min(whole - ways[n]);
-            let most = if is_closed { whole / 6.0 } else { to_end / REACH };
+            let most = if is_closed { whole / 6.0 } else { to_end / CUTOFF_SIGMAS };
             let sigma = sigma[n].min(most);
             if sigma <= 0.0 {
                 return points[n];
@@ -89,10 +89,10 @@ pub fn smoothed_by_gaussian(points: &[DVec3], sigma: &[f64], is_closed: bool) ->
             let (mut sum, mut weights) = (DVec3::ZERO, 0.0);
             for turn in if is_closed { -1..=1 } else { 0..=0 } {
                 let center = ways[n] - f64::from(turn) * whole;
-                let first = ways.partition_point(|way| *way < center - REACH * sigma);
+                let first = ways.partition_point(|way| *way < center - CUTOFF_SIGMAS * sigma);
                 for m in first..count {
                     let away = (ways[m] - center) / sigma;
-                    if away > REACH {
+                    if away > CUTOFF_SIGMAS {
                         break;
                     }
                     // Each point represents half of the distance between its neighbours.

@@ -11,13 +11,13 @@ const MOST_WIDTHS: f64 = 1.3;
 const LEAST_SHARE: f64 = 0.6;
 
 /// Search distance on each side: along the path (mm), and elsewhere in lengths along it.
-const REACH: f64 = 60.0;
+const SEARCH_MM: f64 = 60.0;
 const REACH_WIDTHS: f64 = 3.0;
 
 /// Whether the straight path between two clicks (mm, LPS) lies within one lumen and runs across it.
 pub fn runs_across(voxels: &Voxels, [from, to]: [DVec3; 2]) -> bool {
     let lumen = OwnLumen::around(voxels, from.midpoint(to));
-    let along = lumen.extent((to - from).normalize_or_zero(), REACH);
+    let along = lumen.extent((to - from).normalize_or_zero(), SEARCH_MM);
     if along < from.distance(to) {
         return false;
     }

@@ -16,15 +16,15 @@ const WIDTHS: [f64; 3] = [0.5, 1.0, 2.0];
 /// least. Sections of a line oblique in a wide lumen intersect, and their centres lead it back and forth.
 pub fn calmed(voxels: &Voxels, model: &LumenModel, line: Centerline, stop: Stop) -> Result<Centerline> {
     let mut best = (wandering_points(&line), line);
-    let restless = best.1.clone();
+    let uneven = best.1.clone();
     for width in WIDTHS {
         if best.0 == 0 {
             break;
         }
-        let radius = lower_median(restless.radius.clone());
-        let sigma = vec![width * radius; restless.points.len()];
-        let points = smoothed_by_gaussian(&restless.points, &sigma, false);
-        let smooth = Centerline { points, radius: vec![radius; sigma.len()], ..restless.clone() };
+        let radius = lower_median(uneven.radius.clone());
+        let sigma = vec![width * radius; uneven.points.len()];
+        let points = smoothed_by_gaussian(&uneven.points, &sigma, false);
+        let smooth = Centerline { points, radius: vec![radius; sigma.len()], ..uneven.clone() };
         let line = refined_near(voxels, model, &smooth, stop)?;
         let count = wandering_points(&line);
         if count < best.0 {

@@ -66,8 +66,8 @@ impl Probe<'_, '_> {
             return None;
         }
         let circle = Circle::around(&wall);
-        let rough = circle.spread / circle.radius;
-        let trust = seen * (-(rough / 0.25).powi(2)).exp() * circle.roundness(&wall);
+        let roughness = circle.spread / circle.radius;
+        let trust = seen * (-(roughness / 0.25).powi(2)).exp() * circle.roundness(&wall);
         let [x, y] = circle.center;
         let is_odd = !(trust > 0.0 && circle.radius > 0.0) || x.hypot(y) > reach;
         (!is_odd).then(|| LumenSection {

@@ -13,7 +13,7 @@ use crate::voxels::Voxels;
 pub const DIRECTIONS: u32 = 200;
 
 /// Search distance (mm).
-const REACH: f64 = 60.0;
+const SEARCH_MM: f64 = 60.0;
 
 /// Directions across the axis for the width.
 const TURNS: u32 = 12;
@@ -54,14 +54,14 @@ impl<'a, 'v> OwnLumen<'a, 'v> {
     /// Ends of a lumen cut off by the scan, along its axis; None if it is not longer than wide.
     pub fn cut_ends(&self) -> Option<[DVec3; 2]> {
         let axis = self.axis();
-        let reaches = [-1.0, 1.0].map(|side| self.reach(axis * side, REACH));
+        let reaches = [-1.0, 1.0].map(|side| self.reach(axis * side, SEARCH_MM));
         let place = |side: f64, way: f64| self.place + axis * (side * way);
         let is_cut =
             |side: f64, reach: f64| self.voxels.voxel_at(place(side, reach + 2.0 * self.step)).is_none();
         let across = axis.any_orthonormal_vector();
         let turned =
             (0..TURNS).map(|n| DQuat::from_axis_angle(axis, PI * f64::from(n) / f64::from(TURNS)) * across);
-        let width = turned.map(|direction| self.extent(direction, REACH)).fold(0.0, f64::max);
+        let width = turned.map(|direction| self.extent(direction, SEARCH_MM)).fold(0.0, f64::max);
         let is_known = reaches[0] + reaches[1] > width;
         let within = |reach: f64| (reach - 2.0 * self.voxels.smallest_side).max(0.0);
         (is_known && is_cut(-1.0, reaches[0]) && is_cut(1.0, reaches[1]))
@@ -69,7 +69,7 @@ impl<'a, 'v> OwnLumen<'a, 'v> {
     }
 
     fn axis(&self) -> DVec3 {
-        let weighted = half_sphere(DIRECTIONS).map(|way| (way, self.extent(way, REACH).powi(3)));
+        let weighted = half_sphere(DIRECTIONS).map(|way| (way, self.extent(way, SEARCH_MM).powi(3)));
         // The start must not be symmetric to the sum.
         longest_axis(weighted, DVec3::new(0.6, 0.5, 0.7)).unwrap_or_default()
     }

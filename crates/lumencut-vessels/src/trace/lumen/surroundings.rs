@@ -95,7 +95,7 @@ impl Surroundings {
         let usual = lower_median(hits.iter().map(|hit| hit.lumen).collect());
         if hits.iter().any(|hit| self.unlike(hit, usual).is_some()) {
             // If the typical lumen is itself implausible, it must not be the reference.
-            for expected in [self.believed(&hits), usual] {
+            for expected in [self.reference_lumen(&hits), usual] {
                 for (click, hit) in clicks.iter().zip(&hits) {
                     self.check(voxels, *click, hit.value, self.unlike(hit, expected))?;
                 }
@@ -124,7 +124,7 @@ impl Surroundings {
         let hit = |place: DVec3| self.hit(voxels, place, value_at(voxels, place));
         let (moved, hits): (Vec<DVec3>, Vec<Hit>) = moved.map(|click| (click, hit(click))).unzip();
         let lumens: Vec<Hit> = hits.into_iter().filter(|hit| self.mistaken(hit.value).is_none()).collect();
-        let usual = self.believed(&lumens);
+        let usual = self.reference_lumen(&lumens);
         let is_like = |place: DVec3| self.unlike(&hit(place), usual).is_none();
         moved.into_iter().map(|click| self.taken(voxels, click, is_like)).collect()
     }
@@ -141,7 +141,7 @@ impl Surroundings {
 
     /// Reference lumen for inconsistent clicks: brighter than most surroundings and similar to most others,
     /// in doubt the earliest, because users begin in the vessel.
-    fn believed(&self, hits: &[Hit]) -> f64 {
+    fn reference_lumen(&self, hits: &[Hit]) -> f64 {
         let worth = |hit: &Hit| {
             let alike = hits.iter().filter(|other| self.unlike(other, hit.lumen).is_none()).count();
             (hit.lumen > self.most && self.unlike(hit, hit.lumen).is_none(), alike)

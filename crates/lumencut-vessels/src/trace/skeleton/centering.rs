@@ -19,7 +19,7 @@ const SMOOTHING: f64 = 0.5;
 const SMOOTHING_VOXELS: f64 = 1.0;
 
 /// Half-length of the chord that gives the direction: radii, and minimum in voxels.
-const REACH: f64 = 0.75;
+const CHORD_RADII: f64 = 0.75;
 const REACH_VOXELS: f64 = 1.5;
 
 /// Minimum wall distance after a move, relative to before; keeps the line of a crescent inside.
@@ -37,7 +37,7 @@ pub(crate) fn center(line: &mut ThroughLine, lumen: &Lumen, on_other: OnOther, s
         radii.iter().map(|radius| (share * radius).max(voxels * lumen.side())).collect()
     };
     let sigma = scaled(SMOOTHING, SMOOTHING_VOXELS);
-    let reach = scaled(REACH, REACH_VOXELS);
+    let reach = scaled(CHORD_RADII, REACH_VOXELS);
     line.points = smoothed_by_gaussian(&line.points, &sigma, closed);
     for _ in 0..ROUNDS {
         go_on(stop)?;

@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use crate::trace::lumen::lumen_model::LumenModel;
 use crate::trace::ways::blocks::{BLOCK, Blocks, SIDE, index_of, meets, voxel_of};
-use crate::trace::ways::shape::{HALO, WIDE, bends, beside, blurred, raised, wall_between};
+use crate::trace::ways::shape::{HALO, PADDED_SIDE, bends, beside, blurred, raised, wall_between};
 use crate::voxels::Voxels;
 
 /// Membership of plain tissue, so that its cost is finite: for lumen paths, and for bridges.
@@ -124,8 +124,8 @@ impl Region {
 
     fn make(&self, voxels: &Voxels, place: usize) -> [u8; BLOCK] {
         let corner = self.made.corner(place);
-        let mut shares = vec![0.0; WIDE * WIDE * WIDE];
-        voxels.cube(corner.map(|c| c - HALO as i32), WIDE, &mut shares);
+        let mut shares = vec![0.0; PADDED_SIDE * PADDED_SIDE * PADDED_SIDE];
+        voxels.cube(corner.map(|c| c - HALO as i32), PADDED_SIDE, &mut shares);
         let beside_bone = beside(&shares, |value| self.model.is_far_above(value));
         for share in &mut shares {
             *share = self.model.membership(*share);
@@ -138,7 +138,7 @@ impl Region {
         for k in 0..SIDE {
             for j in 0..SIDE {
                 for i in 0..SIDE {
-                    let from = ((k + HALO) * WIDE + j + HALO) * WIDE + i + HALO;
+                    let from = ((k + HALO) * PADDED_SIDE + j + HALO) * PADDED_SIDE + i + HALO;
                     let bends = bends(&near, from);
                     let rim = if beside_bone[from] { RIM } else { 1.0 };
                     let share = rim * raised(f64::from(near[from]), &bends, noise);

@@ -5,7 +5,7 @@ use crate::trace::ways::blocks::SIDE;
 /// Border around a block (voxels).
 pub(crate) const HALO: usize = 3;
 /// Side of the cube with border (voxels).
-pub(crate) const WIDE: usize = SIDE + 2 * HALO;
+pub(crate) const PADDED_SIDE: usize = SIDE + 2 * HALO;
 
 /// Share of the missing membership that a ridge adds.
 const RIDGE: f64 = 0.6;
@@ -42,7 +42,7 @@ pub(crate) fn bends(shares: &[f32], at: usize) -> [f64; 3] {
     if !(0.02..0.98).contains(&share) {
         return [0.0; 3];
     }
-    let strides = [1, WIDE, WIDE * WIDE];
+    let strides = [1, PADDED_SIDE, PADDED_SIDE * PADDED_SIDE];
     let value = |n: usize| f64::from(shares[n]);
     let mut bends = [[0.0; 3]; 3];
     for a in 0..3 {
@@ -62,7 +62,7 @@ pub(crate) fn beside(values: &[f32], is_marked: impl Fn(f32) -> bool) -> Vec<boo
     if !marked.contains(&true) {
         return marked;
     }
-    for stride in [1, WIDE, WIDE * WIDE] {
+    for stride in [1, PADDED_SIDE, PADDED_SIDE * PADDED_SIDE] {
         let before = marked.clone();
         for n in stride..marked.len() - stride {
             marked[n] = before[n - stride] || before[n] || before[n + stride];
@@ -93,7 +93,7 @@ pub(crate) fn blurred(shares: &[f32], weights: &[f32]) -> Vec<f32> {
     let reach = weights.len() / 2;
     let mut now = shares.to_vec();
     let mut next = vec![0.0; shares.len()];
-    for stride in [1, WIDE, WIDE * WIDE] {
+    for stride in [1, PADDED_SIDE, PADDED_SIDE * PADDED_SIDE] {
         let from = reach * stride;
         let length = shares.len() - 2 * from;
         next.fill(0.0);
@@ -114,11 +114,13 @@ mod tests {
 
     /// A cube with membership by offset from its middle, and the middle.
     fn cube(share: impl Fn([f64; 3]) -> f64) -> (Vec<f32>, usize) {
-        let middle = WIDE / 2;
-        let steps =
-            |n: usize| [n % WIDE, n / WIDE % WIDE, n / (WIDE * WIDE)].map(|c| c as f64 - middle as f64);
-        let shares = (0..WIDE * WIDE * WIDE).map(|n| share(steps(n)) as f32).collect();
-        (shares, (middle * WIDE + middle) * WIDE + middle)
+        let middle = PADDED_SIDE / 2;
+        let steps = |n: usize| {
+            [n % PADDED_SIDE, n / PADDED_SIDE % PADDED_SIDE, n / (PADDED_SIDE * PADDED_SIDE)]
+                .map(|c| c as f64 - middle as f64)
+        };
+        let shares = (0..PADDED_SIDE * PADDED_SIDE * PADDED_SIDE).map(|n| share(steps(n)) as f32).collect();
+        (shares, (middle * PADDED_SIDE + middle) * PADDED_SIDE + middle)
     }
 
     #[test]
@@ -145,6 +147,6 @@ mod tests {
         let (spot, middle) = cube(|steps| f64::from(u8::from(steps == [0.0; 3])));
         let near = beside(&spot, |value| value > 0.5);
         assert_eq!(near.iter().filter(|is_near| **is_near).count(), 27);
-        assert!(near[middle + 1 + WIDE] && !near[middle + 2]);
+        assert!(near[middle + 1 + PADDED_SIDE] && !near[middle + 2]);
     }
 }

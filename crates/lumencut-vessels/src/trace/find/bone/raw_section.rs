@@ -26,7 +26,7 @@ const TISSUE_BEYOND: f64 = 2.0;
 const TISSUE_SHARE: f64 = 0.3;
 
 /// Maximum ray length: the smaller of two, each in radii plus mm.
-const REACH: [[f64; 2]; 2] = [[3.0, 4.0], [6.0, 1.5]];
+const RAY_LENGTHS: [[f64; 2]; 2] = [[3.0, 4.0], [6.0, 1.5]];
 
 /// A lumen within the first share of the vessel level ends before bone, which exceeds it by the second.
 const ALIKE: f64 = 0.15;
@@ -140,7 +140,7 @@ impl<'a, 'v> Rays<'a, 'v> {
     }
 
     fn elongation(&mut self, scan: &Scan, level: f64, half: f64) -> f64 {
-        let most = REACH.map(|[radii, beyond]| radii * self.radius + beyond);
+        let most = RAY_LENGTHS.map(|[radii, beyond]| radii * self.radius + beyond);
         let last = (most[0].min(most[1]) / self.step).ceil() as usize;
         let step = self.step;
         let is_alike = (level - scan.level).abs() < ALIKE * scan.contrast;

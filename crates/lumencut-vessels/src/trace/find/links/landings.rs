@@ -8,7 +8,7 @@ use crate::trace::find::scan::Scan;
 use crate::trace::find::track::{Track, TrackPoint};
 
 /// Maximum distance to the centre of another track: radii plus mm.
-const REACH: f64 = 2.5;
+const LANDING_RADII: f64 = 2.5;
 const REACH_BEYOND: f64 = 26.0;
 
 /// Maximum distance to its wall: radii, at least this many voxels, at most this many mm.
@@ -65,7 +65,7 @@ struct Width {
 /// Exponents of the powers of two (mm).
 const WIDTHS: std::ops::RangeInclusive<i32> = -3..=6;
 
-struct Place {
+struct Landing {
     link: Link,
     end: WayEnd,
 }
@@ -115,7 +115,7 @@ impl<'a, 'v> Landings<'a, 'v> {
         };
         let mut tries: Vec<(usize, usize)> = Vec::new();
         let from = WayEnd { place: end.place, level: end.level, contrast: end.contrast };
-        places.into_iter().filter_map(move |Place { link, end }| {
+        places.into_iter().filter_map(move |Landing { link, end }| {
             let known = tries.iter().position(|(track, _)| *track == link.to[0]);
             let tried = known.unwrap_or_else(|| {
                 tries.push((link.to[0], 0));
@@ -131,21 +131,21 @@ impl<'a, 'v> Landings<'a, 'v> {
         })
     }
 
-    fn places(&self, end: &End, limits: &Limits) -> Vec<Place> {
+    fn places(&self, end: &End, limits: &Limits) -> Vec<Landing> {
         let wall = (WALL * end.radius).max(WALL_VOXELS * self.scan.side).min(FARTHEST_WALL);
         let mut places = Vec::new();
-        self.near(end.place, wall, REACH * end.radius + REACH_BEYOND, |to, away| {
+        self.near(end.place, wall, LANDING_RADII * end.radius + REACH_BEYOND, |to, away| {
             let other = &self.tracks[to[0]];
             if to[0] != end.of[0] && other.confidence >= limits.confidence {
                 places.extend(self.place(end, limits, to, away));
             }
         });
-        places.sort_unstable_by(|a: &Place, b: &Place| a.link.order(&b.link));
+        places.sort_unstable_by(|a: &Landing, b: &Landing| a.link.order(&b.link));
         places
     }
 
     /// None if the limits exclude it.
-    fn place(&self, end: &End, limits: &Limits, to: [usize; 2], away: f64) -> Option<Place> {
+    fn place(&self, end: &End, limits: &Limits, to: [usize; 2], away: f64) -> Option<Landing> {
         let point: &TrackPoint = &self.tracks[to[0]].points[to[1]];
         let is_inside = away <= INSIDE * point.radius + self.scan.side;
         let turn = if away > 0.0 { end.direction.dot(point.place - end.place) / away } else { 1.0 };
@@ -159,6 +159,6 @@ impl<'a, 'v> Landings<'a, 'v> {
         let cost = away + gap + TURN * away * (1.0 - turn + unlike);
         let link = Link { from: end.of, to, cost, gap, level: 0.0 };
         let end = WayEnd { place: point.place, level: point.level, contrast: point.contrast };
-        Some(Place { link, end })
+        Some(Landing { link, end })
     }
 }

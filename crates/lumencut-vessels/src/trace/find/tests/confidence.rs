@@ -53,13 +53,13 @@ fn struts_around_a_wide_tube_are_excused_and_around_a_narrow_one_they_are_not() 
 fn a_radius_that_jumps_is_doubtful_as_rough() {
     let mut points = straight_track(LINE[0], LINE[1], 2.0).points;
     let even: Vec<&TrackPoint> = points.iter().collect();
-    assert_eq!(rough(&even, 2.0), 0.0);
+    assert_eq!(radius_roughness(&even, 2.0), 0.0);
     for (n, point) in points.iter_mut().enumerate() {
         point.radius = if n % 2 == 0 { 1.5 } else { 2.5 };
     }
     // Alternating steps of 1: standard deviation 1, half of the radius.
     let jumping: Vec<&TrackPoint> = points.iter().collect();
-    assert!((rough(&jumping, 2.0) - 0.5).abs() < 1e-3);
+    assert!((radius_roughness(&jumping, 2.0) - 0.5).abs() < 1e-3);
 }
 
 #[test]

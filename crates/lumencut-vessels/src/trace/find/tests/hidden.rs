@@ -16,7 +16,7 @@ fn behind(radius: f64, confidence: f64) -> Vec<Track> {
         let floors = Floors { noise: noise(&pyramid.levels[0]), contrast: LEVEL - TISSUE };
         let pass = Tracking {
             pyramid: &pyramid,
-            looked_at: pyramid.all(),
+            levels_examined: pyramid.all(),
             floors,
             stop: &|| false,
             judge: &judge,

@@ -22,7 +22,7 @@ fn track(
         }
         let tracker = Tracker {
             pyramid: &pyramid,
-            looked_at: pyramid.all(),
+            levels_examined: pyramid.all(),
             paint: &paint,
             levels: &[LEVEL],
             floors: Floors { noise, contrast: LEVEL - TISSUE },

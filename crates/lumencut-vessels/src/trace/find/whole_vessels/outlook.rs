@@ -6,7 +6,7 @@ use crate::trace::find::quantiles::median;
 use crate::trace::find::whole_vessels::graph::Graph;
 
 /// Distance in radii.
-const AWAY: f64 = 2.0;
+const SAMPLE_RADII: f64 = 2.0;
 
 /// Maximum number of edges, if the first are short.
 const MOST_EDGES: usize = 4;
@@ -27,7 +27,7 @@ pub(crate) fn outlook(graph: &Graph, edge: usize, node: usize, radius: f64) -> O
             radii.push(point.radius);
             seen = point.place;
             // Narrow edges need less, but must leave the lumen first.
-            if radii.len() > 2 && seen.distance(place) >= AWAY * radius.max(point.radius) {
+            if radii.len() > 2 && seen.distance(place) >= SAMPLE_RADII * radius.max(point.radius) {
                 return outlook_of(place, seen, radii);
             }
         }

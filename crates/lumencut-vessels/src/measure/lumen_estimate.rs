@@ -4,8 +4,8 @@ use std::f64::consts::PI;
 
 use glam::DVec2;
 
-use super::place::Place;
 use super::rays::{Look, RAYS, Ray, Rays, direction};
+use super::section_plane::SectionPlane;
 use crate::voxels::Voxels;
 use lumencut_core::math::statistics::median;
 
@@ -19,7 +19,7 @@ const LONGEST_RAY: f64 = 1.6;
 const ROUNDS: usize = 4;
 
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Rough {
+pub(crate) struct LumenEstimate {
     /// Centre (mm in the plane).
     pub center: DVec2,
     /// Radius (mm).
@@ -31,9 +31,9 @@ pub(crate) struct Rough {
 /// Share above which there is metal or calcium.
 const BRIGHT: f64 = 1.6;
 
-impl Rough {
+impl LumenEstimate {
     /// Searches within `search` mm of the centerline for a lumen with a radius of up to `widest` mm.
-    pub(crate) fn find(rays: &Rays, place: &Place, search: f64, widest: f64) -> Option<Self> {
+    pub(crate) fn find(rays: &Rays, place: &SectionPlane, search: f64, widest: f64) -> Option<Self> {
         let mut center = start(rays, place, search)?;
         let mut found = None;
         for _ in 0..ROUNDS {
@@ -55,7 +55,7 @@ impl Rough {
 }
 
 /// Start of the rays: the centerline point if it is lumen, otherwise the best point nearby.
-fn start(rays: &Rays, place: &Place, search: f64) -> Option<DVec2> {
+fn start(rays: &Rays, place: &SectionPlane, search: f64) -> Option<DVec2> {
     if level(rays, place, DVec2::ZERO) > 0.5 {
         return Some(DVec2::ZERO);
     }
@@ -85,7 +85,7 @@ fn search_step(voxels: &Voxels, search: f64) -> f64 {
     voxels.sampling_side.max(2.0 * search / count.sqrt())
 }
 
-fn level(rays: &Rays, place: &Place, center: DVec2) -> f64 {
+fn level(rays: &Rays, place: &SectionPlane, center: DVec2) -> f64 {
     let near = 0.5 * rays.voxels.sampling_side;
     let mut values = vec![rays.at(place, center)];
     values.extend((0..8).map(|n| rays.at(place, center + direction(n * RAYS / 8) * near)));
@@ -113,5 +113,5 @@ fn polygon(rays: &[Ray]) -> Option<(DVec2, f64)> {
 }
 
 #[cfg(test)]
-#[path = "tests/rough.rs"]
+#[path = "tests/lumen_estimate.rs"]
 mod tests;

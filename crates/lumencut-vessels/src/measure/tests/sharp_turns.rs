@@ -1,4 +1,4 @@
-use super::super::place::Track;
+use super::super::section_plane::Track;
 use super::*;
 use glam::DVec3;
 use lumencut_core::vessel_tree::Vessel;

@@ -10,7 +10,7 @@ const PASSES: f64 = 3.0;
 
 /// Measures vessels in sections `step` mm apart and reports progress as one of the expected views. `measure`
 /// receives the stop function to use. Errors: Those of `measure`.
-pub fn watched<T>(
+pub fn with_progress<T>(
     progress: Option<&Progress>,
     (vessels, step): (&[Vessel], f64),
     stop: Stop,
@@ -32,5 +32,5 @@ pub fn watched<T>(
 }
 
 #[cfg(test)]
-#[path = "tests/watched.rs"]
+#[path = "tests/with_progress.rs"]
 mod tests;

@@ -7,7 +7,7 @@
 
 use super::ellipse::Ellipse;
 use super::fit::Fit;
-use super::place::Place;
+use super::section_plane::SectionPlane;
 use super::sections::{Bench, Known};
 
 /// Largest movement of a parameter in blur widths for a fit that stays.
@@ -22,7 +22,7 @@ const SAME: (f64, f64) = (1.6, 0.6);
 impl Bench<'_, '_> {
     /// Restarts the fit until it stays; otherwise reports a second solution. Jumps to another lumen are
     /// discarded.
-    pub(crate) fn settled(&self, place: &Place, known: &Known) -> Option<Fit> {
+    pub(crate) fn stable_fit(&self, place: &SectionPlane, known: &Known) -> Option<Fit> {
         let least = STAYS * self.blur.width(place);
         let first = self.fit(place, known)?;
         let (mut begun, mut fit) = (known.ellipse, first);
@@ -41,7 +41,12 @@ impl Bench<'_, '_> {
     }
 
     /// Fit with the second solution, if any, added to its uncertainty.
-    pub(crate) fn fit_of_either(&self, place: &Place, known: &Known, other: Option<Ellipse>) -> Option<Fit> {
+    pub(crate) fn fit_of_either(
+        &self,
+        place: &SectionPlane,
+        known: &Known,
+        other: Option<Ellipse>,
+    ) -> Option<Fit> {
         let fit = self.fit(place, known)?;
         let other = other.and_then(|ellipse| self.fit(place, &Known { ellipse, ..*known }));
         Some(other.map_or(fit, |other| fit.or(&other)))
@@ -55,5 +60,5 @@ fn is_same_lumen(first: &Ellipse, again: &Ellipse) -> bool {
 }
 
 #[cfg(test)]
-#[path = "tests/settled.rs"]
+#[path = "tests/stable_fit.rs"]
 mod tests;

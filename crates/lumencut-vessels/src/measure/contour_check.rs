@@ -1,7 +1,7 @@
 //! Rejects contours whose interior is not lumen, for example because they cross a flap or leave the lumen.
 
-use super::place::Place;
 use super::rays::{RAYS, Rays, direction};
+use super::section_plane::SectionPlane;
 use glam::DVec2;
 
 /// Brighter than lumen by this share of its contrast means another lumen.
@@ -14,7 +14,7 @@ const MOST_OTHER: f64 = 0.12;
 const MIXED: f64 = 0.75;
 
 /// Every n-th ray is checked, at this many points.
-const LOOKED: (usize, usize) = (2, 6);
+const CHECKED: (usize, usize) = (2, 6);
 
 /// Lowest and highest value (shares) of lumen, from its level and the level next to it.
 pub(crate) fn lumen_shares(lumen: f64, beside: f64) -> [f64; 2] {
@@ -26,20 +26,20 @@ pub(crate) fn lumen_shares(lumen: f64, beside: f64) -> [f64; 2] {
 /// contour too narrow to check counts as lumen.
 pub(crate) fn encloses_lumen(
     rays: &Rays,
-    place: &Place,
+    place: &SectionPlane,
     center: DVec2,
     walls: &[f64],
     width: f64,
     [darkest, brightest]: [f64; 2],
 ) -> bool {
     let (mut other, mut all) = (0.0, 0.0);
-    for n in (0..RAYS).step_by(LOOKED.0) {
+    for n in (0..RAYS).step_by(CHECKED.0) {
         let reach = walls[n] - MIXED * width;
         if reach <= 0.0 {
             continue;
         }
-        for m in 0..LOOKED.1 {
-            let away = reach * (m as f64 + 0.5) / LOOKED.1 as f64;
+        for m in 0..CHECKED.1 {
+            let away = reach * (m as f64 + 0.5) / CHECKED.1 as f64;
             let value = rays.at(place, center + direction(n) * away);
             // Each point represents an area that grows with its distance.
             let area = away * reach;
@@ -54,5 +54,5 @@ pub(crate) fn encloses_lumen(
 }
 
 #[cfg(test)]
-#[path = "tests/believed.rs"]
+#[path = "tests/contour_check.rs"]
 mod tests;

@@ -13,24 +13,24 @@ use super::ellipse::Ellipse;
 use super::fit::Fit;
 use super::flags::{BRANCH, NO_EDGE, OUTSIDE};
 use super::levels::lumen_levels;
+use super::lumen_estimate::LumenEstimate;
 use super::measured_part::MeasuredPart;
-use super::place::{Place, Track, known_radius};
-use super::point_spread::{Told, estimated};
+use super::point_spread::{SpreadEstimate, estimated};
 use super::pooled::Level;
 use super::profile::Profile;
 use super::rays::Rays;
 use super::request::MeasureRequest;
-use super::restless::flag_restless;
-use super::rough::Rough;
 use super::scale::{Scale, in_words};
+use super::section_plane::{SectionPlane, Track, known_radius};
 use super::sections::{Bench, Doubt, Known, LEAST_CONTRAST, Section, center, noise};
+use super::sharp_turns::flag_sharp_turns;
 use super::slab::thickness;
 use super::texture::{Pairs, Texture};
-use super::told_by_tree::ToldByTree;
+use super::tree_findings::TreeFindings;
 use super::tree_walls::{PooledWall, wall_beside};
 use super::wall::KnownWall;
 use super::wall_level::{WallSource, expected, is_below_lumen};
-use super::wall_pool::{is_apart, pooled, told_level};
+use super::wall_pool::{is_apart, pooled, unpooled_level};
 use crate::voxels::Voxels;
 use lumencut_core::error::{Error, ErrorKind, Result};
 use lumencut_core::math::statistics::median;
@@ -64,18 +64,18 @@ struct FirstFits {
     texture: Texture,
 }
 
-pub(crate) struct Looked {
+pub(crate) struct PreparedVessel {
     part: MeasuredPart,
     scale: Scale,
     wall: Option<KnownWall>,
     wall_source: WallSource,
-    places: Vec<Place>,
-    rough: Vec<Option<Rough>>,
+    places: Vec<SectionPlane>,
+    estimates: Vec<Option<LumenEstimate>>,
     /// Fits under the assumed point spread, and under the estimated or given one.
     first: [OnceLock<FirstFits>; 2],
 }
 
-impl Looked {
+impl PreparedVessel {
     pub(crate) fn new(voxels: &Voxels, vessel: &Vessel, request: &MeasureRequest) -> Result<Self> {
         let first = Track::new(vessel, None)?.places(request.step)?;
         let known = known_radius(vessel);
@@ -85,14 +85,22 @@ impl Looked {
         let widest = known.map_or(WIDEST, |radius| (3.0 * radius + 5.0).min(WIDEST));
         let search = known.unwrap_or(0.0).max(SEARCH);
         let bench = bench(voxels, scale, wall, assumed(voxels));
-        let mut rough = bench.rough(&first, search, widest, request.stop)?;
-        for (rough, place) in rough.iter_mut().zip(&first) {
-            *rough = rough.filter(|_| part.holds(place));
+        let mut estimates = bench.estimates(&first, search, widest, request.stop)?;
+        for (estimate, place) in estimates.iter_mut().zip(&first) {
+            *estimate = estimate.filter(|_| part.holds(place));
         }
-        let mut radii: Vec<f64> = rough.iter().flatten().map(|rough| rough.radius).collect();
+        let mut radii: Vec<f64> = estimates.iter().flatten().map(|one| one.radius).collect();
         let radius = median(&mut radii).ok_or_else(|| no_lumen(&scale))?;
         let places = Track::new(vessel, Some(radius))?.places(request.step)?;
-        Ok(Self { part, scale, wall, wall_source, places, rough: tamed(&rough), first: Default::default() })
+        Ok(Self {
+            part,
+            scale,
+            wall,
+            wall_source,
+            places,
+            estimates: tamed(&estimates),
+            first: Default::default(),
+        })
     }
 
     /// Separate fits under a point spread (FWHM, mm), cached.
@@ -114,20 +122,20 @@ impl Looked {
     fn first_fits(&self, voxels: &Voxels, fwhm: f64, stop: Stop) -> Result<FirstFits> {
         let mut bench = bench(voxels, self.scale, self.wall, fwhm);
         let Some(known) = self.wall else {
-            let fits = bench.first_fits(&self.places, &self.rough, stop)?;
+            let fits = bench.first_fits(&self.places, &self.estimates, stop)?;
             return self.textured(&bench, None, fits, stop);
         };
         let every = self.places.len().div_ceil(WALL_SECTIONS).max(1);
         let some = self.part(|n| n % every == 0);
-        let fits = bench.first_fits(&some.places, &some.rough, stop)?;
+        let fits = bench.first_fits(&some.places, &some.estimates, stop)?;
         if let Some(hidden) = some.hidden_wall(&bench, &known, &fits, stop)? {
             bench.wall = None;
-            let fits = bench.first_fits(&self.places, &self.rough, stop)?;
+            let fits = bench.first_fits(&self.places, &self.estimates, stop)?;
             return self.textured(&bench, Some(hidden), fits, stop);
         }
         let others = self.part(|n| n % every != 0);
         let (mut these, mut those) =
-            (fits.into_iter(), bench.first_fits(&others.places, &others.rough, stop)?.into_iter());
+            (fits.into_iter(), bench.first_fits(&others.places, &others.estimates, stop)?.into_iter());
         let merged = (0..self.places.len()).map(|n| if n % every == 0 { these.next() } else { those.next() });
         self.textured(&bench, None, merged.map(Option::flatten).collect(), stop)
     }
@@ -160,7 +168,7 @@ impl Looked {
         let kept = || (0..self.places.len()).filter(|n| is_one(*n));
         Self {
             places: kept().map(|n| self.places[n]).collect(),
-            rough: kept().map(|n| self.rough[n]).collect(),
+            estimates: kept().map(|n| self.estimates[n]).collect(),
             first: Default::default(),
             ..*self
         }
@@ -175,16 +183,16 @@ impl Looked {
         stop: Stop,
     ) -> Result<Option<KnownWall>> {
         let inflation = self.inflation(bench, &self.texture(bench, fits, noise(fits), stop)?);
-        let told = pooled(&self.arc_lengths(), fits, known, known.level, inflation);
-        let hidden = told.first().map(|wall| KnownWall { log_thickness: None, slope: 0.0, ..*wall });
-        Ok(hidden.filter(|_| !is_apart(known, &told, fits)))
+        let walls = pooled(&self.arc_lengths(), fits, known, known.level, inflation);
+        let hidden = walls.first().map(|wall| KnownWall { log_thickness: None, slope: 0.0, ..*wall });
+        Ok(hidden.filter(|_| !is_apart(known, &walls, fits)))
     }
 
     fn arc_lengths(&self) -> Vec<f64> {
         self.places.iter().map(|place| place.at).collect()
     }
 
-    pub(crate) fn point_spread(&self, voxels: &Voxels, stop: Stop) -> Result<Told> {
+    pub(crate) fn point_spread(&self, voxels: &Voxels, stop: Stop) -> Result<SpreadEstimate> {
         let (_, fitted) = self.fitted(voxels, assumed(voxels));
         let FirstFits { hidden, fits, .. } = self.kept_fits(voxels, assumed(voxels), stop)?;
         let bench = self.bench(voxels, assumed(voxels), hidden);
@@ -200,8 +208,8 @@ impl Looked {
         }
         let (_, fitted) = self.fitted(voxels, fwhm);
         let inflation = fitted.inflation(&self.bench(voxels, fwhm, None), &texture);
-        let told = told_level(&fitted.arc_lengths(), &fits, &known, inflation);
-        Ok(told.map(|[mean, deviation]| [self.scale.value(mean), deviation * self.scale.contrast.abs()]))
+        let level = unpooled_level(&fitted.arc_lengths(), &fits, &known, inflation);
+        Ok(level.map(|[mean, deviation]| [self.scale.value(mean), deviation * self.scale.contrast.abs()]))
     }
 
     pub(crate) fn profile(
@@ -209,11 +217,11 @@ impl Looked {
         voxels: &Voxels,
         vessel: &Vessel,
         request: &MeasureRequest,
-        told: ToldByTree,
+        findings: TreeFindings,
     ) -> Result<Profile> {
         let stop = request.stop;
-        let by_others = self.wall_by_others(&told, request.tree, vessel);
-        let spread = told.spread;
+        let by_others = self.wall_by_others(&findings, request.tree, vessel);
+        let spread = findings.spread;
         let (every, fitted) = self.fitted(voxels, spread.fwhm);
         let first = self.kept_fits(voxels, spread.fwhm, stop)?;
         let hidden = first.hidden;
@@ -231,8 +239,8 @@ impl Looked {
         let section = |n: usize| {
             go_on(stop)?;
             let place = &self.places[n];
-            let rough = self.rough[n].map(|rough| Ellipse::circle(rough.center, rough.radius));
-            let mut section = match all.known(n, every, rough) {
+            let estimate = self.estimates[n].map(|one| Ellipse::circle(one.center, one.radius));
+            let mut section = match all.known(n, every, estimate) {
                 Some((known, other)) => bench.section(place, &known, other),
                 None => Section::none(),
             };
@@ -250,14 +258,19 @@ impl Looked {
         let variance: Vec<f64> =
             self.places.iter().map(|place| bench.blur.along(place, thickness(voxels, place))).collect();
         sharpen(&mut sections, &self.arc_lengths(), &variance);
-        flag_restless(&self.places, &mut sections);
+        flag_sharp_turns(&self.places, &mut sections);
         let noise = all.noise * self.scale.contrast.abs();
         let profile = Profile::new(&self.places, &sections, &self.scale, noise, spread, wall_source);
         Ok(Profile { without_wall: self.part.left_out(&self.places), ..profile })
     }
 
-    fn wall_by_others(&self, told: &ToldByTree, tree: &[Vessel], vessel: &Vessel) -> Option<PooledWall> {
-        let by_others = wall_beside(&told.walls, tree, vessel, self.wall_source.expected()?)?;
+    fn wall_by_others(
+        &self,
+        findings: &TreeFindings,
+        tree: &[Vessel],
+        vessel: &Vessel,
+    ) -> Option<PooledWall> {
+        let by_others = wall_beside(&findings.walls, tree, vessel, self.wall_source.expected()?)?;
         is_below_lumen(&by_others, &self.scale).then_some(by_others)
     }
 
@@ -333,15 +346,15 @@ fn no_lumen(scale: &Scale) -> Error {
 }
 
 /// Limits estimates much wider than their neighbours, because rays escape where a branch begins.
-fn tamed(rough: &[Option<Rough>]) -> Vec<Option<Rough>> {
+fn tamed(estimates: &[Option<LumenEstimate>]) -> Vec<Option<LumenEstimate>> {
     /// Neighbours on each side, and the maximum ratio to their median.
     const AROUND: (usize, f64) = (6, 1.5);
-    (0..rough.len())
+    (0..estimates.len())
         .map(|n| {
-            let around = &rough[n.saturating_sub(AROUND.0)..(n + AROUND.0 + 1).min(rough.len())];
+            let around = &estimates[n.saturating_sub(AROUND.0)..(n + AROUND.0 + 1).min(estimates.len())];
             let mut radii: Vec<f64> = around.iter().flatten().map(|one| one.radius).collect();
             let middle = median(&mut radii)?;
-            rough[n].map(|one| Rough { radius: one.radius.min(AROUND.1 * middle), ..one })
+            estimates[n].map(|one| LumenEstimate { radius: one.radius.min(AROUND.1 * middle), ..one })
         })
         .collect()
 }

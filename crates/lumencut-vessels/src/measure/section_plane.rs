@@ -20,7 +20,7 @@ const ALONG: f64 = 0.9;
 
 /// A point of a vessel and the plane across it.
 #[derive(Clone, Copy, Debug)]
-pub struct Place {
+pub struct SectionPlane {
     /// Arc length (mm).
     pub at: f64,
     /// Point of the vessel (mm, LPS).
@@ -32,7 +32,7 @@ pub struct Place {
     pub normal: DVec3,
 }
 
-impl Place {
+impl SectionPlane {
     /// Point (mm, LPS) of in-plane coordinates (mm).
     pub fn point(&self, place: DVec2) -> DVec3 {
         self.origin + self.axes[0] * place.x + self.axes[1] * place.y
@@ -71,14 +71,14 @@ impl Track {
         self.path.length()
     }
 
-    pub(crate) fn at(&self, at: f64) -> Place {
+    pub(crate) fn at(&self, at: f64) -> SectionPlane {
         let frame = self.frames.at(self.along_quiet(at));
         let right = if self.is_seen_along { -frame.across } else { frame.across };
-        Place { at, origin: self.path.at(at), axes: [right, frame.ahead], normal: frame.tangent }
+        SectionPlane { at, origin: self.path.at(at), axes: [right, frame.ahead], normal: frame.tangent }
     }
 
     /// Planes from start to end, at most `step` mm apart.
-    pub(crate) fn places(&self, step: f64) -> Result<Vec<Place>> {
+    pub(crate) fn places(&self, step: f64) -> Result<Vec<SectionPlane>> {
         if !(step > 0.0 && step.is_finite()) {
             let expected = "a number above 0 mm";
             return Err(Error::new(ErrorKind::Settings, "step", format!("{step} mm"), expected));
@@ -113,5 +113,5 @@ pub fn known_radius(vessel: &Vessel) -> Option<f64> {
 }
 
 #[cfg(test)]
-#[path = "tests/place.rs"]
+#[path = "tests/section_plane.rs"]
 mod tests;

@@ -1,14 +1,14 @@
 //! Finds sharp turns of a line, where section planes intersect inside the lumen.
 
 use super::flags::RESTLESS_LINE;
-use super::place::Place;
+use super::section_plane::SectionPlane;
 use super::sections::Section;
 use lumencut_core::math::statistics::median;
 
 /// Maximum turn within one diameter (degrees); the geometric limit is 115°, real vessels reach 70°.
 pub(crate) const SHARP: f64 = 75.0;
 
-pub(crate) fn flag_restless(places: &[Place], sections: &mut [Section]) {
+pub(crate) fn flag_sharp_turns(places: &[SectionPlane], sections: &mut [Section]) {
     let widths = sections.iter().filter_map(|section| section.fit.as_ref());
     let mut widths: Vec<f64> = widths.map(|fit| fit.ellipse.equivalent_diameter()).collect();
     let Some(diameter) = median(&mut widths) else { return };
@@ -20,7 +20,7 @@ pub(crate) fn flag_restless(places: &[Place], sections: &mut [Section]) {
 }
 
 /// Total turn within a window of `within` mm around each section (degrees).
-fn turns(places: &[Place], within: f64) -> Vec<f64> {
+fn turns(places: &[SectionPlane], within: f64) -> Vec<f64> {
     let mut turned = vec![0.0];
     for two in places.windows(2) {
         let so_far = turned.last().copied().unwrap_or(0.0);
@@ -35,5 +35,5 @@ fn turns(places: &[Place], within: f64) -> Vec<f64> {
 }
 
 #[cfg(test)]
-#[path = "tests/restless.rs"]
+#[path = "tests/sharp_turns.rs"]
 mod tests;
