@@ -48,8 +48,8 @@ fn asked_for<'s, 'a>(every: &'s [Series<'a>], wanted: &str) -> Result<&'s Series
 fn not_one(series: Vec<Report>, expected: &str) -> Error {
     // Possible volumes first, because users choose among them.
     let (volumes, others): (Vec<&Report>, Vec<&Report>) = series.iter().partition(|one| one.can_be_volume);
-    let told: Vec<String> = volumes.into_iter().chain(others).map(ToString::to_string).collect();
-    let error = Error::new(format!("{} series: {}", series.len(), listed(&told)), expected);
+    let reports: Vec<String> = volumes.into_iter().chain(others).map(ToString::to_string).collect();
+    let error = Error::new(format!("{} series: {}", series.len(), listed(&reports)), expected);
     let error = error.mend("give the folder of one series").mended_by(Mend::Series);
     Error { kind: ErrorKind::Series, series: series.into(), ..error }
 }

@@ -74,11 +74,11 @@ impl Error {
 }
 
 #[derive(Serialize)]
-struct Told<'a> {
+struct NamedMend<'a> {
     name: &'static str,
     values: &'a [String],
 }
 
 fn as_list<S: Serializer>(mend: &Option<Box<Mend>>, to: S) -> std::result::Result<S::Ok, S::Error> {
-    to.collect_seq(mend.iter().map(|mend| Told { name: mend.name(), values: mend.values() }))
+    to.collect_seq(mend.iter().map(|mend| NamedMend { name: mend.name(), values: mend.values() }))
 }

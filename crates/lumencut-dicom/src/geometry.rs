@@ -18,11 +18,11 @@ use crate::uneven::Uneven;
 use crate::wording::rounded;
 
 /// Neighbours farther apart than this many usual distances have a gap.
-const HOLE: f64 = 1.5;
+const GAP_FROM: f64 = 1.5;
 /// Maximum distance in usual ones, because damaged positions may be anywhere.
-const FARTHEST: f64 = 1e9;
+const MAX_STEPS: f64 = 1e9;
 /// Minimum stated tilt (degrees).
-const TILT: f64 = 0.1;
+const MIN_TILT_DEGREES: f64 = 0.1;
 
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Mending {
@@ -93,7 +93,7 @@ fn correct_directions(slices: &mut [Slice], notes: &mut Vec<String>) {
     }
     let tilt = first.image.number(first.frame, Keyword::GantryDetectorTilt).ok().flatten();
     let line = (last.position - first.position).try_normalize();
-    let line = line.filter(|_| tilt.is_none_or(|tilt| tilt.abs() <= TILT));
+    let line = line.filter(|_| tilt.is_none_or(|tilt| tilt.abs() <= MIN_TILT_DEGREES));
     let directions = first.directions.along(line);
     slices.iter_mut().for_each(|one| one.directions = directions);
     note_correction(slices, notes);
@@ -140,8 +140,9 @@ fn on_a_line(ordered: &[Slice], mending: Mending, notes: &mut Vec<String>) -> Re
 /// Distances in usual ones; 1 without a gap.
 fn steps(gaps: &[f64]) -> Vec<i64> {
     let usual = median(gaps);
-    let step =
-        |&gap: &f64| if gap > HOLE * usual { (gap / usual).round_ties_even().min(FARTHEST) } else { 1.0 };
+    let step = |&gap: &f64| {
+        if gap > GAP_FROM * usual { (gap / usual).round_ties_even().min(MAX_STEPS) } else { 1.0 }
+    };
     gaps.iter().map(|gap| step(gap) as i64).collect()
 }
 
@@ -187,7 +188,7 @@ fn note_tilt(ordered: &[Slice], places: &[f64], step: DVec3, notes: &mut Vec<Str
     if drift * places[places.len() - 1] > tolerance(step.length()) {
         let angle = drift.atan2(along).to_degrees();
         notes.push(format!("the stack is sheared by {angle:.2} degrees (gantry tilt): kept, not resampled"));
-    } else if let Some(tilt) = stated.filter(|tilt| tilt.abs() > TILT) {
+    } else if let Some(tilt) = stated.filter(|tilt| tilt.abs() > MIN_TILT_DEGREES) {
         let tilt = rounded(tilt, 6);
         notes.push(format!(
             "GantryDetectorTilt is {tilt} degrees, but the positions show no tilt: positions are used"

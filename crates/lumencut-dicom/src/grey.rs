@@ -83,16 +83,16 @@ fn require_decoder(image: &Image) -> Result<()> {
 
 fn require_bits(image: &Image) -> Result<()> {
     let allocated = image.count(Keyword::BitsAllocated)?;
-    let told = |bits: Option<i64>| bits.map_or_else(|| "not stated".to_owned(), |count| count.to_string());
+    let stated = |bits: Option<i64>| bits.map_or_else(|| "not stated".to_owned(), |count| count.to_string());
     let Some(most) = allocated.filter(|bits| [8, 16, 32, 64].contains(bits)) else {
-        return Err(Error::new(format!("BitsAllocated {}", told(allocated)), "8, 16, 32 or 64"));
+        return Err(Error::new(format!("BitsAllocated {}", stated(allocated)), "8, 16, 32 or 64"));
     };
     if image.header.pixels != "PixelData" {
         return Ok(());
     }
     let stored = image.count(Keyword::BitsStored)?;
     if !stored.is_some_and(|bits| (1..=most).contains(&bits)) {
-        return Err(Error::new(format!("BitsStored {}", told(stored)), format!("1 to {most}")));
+        return Err(Error::new(format!("BitsStored {}", stated(stored)), format!("1 to {most}")));
     }
     if !matches!(image.get(Keyword::PixelRepresentation).integer(), Some(0 | 1)) {
         let found = "PixelRepresentation not stated";

@@ -62,10 +62,10 @@ fn note_padding(images: &[&Image], notes: &mut Vec<String>) {
     let stated = images.iter().filter_map(|image| image.header.attributes.get(Keyword::PixelPaddingValue));
     // A damaged value may be any text, so it is not quoted.
     let numbers = stated.filter(|value| matches!(value, Value::Integer(_) | Value::Number(_)));
-    let told: BTreeSet<String> = numbers.map(|value| shown(&value.to_string())).collect();
-    if !told.is_empty() {
-        let told: Vec<String> = told.into_iter().collect();
-        let told = listed(&told);
-        notes.push(format!("stored value {told} marks pixels outside the scan: read as they are"));
+    let values: BTreeSet<String> = numbers.map(|value| shown(&value.to_string())).collect();
+    if !values.is_empty() {
+        let values: Vec<String> = values.into_iter().collect();
+        let values = listed(&values);
+        notes.push(format!("stored value {values} marks pixels outside the scan: read as they are"));
     }
 }

@@ -42,8 +42,8 @@ const WHOLE_PHASE: [Keyword; 3] = [
     Keyword::NominalPercentageOfCardiacPhase,
 ];
 
-pub(crate) fn telling(pairs: &[Pair]) -> Option<Keyword> {
-    let differs = |keyword| move |pair: &Pair| told(&pair.0, keyword) != told(&pair.1, keyword);
+pub(crate) fn distinguishing(pairs: &[Pair]) -> Option<Keyword> {
+    let differs = |keyword| move |pair: &Pair| value_text(&pair.0, keyword) != value_text(&pair.1, keyword);
     PHASE_KEYWORDS.into_iter().find(|&keyword| pairs.iter().all(differs(keyword)))
 }
 
@@ -68,13 +68,18 @@ pub(crate) fn of_phase<'a>(
         }
     }
     let separates = |&keyword: &Keyword| {
-        let values: BTreeSet<String> = slices.iter().map(|one| told(one, keyword)).collect();
+        let values: BTreeSet<String> = slices.iter().map(|one| value_text(one, keyword)).collect();
         1 < values.len() && values.len() < slices.len()
     };
     let is = |keyword: Keyword| format!("{} is {}", keyword.name(), values_of(slices, keyword));
-    let told: Vec<String> = PHASE_KEYWORDS.into_iter().filter(separates).map(is).take(MENTIONED).collect();
-    let told = if told.is_empty() { "no attribute distinguishes phases".to_owned() } else { told.join("; ") };
-    let found = format!("no phase {}: {told}", quoted(phase));
+    let attributes: Vec<String> =
+        PHASE_KEYWORDS.into_iter().filter(separates).map(is).take(MENTIONED).collect();
+    let attributes = if attributes.is_empty() {
+        "no attribute distinguishes phases".to_owned()
+    } else {
+        attributes.join("; ")
+    };
+    let found = format!("no phase {}: {attributes}", quoted(phase));
     Err(Error::new(found, "an attribute value of some slices"))
 }
 
@@ -89,7 +94,7 @@ fn note_left_out(every: &[Slice], own: &[Slice], phase: &str, notes: &mut Vec<St
 
 pub(crate) fn refuse_interleaved(ordered: &[Slice]) -> Result<()> {
     for keyword in WHOLE_PHASE {
-        let values: Vec<String> = ordered.iter().map(|one| told(one, keyword)).collect();
+        let values: Vec<String> = ordered.iter().map(|one| value_text(one, keyword)).collect();
         let changes = values.windows(2).filter(|pair| pair[0] != pair[1]).count();
         let different = values.iter().collect::<BTreeSet<_>>().len();
         if different > 1 && changes >= different {
@@ -102,12 +107,12 @@ pub(crate) fn refuse_interleaved(ordered: &[Slice]) -> Result<()> {
     Ok(())
 }
 
-pub(crate) fn told(one: &Slice, keyword: Keyword) -> String {
+pub(crate) fn value_text(one: &Slice, keyword: Keyword) -> String {
     one.get(keyword).to_string()
 }
 
 pub(crate) fn choice(slices: &[Slice], keyword: Keyword) -> Mend {
-    let different: BTreeSet<String> = slices.iter().map(|one| told(one, keyword)).collect();
+    let different: BTreeSet<String> = slices.iter().map(|one| value_text(one, keyword)).collect();
     let mut values: Vec<String> = different.into_iter().collect();
     if values.len() > MOST_PHASES || values.iter().any(|value| shown(value) != *value) {
         return Mend::Phase(Vec::new());
@@ -125,7 +130,7 @@ pub(crate) fn in_order(one: &str, other: &str) -> Ordering {
 pub(crate) fn values_of(slices: &[Slice], keyword: Keyword) -> String {
     let mut counts = BTreeMap::new();
     for one in slices {
-        *counts.entry(told(one, keyword)).or_insert(0) += 1;
+        *counts.entry(value_text(one, keyword)).or_insert(0) += 1;
     }
     let counts =
         counts.iter().map(|(value, &count)| format!("{} in {}", shown(value), counted(count, "slice")));

@@ -41,8 +41,8 @@ impl Scan {
 fn phase(slices: &[Slice]) -> Option<String> {
     let stated = |keyword: Keyword| common(slices, keyword).and_then(text);
     let number = |keyword: Keyword| {
-        let told = common(slices, keyword).and_then(Value::number).filter(|number| number.is_finite());
-        told.map(|number| rounded(number, DIGITS))
+        let number = common(slices, keyword).and_then(Value::number).filter(|number| number.is_finite());
+        number.map(|number| rounded(number, DIGITS))
     };
     let heart = number(Keyword::NominalPercentageOfCardiacPhase)
         .map(|percent| format!("{percent} % of the cardiac cycle"))

@@ -10,7 +10,7 @@ use crate::error::{Error, Result};
 use crate::grouping::groups;
 use crate::headers::Unlike;
 use crate::keyword::Keyword;
-use crate::phases::{choice, in_order, mixed, telling, told, values_of};
+use crate::phases::{choice, distinguishing, in_order, mixed, value_text, values_of};
 use crate::slices::{Pair, Slice, are_unlike};
 use crate::spacing::ONE_PLACE;
 use crate::wording::{counted, listed};
@@ -29,7 +29,7 @@ pub(crate) fn one_per_place<'a>(
         .flat_map(|place| place.windows(2).map(|two| (two[0].clone(), two[1].clone())))
         .collect();
     let found = format!("{} slices at {}", ordered.len(), counted(places.len() as i64, "position"));
-    let keyword = telling(&neighbours);
+    let keyword = distinguishing(&neighbours);
     if let Some(keyword) = keyword.filter(|&keyword| !may_overlap(&places, keyword)) {
         let found = format!("{found}: {}; {}", names(&neighbours), mixed(&ordered, keyword));
         return Err(Error::new(found, "one slice per position").mended_by(choice(&ordered, keyword)));
@@ -61,7 +61,7 @@ fn places<'s, 'a>(ordered: &'s [Slice<'a>]) -> Vec<&'s [Slice<'a>]> {
 fn may_overlap(places: &[&[Slice]], keyword: Keyword) -> bool {
     let shared = places.iter().filter(|place| place.len() > 1).count();
     let values =
-        places.iter().map(|place| place.iter().map(|one| told(one, keyword)).collect::<BTreeSet<_>>());
+        places.iter().map(|place| place.iter().map(|one| value_text(one, keyword)).collect::<BTreeSet<_>>());
     let covered = groups(values.flatten());
     let extend_each_other = covered.iter().all(|part| part.len() < places.len());
     shared < places.len() && (extend_each_other || 2 * shared <= places.len())
@@ -71,7 +71,8 @@ fn firsts<'a>(places: &[&[Slice<'a>]], keyword: Option<Keyword>) -> (Vec<Slice<'
     let (mut kept, mut pairs) = (Vec::new(), Vec::new());
     for place in places {
         let in_order = |a: &&Slice, b: &&Slice| {
-            keyword.map_or(Ordering::Equal, |keyword| in_order(&told(a, keyword), &told(b, keyword)))
+            keyword
+                .map_or(Ordering::Equal, |keyword| in_order(&value_text(a, keyword), &value_text(b, keyword)))
         };
         let Some(first) = place.iter().min_by(in_order) else { continue };
         let others = place.iter().filter(|other| !std::ptr::eq(*other, first));
@@ -89,7 +90,7 @@ fn refused(found: &str, differing: &[Pair], apart: Option<(&[Slice], Keyword)>) 
     let values = values_of(ordered, keyword);
     let found = format!("{found}; {} is {values}: phases, or overlapping parts of one scan", keyword.name());
     let error = Error::new(found, "one slice per position").mend("remove one of each pair if they are parts");
-    let different: BTreeSet<String> = ordered.iter().map(|one| told(one, keyword)).collect();
+    let different: BTreeSet<String> = ordered.iter().map(|one| value_text(one, keyword)).collect();
     // A value per slice does not indicate phases.
     if 2 * different.len() > ordered.len() { error } else { error.mended_by(choice(ordered, keyword)) }
 }

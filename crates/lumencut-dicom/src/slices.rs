@@ -84,8 +84,8 @@ fn scaling(image: &Image, frame: usize) -> Result<(f64, f64)> {
     let slope = image.number(frame, Keyword::RescaleSlope)?.unwrap_or(1.0);
     let intercept = image.number(frame, Keyword::RescaleIntercept)?.unwrap_or(0.0);
     if !(slope.is_finite() && intercept.is_finite()) {
-        let told = |number: f64| format!("{number:?}").replace("NaN", "nan");
-        let found = format!("slope and intercept ({}, {})", told(slope), told(intercept));
+        let text = |number: f64| format!("{number:?}").replace("NaN", "nan");
+        let found = format!("slope and intercept ({}, {})", text(slope), text(intercept));
         return Err(Error::new(found, "finite numbers"));
     }
     if slope == 0.0 {

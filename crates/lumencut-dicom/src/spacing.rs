@@ -8,9 +8,9 @@ const OF_STEP: f64 = 0.01;
 /// Slices closer than this (mm) share a position.
 pub(crate) const ONE_PLACE: f64 = 0.01;
 /// This many equal wide distances in a row are intended.
-const RUN: usize = 3;
+const INTENDED_RUN: usize = 3;
 /// Maximum number of distances listed individually.
-const TOLD: usize = 4;
+const MAX_LISTED: usize = 4;
 
 pub(crate) fn tolerance(step: f64) -> f64 {
     MILLIMETRE.max(OF_STEP * step)
@@ -35,7 +35,7 @@ pub(crate) fn ends(numbers: &[f64]) -> (f64, f64) {
 
 /// Whether wide steps of equal length follow each other, as in a part scanned more coarsely.
 pub(crate) fn has_run(steps: &[i64]) -> bool {
-    steps.windows(RUN).any(|run| run[0] > 1 && run.iter().all(|step| *step == run[0]))
+    steps.windows(INTENDED_RUN).any(|run| run[0] > 1 && run.iter().all(|step| *step == run[0]))
 }
 
 pub(crate) fn left_out(every: &[f64], part: &[f64]) -> (usize, usize) {
@@ -54,7 +54,7 @@ fn places(heights: &[f64]) -> Vec<f64> {
     sorted
 }
 
-pub(crate) fn told(gaps: &[f64]) -> String {
+pub(crate) fn described(gaps: &[f64]) -> String {
     let allowed = tolerance(median(gaps));
     let mut groups: Vec<(f64, usize)> = Vec::new();
     for &gap in gaps {
@@ -62,7 +62,7 @@ pub(crate) fn told(gaps: &[f64]) -> String {
             Some((_, count)) => *count += 1,
             None => groups.push((gap, 1)),
         }
-        if groups.len() > TOLD {
+        if groups.len() > MAX_LISTED {
             let (smallest, largest) = ends(gaps);
             return format!("{} to {} mm", rounded(smallest, 4), rounded(largest, 4));
         }
@@ -103,7 +103,7 @@ mod tests {
 
     #[test]
     fn distances_are_told_in_their_order() {
-        assert_eq!(told(&[4.0, 4.01, 1.08, 7.0, 4.0]), "3 of 4 mm, 1 of 1.08 mm, 1 of 7 mm");
-        assert_eq!(told(&[2.0, 2.2, 2.5, 2.9, 3.4, 4.0]), "2 to 4 mm");
+        assert_eq!(described(&[4.0, 4.01, 1.08, 7.0, 4.0]), "3 of 4 mm, 1 of 1.08 mm, 1 of 7 mm");
+        assert_eq!(described(&[2.0, 2.2, 2.5, 2.9, 3.4, 4.0]), "2 to 4 mm");
     }
 }

@@ -7,13 +7,13 @@
 use crate::error::{Error, Result};
 use crate::mend::Mend;
 use crate::slices::Slice;
-use crate::spacing::{ends, median, told, tolerance};
+use crate::spacing::{described, ends, median, tolerance};
 use crate::wording::{counted, rounded};
 
 /// Maximum number of grid slices, relative to the series.
-const MOST_SLICES: usize = 4;
+const MAX_GRID_RATIO: usize = 4;
 /// A distance this much longer than its neighbours is a gap.
-const HOLE: f64 = 3.0;
+const GAP_RATIO: f64 = 3.0;
 /// Rounding tolerance of step counts and equal distances (mm).
 const ROUNDING: f64 = 1e-6;
 
@@ -69,7 +69,7 @@ impl Uneven<'_, '_> {
     }
 
     fn found(&self) -> String {
-        format!("uneven slices at mixed distances ({})", told(&self.gaps))
+        format!("uneven slices at mixed distances ({})", described(&self.gaps))
     }
 
     /// Rejects laterally shifted slices, which resampling along the normal cannot correct.
@@ -102,7 +102,8 @@ impl Uneven<'_, '_> {
 
     fn wide(&self) -> Vec<usize> {
         let beside = |n: Option<usize>| n.and_then(|n| self.gaps.get(n)).copied().unwrap_or_default();
-        let is_wide = |&n: &usize| self.gaps[n] > HOLE * beside(n.checked_sub(1)).max(beside(Some(n + 1)));
+        let is_wide =
+            |&n: &usize| self.gaps[n] > GAP_RATIO * beside(n.checked_sub(1)).max(beside(Some(n + 1)));
         if self.gaps.len() > 1 { (0..self.gaps.len()).filter(is_wide).collect() } else { Vec::new() }
     }
 
@@ -142,7 +143,7 @@ fn largest(numbers: &[f64]) -> usize {
 
 /// Grid indices; the first and last slice are the ends.
 fn places_on_grid(heights: &[f64], smallest: f64) -> Vec<f64> {
-    let (total, most) = (heights[heights.len() - 1], (MOST_SLICES * heights.len() - 1) as f64);
+    let (total, most) = (heights[heights.len() - 1], (MAX_GRID_RATIO * heights.len() - 1) as f64);
     let mut parts = 1.0;
     while parts <= most {
         let steps = (total * parts / smallest).round_ties_even();

@@ -43,19 +43,19 @@ pub(crate) fn bracketed(numbers: &[f64]) -> String {
 
 pub(crate) fn quoted(text: &str) -> String {
     let mark = if text.contains('\'') && !text.contains('"') { '"' } else { '\'' };
-    let mut told = String::from(mark);
+    let mut out = String::from(mark);
     for letter in text.chars() {
         match letter {
-            '\n' => told.push_str("\\n"),
-            '\r' => told.push_str("\\r"),
-            '\t' => told.push_str("\\t"),
-            _ if letter == mark || letter == '\\' => told.extend(['\\', letter]),
-            _ if is_printable(letter) => told.push(letter),
-            _ => told.push_str(&escaped(u32::from(letter))),
+            '\n' => out.push_str("\\n"),
+            '\r' => out.push_str("\\r"),
+            '\t' => out.push_str("\\t"),
+            _ if letter == mark || letter == '\\' => out.extend(['\\', letter]),
+            _ if is_printable(letter) => out.push(letter),
+            _ => out.push_str(&escaped(u32::from(letter))),
         }
     }
-    told.push(mark);
-    told
+    out.push(mark);
+    out
 }
 
 fn escaped(code: u32) -> String {

@@ -9,8 +9,8 @@ use lumencut_vessels::trace::clicks::traced::Traced;
 use lumencut_vessels::trace::clicks::tracer::Tracer;
 use lumencut_vessels::trace::lines::centerline::Centerline;
 use lumencut_vessels::trace::lines::wander::wandering;
-use lumencut_vessels::trace::lumen::calm::calmed;
 use lumencut_vessels::trace::lumen::surroundings::Surroundings;
+use lumencut_vessels::trace::lumen::wander_removal::without_wander;
 use lumencut_vessels::voxels;
 
 fn traced(volume: &Volume, clicks: &[DVec3]) -> lumencut_core::error::Result<Traced> {
@@ -87,8 +87,8 @@ fn a_line_that_folds_back_within_a_lumen_is_made_calm_and_a_straight_one_stays()
     let [from, to] = [-12.0, 12.0].map(|z| DVec3::Z * z);
     let folded = line(&[from, DVec3::new(1.0, 0.0, 3.0), DVec3::new(-1.0, 0.5, -3.0), to]);
     assert!(wanders(&folded) && length(&folded) > 34.0);
-    let calm = calmed(&voxels, &model, folded, &|| false).unwrap();
+    let calm = without_wander(&voxels, &model, folded, &|| false).unwrap();
     assert!(!wanders(&calm) && length(&calm) < 27.0, "{}", length(&calm));
     let straight = line(&[from, to]);
-    assert_eq!(calmed(&voxels, &model, straight.clone(), &|| false).unwrap(), straight);
+    assert_eq!(without_wander(&voxels, &model, straight.clone(), &|| false).unwrap(), straight);
 }

@@ -7,10 +7,10 @@ use super::sections::Section;
 use lumencut_core::math::same_place::REPEATED_POINT;
 
 /// Distance (mm) and minimum number of sections for the parabola that gives the second derivative.
-const AROUND: (f64, usize) = (2.0, 5);
+const PARABOLA: (f64, usize) = (2.0, 5);
 
 /// Maximum relative correction of an area, because the formula is of first order only.
-const MOST: f64 = 0.25;
+const MAX_CORRECTION: f64 = 0.25;
 
 /// Corrects sections at arc lengths `at` (mm) for blur variances along the vessel (mm²).
 pub(crate) fn sharpen(sections: &mut [Section], at: &[f64], variance: &[f64]) {
@@ -19,13 +19,13 @@ pub(crate) fn sharpen(sections: &mut [Section], at: &[f64], variance: &[f64]) {
     for n in 0..sections.len() {
         let Some(bend) = second_derivative(at, &areas, n) else { continue };
         let change = -0.5 * variance[n] * bend / areas[n];
-        sections[n].scale((1.0 + change.clamp(-MOST, MOST)).sqrt());
+        sections[n].scale((1.0 + change.clamp(-MAX_CORRECTION, MAX_CORRECTION)).sqrt());
     }
 }
 
 /// Second derivative of the areas at section `n`; None if too few sections are known, or only on one side.
 fn second_derivative(at: &[f64], areas: &[f64], n: usize) -> Option<f64> {
-    let (reach, least) = AROUND;
+    let (reach, least) = PARABOLA;
     let first = at.partition_point(|there| *there < at[n] - reach - REPEATED_POINT);
     let last = at.partition_point(|there| *there <= at[n] + reach + REPEATED_POINT);
     // Symmetric, so that a slope does not enter.

@@ -10,7 +10,7 @@ use lumencut_core::math::lanes::{FAN, Isa, Kernel, dispatch};
 use lumencut_core::math::statistics::median;
 
 /// Maximum distance of the wall from the ellipse (share of the radius, or mm); farther, it is not the wall.
-const FARTHEST: (f64, f64) = (0.5, 0.5);
+const MAX_OFFSET: (f64, f64) = (0.5, 0.5);
 
 pub(crate) trait Shares: Sync {
     fn shares(&self, x: &[f32; FAN], y: &[f32; FAN]) -> [f32; FAN];
@@ -56,15 +56,15 @@ pub(crate) fn wall(ellipse: &Ellipse, values: &impl Shares, rays: &[Ray], level:
                 let blurred = crossing(values, ellipse.center, direction(n), level, own)?;
                 Some(own + edge - blurred)
             });
-            let most = (FARTHEST.0 * own).max(FARTHEST.1);
+            let most = (MAX_OFFSET.0 * own).max(MAX_OFFSET.1);
             seen.filter(|wall| (wall - own).abs() <= most && *wall > 0.0).unwrap_or(own)
         })
         .collect();
-    quiet(&walls, |n| ellipse.radius_towards(direction(n)))
+    without_spikes(&walls, |n| ellipse.radius_towards(direction(n)))
 }
 
 /// Removes spikes of one or two rays: a median of five neighbours, relative to `own`.
-fn quiet(walls: &[f64], own: impl Fn(usize) -> f64) -> Vec<f64> {
+fn without_spikes(walls: &[f64], own: impl Fn(usize) -> f64) -> Vec<f64> {
     let shares: Vec<f64> = walls.iter().enumerate().map(|(n, wall)| wall / own(n)).collect();
     (0..RAYS)
         .map(|n| {
@@ -84,7 +84,7 @@ pub(crate) fn wall_by_rays(rays: &[Ray], width: f64) -> Option<Vec<f64>> {
     let middle = median(&mut ends)?;
     // Between the struts of a stent, rays leave it.
     let walls: Vec<f64> = rays.iter().map(|ray| end(ray).unwrap_or(middle).min(1.5 * middle)).collect();
-    Some(quiet(&quiet(&walls, |_| middle), |_| middle))
+    Some(without_spikes(&without_spikes(&walls, |_| middle), |_| middle))
 }
 
 /// Inner edge of a bright rim; a strut is thinner than its blurred image, so the blur is subtracted.

@@ -11,7 +11,7 @@ const BRIGHTER: f64 = 0.75;
 const MOST_OTHER: f64 = 0.12;
 
 /// Within this many blur widths of the contour, blur mixes lumen and surroundings.
-const MIXED: f64 = 0.75;
+const BLURRED_WIDTHS: f64 = 0.75;
 
 /// Every n-th ray is checked, at this many points.
 const CHECKED: (usize, usize) = (2, 6);
@@ -34,7 +34,7 @@ pub(crate) fn encloses_lumen(
 ) -> bool {
     let (mut other, mut all) = (0.0, 0.0);
     for n in (0..RAYS).step_by(CHECKED.0) {
-        let reach = walls[n] - MIXED * width;
+        let reach = walls[n] - BLURRED_WIDTHS * width;
         if reach <= 0.0 {
             continue;
         }

@@ -14,13 +14,13 @@ use lumencut_core::error::Result;
 use lumencut_core::stop::{Stop, go_on};
 
 /// Maximum standard deviation (share), and minimum number, of sections that give the level.
-const TELLS: (f64, usize) = (0.05, 3);
+const LEVEL_SECTIONS: (f64, usize) = (0.05, 3);
 
 /// Maximum number of sections fitted with a common level.
 const TOGETHER: usize = 48;
 
 /// Search range of the level, as a share; the first guess is about 1.
-const RANGE: [f64; 2] = [0.6, 4.0];
+const LEVEL_RANGE: [f64; 2] = [0.6, 4.0];
 
 /// Relative standard deviation of a common level.
 const DEVIATION: f64 = 0.05;
@@ -36,9 +36,11 @@ pub(crate) fn lumen_levels(
     stop: Stop,
 ) -> Result<Vec<Level>> {
     let at: Vec<f64> = places.iter().map(|place| place.at).collect();
-    let levels: Vec<Option<Level>> =
-        fits.iter().map(|fit| fit.map(|fit| fit.lumen).filter(|level| level[1] <= TELLS.0)).collect();
-    if levels.iter().flatten().count() >= TELLS.1 {
+    let levels: Vec<Option<Level>> = fits
+        .iter()
+        .map(|fit| fit.map(|fit| fit.lumen).filter(|level| level[1] <= LEVEL_SECTIONS.0))
+        .collect();
+    if levels.iter().flatten().count() >= LEVEL_SECTIONS.1 {
         return Ok(pooled(&at, &levels));
     }
     let level = together(bench, places, fits, stop)?;
@@ -65,5 +67,5 @@ fn together(bench: &Bench, places: &[SectionPlane], fits: &[Option<Fit>], stop: 
             .collect::<Result<_>>()?;
         Ok(costs.iter().sum())
     };
-    Ok(least(RANGE.map(f64::ln), ROUNDS, |level| cost(level.exp()))?.exp())
+    Ok(least(LEVEL_RANGE.map(f64::ln), ROUNDS, |level| cost(level.exp()))?.exp())
 }

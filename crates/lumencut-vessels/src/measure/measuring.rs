@@ -6,7 +6,7 @@ use std::sync::OnceLock;
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::point_spread::{NARROW, SharpEdges, SpreadEstimate};
+use super::point_spread::{SharpEdges, SpreadEstimate, TOO_NARROW};
 use super::prepared::{DEFAULT_FWHM, PreparedVessel, assumed};
 use super::profile::{PointSpread, Profile, Source};
 use super::request::MeasureRequest;
@@ -24,10 +24,10 @@ use lumencut_core::volume::Volume;
 pub const STEP: f64 = 0.5;
 
 /// Relative standard deviation of an assumed point spread.
-const ASSUMED: f64 = 0.2;
+const ASSUMED_DEVIATION: f64 = 0.2;
 
 /// Maximum number of vessels, the widest ones, that estimate point spread and wall level.
-const MOST_ASKED: usize = 8;
+const MAX_CONTRIBUTING: usize = 8;
 
 /// Measures the profile of a vessel. Errors: [`ErrorKind::Measuring`] for a vessel outside the volume or
 /// without a lumen, [`ErrorKind::Settings`] for an invalid step or point spread, [`ErrorKind::VesselTree`]
@@ -99,11 +99,11 @@ impl<'a, 'v> TreeMeasuring<'a, 'v> {
     }
 
     /// Numbers of the widest vessels, independent of their order in the tree.
-    fn asked(&self) -> Vec<usize> {
+    fn widest_vessels(&self) -> Vec<usize> {
         let tree = self.request.tree;
         let mut order: Vec<usize> = (0..tree.len()).collect();
         order.sort_by(|a, b| wider(&tree[*a], &tree[*b]).then(a.cmp(b)));
-        order.truncate(MOST_ASKED);
+        order.truncate(MAX_CONTRIBUTING);
         order
     }
 
@@ -117,13 +117,14 @@ impl<'a, 'v> TreeMeasuring<'a, 'v> {
             let level = prepared.wall_level(&self.voxels, fwhm, request.stop)?;
             Ok(level.map(|level| VesselWall { vessel: n, level }))
         };
-        let found: Vec<Option<VesselWall>> = self.asked().into_par_iter().map(wall).collect::<Result<_>>()?;
+        let found: Vec<Option<VesselWall>> =
+            self.widest_vessels().into_par_iter().map(wall).collect::<Result<_>>()?;
         Ok(found.into_iter().flatten().collect())
     }
 
     fn estimated_spread(&self, request: &MeasureRequest) -> Result<PointSpread> {
-        let mut why = NARROW;
-        for n in self.asked() {
+        let mut why = TOO_NARROW;
+        for n in self.widest_vessels() {
             go_on(request.stop)?;
             let Some(wide) = self.prepared_or_none(n, request)? else { continue };
             match wide.point_spread(&self.voxels, request.stop)? {
@@ -131,7 +132,7 @@ impl<'a, 'v> TreeMeasuring<'a, 'v> {
                     let on = format!("{} of vessel {n} of the tree", found.on());
                     return Ok(spread_of(&found, on));
                 }
-                SpreadEstimate::Nothing(NARROW) => {}
+                SpreadEstimate::Nothing(TOO_NARROW) => {}
                 SpreadEstimate::Nothing(reason) => why = reason,
             }
         }
@@ -179,5 +180,5 @@ fn spread_of(found: &SharpEdges, on: String) -> PointSpread {
 fn default(voxels: &Voxels, reason: &str) -> PointSpread {
     let from = format!("{DEFAULT_FWHM} sides of a voxel, as {reason}");
     let fwhm = assumed(voxels);
-    PointSpread { fwhm, deviation: ASSUMED * fwhm, source: Source::Assumed { from } }
+    PointSpread { fwhm, deviation: ASSUMED_DEVIATION * fwhm, source: Source::Assumed { from } }
 }

@@ -12,7 +12,7 @@ use lumencut_core::math::statistics::median;
 const BRIGHT_MARGIN: f64 = 0.8;
 
 /// Calcium up to this distance (mm) belongs to the wall; other structures are neighbours.
-const BESIDE: f64 = 1.5;
+const WALL_CALCIUM_MM: f64 = 1.5;
 
 /// Minimum number of rays for any obstacle, and for a stent that surrounds the lumen.
 const LEAST_RAYS: usize = 3;
@@ -85,7 +85,7 @@ fn limit(ray: &Ray, middle: f64, width: f64) -> f64 {
 
 /// Whether a ray meets calcium or metal at a wall (mm from its start), under a blur of `width` mm.
 pub(crate) fn is_bright(ray: &Ray, wall: f64, width: f64) -> bool {
-    ray.bright_at.is_some_and(|at| at < wall + BESIDE.max(width))
+    ray.bright_at.is_some_and(|at| at < wall + WALL_CALCIUM_MM.max(width))
 }
 
 fn is_lattice(is_bright: impl Fn(usize) -> bool) -> bool {
@@ -99,7 +99,7 @@ fn is_lattice(is_bright: impl Fn(usize) -> bool) -> bool {
 /// Flags of a section from its rays, with the wall per ray (mm), under a blur of `width` mm.
 pub(crate) fn flags_of(rays: &[Ray], wall: impl Fn(usize) -> f64, width: f64) -> u32 {
     let count = |is: &dyn Fn(usize, &Ray) -> bool| rays.iter().enumerate().filter(|(n, r)| is(*n, r)).count();
-    let beside = BESIDE.max(width);
+    let beside = WALL_CALCIUM_MM.max(width);
     let is_bright = |n: usize, ray: &Ray| is_bright(ray, wall(n), width);
     let bright = count(&is_bright);
     let is_metal = |n: usize, ray: &Ray| is_bright(n, ray) && ray.brightest > METAL_SHARE;

@@ -25,7 +25,7 @@ const LEAST_MISSED: f64 = 1.5;
 const ROUND: f64 = 1.35;
 
 /// Search range: multiples of the smallest and largest voxel side; maximum share of a section's width.
-const RANGE: [f64; 2] = [0.3, 3.0];
+const SEARCH_RANGE: [f64; 2] = [0.3, 3.0];
 const SHARE: f64 = 0.5;
 
 /// Half of the estimates must lie within this share of their median.
@@ -35,7 +35,7 @@ const AGREED: f64 = 0.15;
 const LEAST_SPREAD: f64 = 0.03;
 
 /// Minimum extent of the sections in point spreads, because neighbours share voxels.
-const STRETCH: f64 = 3.0;
+const MIN_EXTENT: f64 = 3.0;
 
 /// Rounds of the search.
 const ROUNDS: usize = 14;
@@ -63,10 +63,10 @@ pub(crate) enum SpreadEstimate {
 }
 
 /// Reason if the vessel is too narrow.
-pub(crate) const NARROW: &str = "no vessel is wide enough to estimate it";
+pub(crate) const TOO_NARROW: &str = "no vessel is wide enough to estimate it";
 
 /// Reason if the wide stretch is too short.
-const SHORT: &str = "free, round stretches of wide vessels are too short to estimate it";
+const TOO_SHORT: &str = "free, round stretches of wide vessels are too short to estimate it";
 
 /// Point spread with which the widest sections fit best at their visible lumen level.
 pub(crate) fn estimated(
@@ -79,11 +79,11 @@ pub(crate) fn estimated(
     let noise = noise(fits);
     let wide = wide_sections(bench, fits, noise);
     if wide.len() < SECTIONS.1 {
-        return Ok(SpreadEstimate::Nothing(NARROW));
+        return Ok(SpreadEstimate::Nothing(TOO_NARROW));
     }
     let largest =
         [sides.x_axis, sides.y_axis, sides.z_axis].map(DVec3::length).into_iter().fold(0.0, f64::max);
-    let [low, high] = [RANGE[0] * bench.rays.voxels.smallest_side, RANGE[1] * largest];
+    let [low, high] = [SEARCH_RANGE[0] * bench.rays.voxels.smallest_side, SEARCH_RANGE[1] * largest];
     let found: Vec<Result<Option<f64>>> = wide
         .par_iter()
         .map(|n| {
@@ -106,15 +106,15 @@ pub(crate) fn estimated(
         Err(reason) => return Ok(SpreadEstimate::Nothing(reason)),
     };
     let [first, last] = [wide.iter().min(), wide.iter().max()].map(|n| n.map_or(0.0, |n| places[*n].at));
-    if last - first < STRETCH * fwhm {
-        return Ok(SpreadEstimate::Nothing(SHORT));
+    if last - first < MIN_EXTENT * fwhm {
+        return Ok(SpreadEstimate::Nothing(TOO_SHORT));
     }
     Ok(SpreadEstimate::Width(SharpEdges { fwhm, deviation, count: best.len(), ends: [first, last] }))
 }
 
 /// Median and standard deviation of consistent estimates within a range, or the reason for rejecting them.
 fn agreed(best: &mut [f64], [low, high]: [f64; 2]) -> std::result::Result<Level, &'static str> {
-    let Some(fwhm) = median(best).filter(|_| best.len() >= SECTIONS.1) else { return Err(NARROW) };
+    let Some(fwhm) = median(best).filter(|_| best.len() >= SECTIONS.1) else { return Err(TOO_NARROW) };
     let margin = 0.02 * (high - low);
     if fwhm < low + margin {
         return Err("the walls of wide vessels are sharper than the voxels can show");

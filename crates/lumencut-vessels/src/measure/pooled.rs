@@ -9,15 +9,15 @@ const DISTANCE: f64 = 25.0;
 const DEVIATION: [f64; 2] = [0.01, 0.08];
 
 /// Deviations are clipped to this share.
-const WRONG: f64 = 0.3;
+const MAX_DEVIATION: f64 = 0.3;
 
 /// Maximum number of sections.
-const MOST: usize = 500;
+const MAX_SECTIONS: usize = 500;
 
 pub(crate) type Level = [f64; 2];
 
 pub(crate) fn pooled(at: &[f64], levels: &[Option<Level>]) -> Vec<Level> {
-    let every = levels.len().div_ceil(MOST).max(1);
+    let every = levels.len().div_ceil(MAX_SECTIONS).max(1);
     let mut levels: Vec<(f64, Level)> =
         at.iter().zip(levels).step_by(every).filter_map(|(at, level)| level.map(|l| (*at, l))).collect();
     levels.sort_by(|a, b| a.1[0].total_cmp(&b.1[0]).then(a.0.total_cmp(&b.0)));
@@ -38,10 +38,10 @@ fn level(at: f64, levels: &[(f64, Level)]) -> Level {
         below += weight;
         below >= 0.5 * all
     });
-    let Some(level) = middle.map(|n| levels[n].1[0]) else { return [1.0, WRONG] };
+    let Some(level) = middle.map(|n| levels[n].1[0]) else { return [1.0, MAX_DEVIATION] };
     let mut excess = 0.0;
     for (weight, (_, [there, deviation])) in weights.iter().zip(levels) {
-        let off = (there - level).abs().min(WRONG);
+        let off = (there - level).abs().min(MAX_DEVIATION);
         excess += weight / all * (off * off - deviation * deviation);
     }
     let deviation = (DEVIATION[0].powi(2) + excess.max(0.0)).sqrt();

@@ -44,16 +44,16 @@ pub(crate) const DEFAULT_FWHM: f64 = 1.2;
 const WALL_SECTIONS: usize = 48;
 
 /// Number of sections from which the noise texture is estimated.
-const TEXTURE: usize = 32;
+const TEXTURE_SECTIONS: usize = 32;
 
 /// Minimum distance of separately fitted sections in blur widths: sections in between see the same voxels.
-const FITTED: f64 = 0.7;
+const FIT_SPACING: f64 = 0.7;
 
 /// Minimum search radius for the lumen around the centerline (mm).
-const SEARCH: f64 = 3.0;
+const MIN_SEARCH_MM: f64 = 3.0;
 
 /// Maximum radius of a lumen (mm).
-const WIDEST: f64 = 45.0;
+const MAX_RADIUS_MM: f64 = 45.0;
 
 /// Separate fits under a point spread, and the possible wall where none is visible.
 #[derive(Clone)]
@@ -82,8 +82,8 @@ impl PreparedVessel {
         let part = MeasuredPart::of(voxels, &first, known)?;
         let scale = part.scale;
         let (wall, wall_source) = expected(voxels, &scale, request.wall)?;
-        let widest = known.map_or(WIDEST, |radius| (3.0 * radius + 5.0).min(WIDEST));
-        let search = known.unwrap_or(0.0).max(SEARCH);
+        let widest = known.map_or(MAX_RADIUS_MM, |radius| (3.0 * radius + 5.0).min(MAX_RADIUS_MM));
+        let search = known.unwrap_or(0.0).max(MIN_SEARCH_MM);
         let bench = bench(voxels, scale, wall, assumed(voxels));
         let mut estimates = bench.estimates(&first, search, widest, request.stop)?;
         for (estimate, place) in estimates.iter_mut().zip(&first) {
@@ -160,7 +160,7 @@ impl PreparedVessel {
         let blur = Blur::new(fwhm, voxels.world_from_index.matrix3);
         let width = self.places.iter().map(|place| blur.width(place)).fold(f64::INFINITY, f64::min);
         let step = self.places.last().map_or(0.0, |last| last.at) / (self.places.len().max(2) - 1) as f64;
-        let every = ((FITTED * width / step) as usize).max(1);
+        let every = ((FIT_SPACING * width / step) as usize).max(1);
         (every, self.part(|n| n % every == 0))
     }
 
@@ -303,7 +303,7 @@ impl PreparedVessel {
     }
 
     fn texture(&self, bench: &Bench, fits: &[Option<Fit>], noise: f64, stop: Stop) -> Result<Texture> {
-        let every = fits.len().div_ceil(TEXTURE).max(1);
+        let every = fits.len().div_ceil(TEXTURE_SECTIONS).max(1);
         let some: Vec<usize> = (0..fits.len()).step_by(every).collect();
         let pairs = |n: &usize| {
             go_on(stop)?;

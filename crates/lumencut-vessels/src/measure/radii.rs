@@ -19,7 +19,7 @@ use lumencut_core::volume::Volume;
 const GAP: f64 = 10.0;
 
 /// Sections with this relative standard deviation or more are skipped.
-const UNSURE: f64 = 0.25;
+const MAX_DEVIATION: f64 = 0.25;
 
 /// The radii of one vessel.
 #[derive(Clone, Debug, PartialEq)]
@@ -61,7 +61,7 @@ pub fn measured_radii(
 fn of_profile(vessel: &Vessel, profile: &Profile) -> Radii {
     let is_measured = |n: &usize| {
         let diameter = 2.0 * (profile.area[*n] / PI).sqrt();
-        profile.flags[*n] & LEFT_OUT == 0 && profile.uncertainty[*n] < UNSURE * diameter
+        profile.flags[*n] & LEFT_OUT == 0 && profile.uncertainty[*n] < MAX_DEVIATION * diameter
     };
     let known: Vec<(f64, f64)> = (0..profile.len())
         .filter(is_measured)

@@ -23,7 +23,7 @@ const STEEP: f64 = 0.4;
 const BEYOND: f64 = 1.5;
 
 /// Maximum width of a rim (mm), and minimum depth beyond it as a share of its excess over lumen.
-const RIM: f64 = 4.0;
+const MAX_RIM_MM: f64 = 4.0;
 const RIM_SHARE: f64 = 0.1;
 
 /// Maps values of a volume to shares: 0 outside the vessel, 1 in its lumen.
@@ -75,11 +75,11 @@ impl Scale {
         let lowest = |mm: f64| rings[within(mm)].iter().copied().fold(f64::MAX, f64::min);
         let highest = rings[within(BEYOND)].iter().copied().fold(f64::MIN, f64::max);
         // A bright ring that is darker beyond is a rim, such as a stent.
-        let is_rim = slopes[wall] > 0.0 && lowest(RIM) < lumen - RIM_SHARE * (highest - lumen);
+        let is_rim = slopes[wall] > 0.0 && lowest(MAX_RIM_MM) < lumen - RIM_SHARE * (highest - lumen);
         let outside = if slopes[wall] < 0.0 {
             lowest(BEYOND)
         } else if is_rim {
-            lowest(RIM)
+            lowest(MAX_RIM_MM)
         } else {
             highest
         };

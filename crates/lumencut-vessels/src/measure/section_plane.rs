@@ -48,7 +48,7 @@ impl SectionPlane {
 pub(crate) struct Track {
     path: CenterlinePath,
     /// The smoothed line that gives the directions.
-    quiet: CenterlinePath,
+    smooth: CenterlinePath,
     frames: Frames,
     is_seen_along: bool,
 }
@@ -59,12 +59,12 @@ impl Track {
         let smoothing = (0.5 * radius.unwrap_or(0.0)).clamp(SMOOTHING[0], SMOOTHING[1]);
         let path = CenterlinePath::new(vessel, 0.0)?;
         let distinct = Vessel::new(path.points().to_vec(), None)?;
-        let quiet = CenterlinePath::new(&distinct, smoothing)?;
-        let begins = quiet.direction()[0];
+        let smooth = CenterlinePath::new(&distinct, smoothing)?;
+        let begins = smooth.direction()[0];
         // Down is the patient's back, or the feet if the vessel runs to the back.
         let down = if begins.y.abs() > ALONG { DVec3::NEG_Z } else { DVec3::Y };
-        let frames = Frames::new(&quiet, MovingFrame::looking(begins, down));
-        Ok(Self { path, quiet, frames, is_seen_along: begins.z >= 0.0 })
+        let frames = Frames::new(&smooth, MovingFrame::looking(begins, down));
+        Ok(Self { path, smooth, frames, is_seen_along: begins.z >= 0.0 })
     }
 
     pub(crate) fn length(&self) -> f64 {
@@ -72,7 +72,7 @@ impl Track {
     }
 
     pub(crate) fn at(&self, at: f64) -> SectionPlane {
-        let frame = self.frames.at(self.along_quiet(at));
+        let frame = self.frames.at(self.along_smooth(at));
         let right = if self.is_seen_along { -frame.across } else { frame.across };
         SectionPlane { at, origin: self.path.at(at), axes: [right, frame.ahead], normal: frame.tangent }
     }
@@ -92,9 +92,9 @@ impl Track {
         Ok((0..=count as usize).map(|n| self.at(self.length() * n as f64 / count)).collect())
     }
 
-    fn along_quiet(&self, at: f64) -> f64 {
-        let [own, quiet] = [self.path.arc_length(), self.quiet.arc_length()];
-        LinePlace::at(&own[..own.len().min(quiet.len())], at).value(quiet)
+    fn along_smooth(&self, at: f64) -> f64 {
+        let [own, smooth] = [self.path.arc_length(), self.smooth.arc_length()];
+        LinePlace::at(&own[..own.len().min(smooth.len())], at).value(smooth)
     }
 }
 

@@ -43,7 +43,7 @@ const ROUGH_WALL: f64 = 0.12;
 pub(crate) const LEAST_CONTRAST: f64 = 2.0;
 
 /// Uncertainty of diameters without a blur model, in blur widths.
-const UNSURE: f64 = 0.5;
+const UNMODELLED_WIDTHS: f64 = 0.5;
 
 /// Initial noise, as a share.
 const FIRST_NOISE: f64 = 0.1;
@@ -228,8 +228,8 @@ impl Bench<'_, '_> {
             background: 0.0,
             wall: None,
             missed: f64::NAN,
-            uncertainty: UNSURE * width,
-            parts: Parts { point_spread: UNSURE * width, ..Parts::default() },
+            uncertainty: UNMODELLED_WIDTHS * width,
+            parts: Parts { point_spread: UNMODELLED_WIDTHS * width, ..Parts::default() },
             free: 0.0,
             other: None,
         };

@@ -11,7 +11,7 @@ use crate::voxels::Voxels;
 use lumencut_core::math::lanes::FAN;
 
 /// Maximum number of voxels near the wall, and elsewhere.
-const MOST: [usize; 2] = [448, 160];
+const MAX_VOXELS: [usize; 2] = [448, 160];
 
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Window {
@@ -90,8 +90,8 @@ impl Samples {
     }
 
     fn new([near, far]: [Vec<Sample>; 2]) -> Self {
-        let mut all = thinned(near, MOST[0]);
-        all.append(&mut thinned(far, MOST[1]));
+        let mut all = thinned(near, MAX_VOXELS[0]);
+        all.append(&mut thinned(far, MAX_VOXELS[1]));
         let count = all.len();
         all.resize(count.next_multiple_of(FAN), Sample::default());
         let column = |part: usize| {

@@ -11,22 +11,22 @@ use super::section_plane::SectionPlane;
 use super::sections::{Bench, Known};
 
 /// Largest movement of a parameter in blur widths for a fit that stays.
-const STAYS: f64 = 0.05;
+const MAX_MOVEMENT: f64 = 0.05;
 
 /// Maximum number of restarts.
-const ROUNDS: usize = 3;
+const MAX_RESTARTS: usize = 3;
 
 /// Two fits show the same lumen within this ratio of sizes and this distance of centres (radii).
-const SAME: (f64, f64) = (1.6, 0.6);
+const SAME_LUMEN: (f64, f64) = (1.6, 0.6);
 
 impl Bench<'_, '_> {
     /// Restarts the fit until it stays; otherwise reports a second solution. Jumps to another lumen are
     /// discarded.
     pub(crate) fn stable_fit(&self, place: &SectionPlane, known: &Known) -> Option<Fit> {
-        let least = STAYS * self.blur.width(place);
+        let least = MAX_MOVEMENT * self.blur.width(place);
         let first = self.fit(place, known)?;
         let (mut begun, mut fit) = (known.ellipse, first);
-        for _ in 0..ROUNDS {
+        for _ in 0..MAX_RESTARTS {
             if fit.ellipse.differs(&begun) <= least {
                 return Some(fit);
             }
@@ -54,7 +54,7 @@ impl Bench<'_, '_> {
 }
 
 fn is_same_lumen(first: &Ellipse, again: &Ellipse) -> bool {
-    let (factor, share) = SAME;
+    let (factor, share) = SAME_LUMEN;
     let is_as_wide = again.mean <= factor * first.mean && first.mean <= factor * again.mean;
     is_as_wide && again.center.distance(first.center) <= share * first.mean
 }

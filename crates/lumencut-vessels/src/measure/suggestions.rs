@@ -21,7 +21,7 @@ const NORMAL: f64 = 0.92;
 const CALIBRE_STEP: f64 = 1.25;
 
 /// The longest diameter is not suggested within this distance (mm) of an irregular section or a branch.
-const BESIDE: f64 = 1.0;
+const MIN_DISTANCE_MM: f64 = 1.0;
 
 /// Maximum ratio of the axes of a section: alone, and with similar neighbours, defined as at least this many
 /// within this distance (mm) that are at most this share shorter. Excludes isolated outliers of the fit.
@@ -33,7 +33,7 @@ const NEIGHBOURS: (f64, usize, f64) = (2.5, 4, 0.1);
 const THIN_END: [f64; 2] = [1.25, 1.1];
 
 /// Sections on each side for a median width, because single ones may be outliers.
-const AROUND: usize = 2;
+const MEDIAN_SECTIONS: usize = 2;
 
 /// A place on a vessel.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -79,7 +79,7 @@ impl Profile {
 
     /// Largest width before and after each section, by medians of five; 0 if none counts.
     fn widest_beside(&self) -> Vec<[f64; 2]> {
-        let width = |n: usize| median(&mut self.widths(self.around(n, AROUND))).unwrap_or(0.0);
+        let width = |n: usize| median(&mut self.widths(self.around(n, MEDIAN_SECTIONS))).unwrap_or(0.0);
         let widths: Vec<f64> = (0..self.len()).map(width).collect();
         let mut found = vec![[0.0_f64; 2]; self.len()];
         for n in 1..self.len() {
@@ -119,7 +119,7 @@ impl Profile {
         let longest = self.widest().map(|spot| self.nearest_section(spot.at));
         let plausible = longest.into_iter().chain(largest).find(|n| self.is_plausible(*n))?;
         let at = self.arc_length[plausible];
-        let is_beside = |n: &usize| (self.arc_length[*n] - at).abs() <= BESIDE;
+        let is_beside = |n: &usize| (self.arc_length[*n] - at).abs() <= MIN_DISTANCE_MM;
         let is_odd = |n: usize| self.flags[n] & (BRANCH | IRREGULAR) != 0;
         let is_plain = !(0..self.len()).filter(is_beside).any(is_odd);
         is_plain.then_some(Spot { at, diameter: self.diameter_max[plausible] })

@@ -8,7 +8,7 @@ use super::slab::Samples;
 use lumencut_core::math::lanes::{FAN, Isa, Kernel, dispatch};
 
 /// Distance (voxels) from which noise counts as independent.
-const FAR: usize = 5;
+const CORRELATED_VOXELS: usize = 5;
 
 /// Minimum number of pairs, and minimum significance in standard deviations, of a correlation.
 const MIN_EVIDENCE: (f64, f64) = (100.0, 2.0);
@@ -19,13 +19,13 @@ const LARGEST: f32 = 4.0;
 /// Autocorrelation of the noise by the absolute offsets along the grid axes.
 #[derive(Clone, Debug)]
 pub(crate) struct Texture {
-    correlation: [[[f32; FAR]; FAR]; FAR],
+    correlation: [[[f32; CORRELATED_VOXELS]; CORRELATED_VOXELS]; CORRELATED_VOXELS],
 }
 
 #[derive(Clone, Debug)]
 pub(crate) struct Pairs {
-    products: [[[f64; FAR]; FAR]; FAR],
-    count: [[[f64; FAR]; FAR]; FAR],
+    products: [[[f64; CORRELATED_VOXELS]; CORRELATED_VOXELS]; CORRELATED_VOXELS],
+    count: [[[f64; CORRELATED_VOXELS]; CORRELATED_VOXELS]; CORRELATED_VOXELS],
     /// Sum and number of the products of distant pairs.
     far: [f64; 2],
 }
@@ -62,9 +62,9 @@ impl Pairs {
     #[must_use]
     pub(crate) fn with(mut self, other: &Self) -> Self {
         self.far = [self.far[0] + other.far[0], self.far[1] + other.far[1]];
-        for i in 0..FAR {
-            for j in 0..FAR {
-                for k in 0..FAR {
+        for i in 0..CORRELATED_VOXELS {
+            for j in 0..CORRELATED_VOXELS {
+                for k in 0..CORRELATED_VOXELS {
                     self.products[i][j][k] += other.products[i][j][k];
                     self.count[i][j][k] += other.count[i][j][k];
                 }
@@ -79,7 +79,8 @@ fn for_near_pairs<T: Copy>(samples: &mut [([i16; 3], T)], mut visit: impl FnMut(
     let axis = put_in_order(samples);
     for (n, (voxel, value)) in samples.iter().enumerate() {
         let after = &samples[n + 1..];
-        let near = after.partition_point(|(other, _)| usize::from(other[axis].abs_diff(voxel[axis])) < FAR);
+        let near = after
+            .partition_point(|(other, _)| usize::from(other[axis].abs_diff(voxel[axis])) < CORRELATED_VOXELS);
         for (other, beside) in &after[..near] {
             if let Some(apart) = apart(*voxel, *other) {
                 visit(apart, *value, *beside);
@@ -103,14 +104,15 @@ fn put_in_order<T: Copy>(samples: &mut [([i16; 3], T)]) -> usize {
 #[inline(always)]
 fn apart(a: [i16; 3], b: [i16; 3]) -> Option<[usize; 3]> {
     let apart: [usize; 3] = std::array::from_fn(|n| usize::from(a[n].abs_diff(b[n])));
-    (apart[0] < FAR && apart[1] < FAR && apart[2] < FAR).then_some(apart)
+    (apart[0] < CORRELATED_VOXELS && apart[1] < CORRELATED_VOXELS && apart[2] < CORRELATED_VOXELS)
+        .then_some(apart)
 }
 
 /// Cells of the correlation in one row, padded to a power of two.
 const CELLS: usize = 128;
 
 /// Cell of far pairs, whose value is 0.
-const FAR_CELL: i32 = (FAR * FAR * FAR) as i32;
+const FAR_CELL: i32 = (CORRELATED_VOXELS * CORRELATED_VOXELS * CORRELATED_VOXELS) as i32;
 
 /// Kernel of the noise variance: Σᵢⱼ wᵢ wⱼ ρ(i - j) over near pairs.
 struct NearProducts {
@@ -122,7 +124,10 @@ struct NearProducts {
 }
 
 impl NearProducts {
-    fn new(samples: &mut [([i16; 3], f32)], correlation: &[[[f32; FAR]; FAR]; FAR]) -> Self {
+    fn new(
+        samples: &mut [([i16; 3], f32)],
+        correlation: &[[[f32; CORRELATED_VOXELS]; CORRELATED_VOXELS]; CORRELATED_VOXELS],
+    ) -> Self {
         const FAR_INDEX: i32 = 1 << 20;
         let axis = put_in_order(samples);
         let axes = [axis, (axis + 1) % 3, (axis + 2) % 3];
@@ -131,11 +136,12 @@ impl NearProducts {
             .map(|axis| samples.iter().map(|(voxel, _)| i32::from(voxel[axis])).chain(behind()).collect());
         let weight = samples.iter().map(|(_, weight)| *weight).chain([0.0; FAN]).collect();
         let mut cells = [0.0; CELLS];
-        for i in 0..FAR {
-            for j in 0..FAR {
-                for k in 0..FAR {
+        for i in 0..CORRELATED_VOXELS {
+            for j in 0..CORRELATED_VOXELS {
+                for k in 0..CORRELATED_VOXELS {
                     let steps = [i, j, k];
-                    cells[axes.iter().fold(0, |cell, axis| cell * FAR + steps[*axis])] = correlation[i][j][k];
+                    cells[axes.iter().fold(0, |cell, axis| cell * CORRELATED_VOXELS + steps[*axis])] =
+                        correlation[i][j][k];
                 }
             }
         }
@@ -148,21 +154,21 @@ impl Kernel for NearProducts {
 
     #[inline(always)]
     fn run(self) -> f64 {
-        const FARTHEST: i32 = FAR as i32 - 1;
+        const LAST_VOXEL: i32 = CORRELATED_VOXELS as i32 - 1;
         let Self { voxel, weight, correlation, count } = self;
         let mut sum = [0.0; FAN];
         for n in 0..count {
             let here = [0, 1, 2].map(|axis| voxel[axis][n]);
             let mut first = n + 1;
-            while voxel[0][first] - here[0] <= FARTHEST {
+            while voxel[0][first] - here[0] <= LAST_VOXEL {
                 let mut cell = [0; FAN];
                 let mut is_far = [false; FAN];
                 for axis in 0..3 {
                     let there = &voxel[axis][first..first + FAN];
                     for l in 0..FAN {
                         let apart = (there[l] - here[axis]).abs();
-                        is_far[l] |= apart > FARTHEST;
-                        cell[l] = cell[l] * FAR as i32 + apart;
+                        is_far[l] |= apart > LAST_VOXEL;
+                        cell[l] = cell[l] * CORRELATED_VOXELS as i32 + apart;
                     }
                 }
                 let beside = &weight[first..first + FAN];
@@ -187,7 +193,7 @@ pub(crate) fn independent_variance(weights: &[[f32; FAN]]) -> f64 {
 
 impl Texture {
     pub(crate) fn white() -> Self {
-        let mut correlation = [[[0.0; FAR]; FAR]; FAR];
+        let mut correlation = [[[0.0; CORRELATED_VOXELS]; CORRELATED_VOXELS]; CORRELATED_VOXELS];
         correlation[0][0][0] = 1.0;
         Self { correlation }
     }
@@ -198,9 +204,9 @@ impl Texture {
         // are independent, so they show that offset.
         let taken = -(pairs.far[0] / pairs.far[1].max(1.0)).min(0.0);
         let variance = pairs.products[0][0][0] / pairs.count[0][0][0].max(1.0) + taken;
-        for i in 0..FAR {
-            for j in 0..FAR {
-                for k in 0..FAR {
+        for i in 0..CORRELATED_VOXELS {
+            for j in 0..CORRELATED_VOXELS {
+                for k in 0..CORRELATED_VOXELS {
                     let count = pairs.count[i][j][k];
                     if i + j + k == 0 || count < MIN_EVIDENCE.0 || variance <= 0.0 {
                         continue;
@@ -219,9 +225,9 @@ impl Texture {
     pub(crate) fn inflation(&self, sides: DMat3, width: f64) -> f64 {
         const SIGNS: [f64; 2] = [1.0, -1.0];
         let mut sum = 0.0;
-        for i in 0..FAR {
-            for j in 0..FAR {
-                for k in 0..FAR {
+        for i in 0..CORRELATED_VOXELS {
+            for j in 0..CORRELATED_VOXELS {
+                for k in 0..CORRELATED_VOXELS {
                     let steps = [i, j, k];
                     // Each offset stands for both signs of every nonzero component.
                     let count = steps.iter().filter(|n| **n > 0).count();

@@ -8,7 +8,7 @@ use super::pooled::Level;
 use lumencut_core::vessel_tree::Vessel;
 
 /// Tried standard deviations of the differences, as shares of the prior standard deviation.
-const APART: [f64; 6] = [0.16, 0.32, 0.48, 0.64, 0.8, 0.96];
+const TRIED_DEVIATIONS: [f64; 6] = [0.16, 0.32, 0.48, 0.64, 0.8, 0.96];
 
 /// Wall level from the sections of a vessel, without the prior.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -47,7 +47,8 @@ fn by_others(expected: Level, levels: &[Level]) -> Level {
     let mut levels = levels.to_vec();
     // Makes the result independent of the order of the vessels.
     levels.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
-    let tried = APART.map(|share| by_others_apart(expected, share * expected[1], &levels));
+    let tried =
+        TRIED_DEVIATIONS.map(|share| by_others_with_deviation(expected, share * expected[1], &levels));
     let likeliest = tried.iter().map(|(likely, _)| *likely).fold(f64::NEG_INFINITY, f64::max);
     let weights = tried.map(|(likely, _)| (likely - likeliest).exp());
     let mean_of = |of: &dyn Fn(&Level) -> f64| {
@@ -59,7 +60,7 @@ fn by_others(expected: Level, levels: &[Level]) -> Level {
 }
 
 /// Level if vessels differ from their tree by a standard deviation `apart`, and the log-likelihood.
-fn by_others_apart([mean, deviation]: Level, apart: f64, levels: &[Level]) -> (f64, Level) {
+fn by_others_with_deviation([mean, deviation]: Level, apart: f64, levels: &[Level]) -> (f64, Level) {
     let between = apart.powi(2);
     let (mut level, mut variance, mut likely) = (mean, deviation.powi(2) - between, 0.0);
     for [there, unsure] in levels {

@@ -13,10 +13,10 @@ const LEAST_LEVEL: f64 = 0.01;
 
 /// Sections within these distances (mm) count as one: for the level, because model errors persist along a
 /// stretch; for the thickness, because they share voxels.
-const SHARED: [f64; 2] = [5.0, 2.0];
+const SHARED_WIDTHS: [f64; 2] = [5.0, 2.0];
 
 /// Minimum share of sections with a visible wall.
-const APART: f64 = 1.0 / 3.0;
+const MIN_VISIBLE_WALLS: f64 = 1.0 / 3.0;
 
 /// Pooled wall at each section. `inflation` is the variance factor of correlated noise; `known` is the prior
 /// used in the fits, and `expected` the prior level now, which other vessels may have refined.
@@ -27,7 +27,7 @@ pub(crate) fn pooled(
     expected: Level,
     inflation: f64,
 ) -> Vec<KnownWall> {
-    let apart = independent(at, SHARED[1]) / inflation;
+    let apart = independent(at, SHARED_WIDTHS[1]) / inflation;
     let walls: Vec<(f64, Ellipse, Wall)> = at
         .iter()
         .zip(fits)
@@ -79,7 +79,7 @@ fn level_by(
     mut first: WeightedLevel,
     inflation: f64,
 ) -> WeightedLevel {
-    let apart = independent(at, SHARED[0]) / inflation;
+    let apart = independent(at, SHARED_WIDTHS[0]) / inflation;
     for wall in fits.iter().flatten().filter_map(|fit| fit.wall) {
         first.add(wall.level, known.level, apart);
     }
@@ -91,7 +91,7 @@ pub(crate) fn is_apart(known: &KnownWall, pooled: &[KnownWall], fits: &[Option<F
         fit.map(|fit| (wall.level[0] - fit.background).abs() > known.level[1])
     };
     let all: Vec<bool> = pooled.iter().zip(fits).filter_map(is_apart).collect();
-    all.iter().filter(|is| **is).count() as f64 >= APART * all.len() as f64
+    all.iter().filter(|is| **is).count() as f64 >= MIN_VISIBLE_WALLS * all.len() as f64
 }
 
 /// Share of a section's information that its neighbours do not repeat.

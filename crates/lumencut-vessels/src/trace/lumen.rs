@@ -1,7 +1,6 @@
 //! Recognizes lumen: values, cross-sections along a line, and centring.
 
 pub mod across;
-pub mod calm;
 pub mod cross_section;
 pub(crate) mod directions;
 pub mod level_change;
@@ -12,4 +11,5 @@ pub(crate) mod ray;
 pub mod refine;
 pub mod seen;
 pub mod surroundings;
+pub mod wander_removal;
 pub(crate) mod within;

@@ -18,7 +18,7 @@ fn vessels_that_agree_make_the_level_surer_and_never_sure() {
     let six = by_others(CT, &[[20.0, 5.0], [22.0, 5.0], [18.0, 5.0], [21.0, 5.0], [19.0, 5.0], [20.0, 5.0]]);
     assert!(one[0] < 37.0 && one[1] < CT[1], "{one:?}");
     assert!((six[0] - 20.0).abs() < 2.0 && six[1] < one[1], "{six:?}");
-    assert!(six[1] > APART[0] * CT[1], "{six:?}");
+    assert!(six[1] > TRIED_DEVIATIONS[0] * CT[1], "{six:?}");
 }
 
 #[test]

@@ -11,10 +11,10 @@ use crate::trace::clicks::preview::{Live, Sought};
 use crate::trace::clicks::traced::Traced;
 use crate::trace::clicks::way::{Way, start};
 use crate::trace::lines::nearest_point::nearest_point;
-use crate::trace::lumen::calm::calmed;
 use crate::trace::lumen::lumen_model::{LumenModel, in_words};
 use crate::trace::lumen::refine::refined;
 use crate::trace::lumen::surroundings::Surroundings;
+use crate::trace::lumen::wander_removal::without_wander;
 use crate::trace::ways::front::{Found, Front, Reach};
 use crate::trace::ways::region::{Region, Stopper, Strictness};
 use crate::voxels::Voxels;
@@ -165,7 +165,7 @@ impl Tracer {
         }
         let Some(region) = &self.region else { return Err(Error::interrupted()) };
         let line = refined(search.voxels, &region.model, &points, search.stop)?;
-        let mut line = calmed(search.voxels, &region.model, line, search.stop)?;
+        let mut line = without_wander(search.voxels, &region.model, line, search.stop)?;
         let bridged: Vec<bool> =
             line.points.iter().map(|point| open[nearest_point(&points, *point)]).collect();
         for (confidence, is_bridged) in line.confidence.iter_mut().zip(&bridged) {
@@ -219,11 +219,11 @@ impl Search<'_, '_> {
             progress.begin_view(std::iter::once(1), PARTS);
             progress.begin_stage(1);
         }
-        let told = std::cell::Cell::new(0);
+        let reported = std::cell::Cell::new(0);
         let found = front.grow(self.voxels, region, target, self.stop, &|left| {
             let parts = ((1.0 - left / whole).clamp(0.0, 1.0) * PARTS as f64) as usize;
             if let Some(progress) = self.progress {
-                progress.begin_pixels(parts.saturating_sub(told.replace(parts.max(told.get()))));
+                progress.begin_pixels(parts.saturating_sub(reported.replace(parts.max(reported.get()))));
             }
         });
         if let Some(progress) = self.progress {

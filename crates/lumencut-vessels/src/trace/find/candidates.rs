@@ -38,7 +38,7 @@ const ROUNDS: usize = 3;
 const LEAST_RADIUS: f64 = 0.5;
 
 /// Search distance around a place, in radii.
-const NEAR: f64 = 2.0;
+const SEARCH_RADII: f64 = 2.0;
 
 /// Noise estimate: number of samples, share of bright ones, quantile of the local spread (higher ones contain
 /// edges), and its expected value for white noise.
@@ -122,7 +122,7 @@ pub(crate) fn candidates_near(
         seen.into_iter().filter_map(|peak| judged(pyramid, levels_examined, peak, floors)).collect::<Vec<_>>()
     };
     let found = levels_examined.clone().flat_map(of_level);
-    in_order(found.filter(|c| c.place.distance(place) <= NEAR * c.radius.max(1.0)).collect(), floors)
+    in_order(found.filter(|c| c.place.distance(place) <= SEARCH_RADII * c.radius.max(1.0)).collect(), floors)
 }
 
 fn in_order(mut candidates: Vec<Candidate>, floors: &Floors) -> Vec<Candidate> {

@@ -9,7 +9,7 @@ use crate::trace::lines::nearest_point::nearest_point;
 use crate::trace::lumen::within::holds;
 
 /// Distance (mm) of points equal but for rounding.
-const SAME: f64 = 1e-6;
+const SAME_POINT_MM: f64 = 1e-6;
 
 /// The vessel that contains a click (mm, LPS), nearest in radii, sure before doubtful. It starts on an
 /// existing vessel (`beside`) if its ancestors lead to one, otherwise where it leaves its parent. It ends at
@@ -79,7 +79,7 @@ fn parent(trees: &Trees, number: usize) -> Option<(usize, usize)> {
         let points = &other.line.points;
         let at = nearest_point(points, start);
         // Vessels that start at one point are not each other's parent.
-        (at > 0 && points[at].distance(start) <= SAME).then_some((n, at))
+        (at > 0 && points[at].distance(start) <= SAME_POINT_MM).then_some((n, at))
     })
 }
 
@@ -88,8 +88,8 @@ fn meets(beside: &[Centerline], place: DVec3) -> bool {
     beside.iter().any(|vessel| {
         let (points, last) = (&vessel.points, vessel.points.len() - 1);
         let near = points[nearest_point(points, place)];
-        let is_at = |end: usize| near.distance(points[end]) <= vessel.radius[end].max(SAME);
-        (near.distance(place) <= SAME || holds(vessel, place)) && !is_at(0) && !is_at(last)
+        let is_at = |end: usize| near.distance(points[end]) <= vessel.radius[end].max(SAME_POINT_MM);
+        (near.distance(place) <= SAME_POINT_MM || holds(vessel, place)) && !is_at(0) && !is_at(last)
     })
 }
 

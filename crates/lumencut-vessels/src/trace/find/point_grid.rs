@@ -4,7 +4,7 @@ use glam::DVec3;
 
 /// Bits per cell coordinate.
 const BITS: u32 = 21;
-const MOST: f64 = ((1_u64 << BITS) - 1) as f64;
+const MAX_CELL: f64 = ((1_u64 << BITS) - 1) as f64;
 
 pub(crate) struct PointGrid {
     places: Vec<DVec3>,
@@ -27,7 +27,7 @@ impl PointGrid {
         grid
     }
 
-    pub(crate) fn near(&self, place: DVec3, reach: f64, mut told: impl FnMut(usize)) {
+    pub(crate) fn near(&self, place: DVec3, reach: f64, mut visit: impl FnMut(usize)) {
         let [first, last] = [-reach, reach].map(|way| self.cell(place + way));
         for z in first[2]..=last[2] {
             for y in first[1]..=last[1] {
@@ -35,7 +35,7 @@ impl PointGrid {
                 let begin = self.cells.partition_point(|(cell, _)| *cell < from);
                 for (_, point) in self.cells[begin..].iter().take_while(|(cell, _)| *cell <= to) {
                     if self.places[*point as usize].distance_squared(place) <= reach * reach {
-                        told(*point as usize);
+                        visit(*point as usize);
                     }
                 }
             }
@@ -44,7 +44,7 @@ impl PointGrid {
 
     fn cell(&self, place: DVec3) -> [u64; 3] {
         let inside = place.clamp(self.low, self.high);
-        ((inside - self.low) / self.side).to_array().map(|c| c.min(MOST) as u64)
+        ((inside - self.low) / self.side).to_array().map(|c| c.min(MAX_CELL) as u64)
     }
 }
 

@@ -26,7 +26,7 @@ const NEAR_WALL: f64 = 0.55;
 const FAR_WALL: f64 = 1.6;
 
 /// Farther walls are clamped to this many radii, so that a branch cannot move the centre.
-const FARTHEST: f64 = 1.5;
+const MAX_WALL_RADII: f64 = 1.5;
 
 /// Maximum radius (finest voxels) of a tube whose rays may end at bone.
 pub(crate) const TOUCHED: f64 = 3.0;
@@ -122,14 +122,14 @@ impl Walls {
         let count = |holds: &dyn Fn(usize) -> bool| (0..RAYS).filter(|n| holds(*n)).count() as f64;
         let wall = |n: usize| self.walls[n];
         let loses = |n: usize| !self.is_bone[n] && self.lumen - self.rays.darkest[n] >= 0.5 * self.contrast;
-        let told = RAYS - self.is_bone.iter().filter(|is| **is).count().min(MOST_BONE);
+        let free_rays = RAYS - self.is_bone.iter().filter(|is| **is).count().min(MOST_BONE);
         Section {
             level: self.lumen,
             contrast: self.contrast,
             radius: found,
-            shift: shift(&self.walls.map(|wall| wall.min(FARTHEST * found)), self.plane, self.radius),
+            shift: shift(&self.walls.map(|wall| wall.min(MAX_WALL_RADII * found)), self.plane, self.radius),
             closure: count(&|n| wall(n) >= near && wall(n) <= far && wall(n) < self.rays.reach) / RAYS as f64,
-            contrast_share: count(&loses) / told as f64,
+            contrast_share: count(&loses) / free_rays as f64,
         }
     }
 }

@@ -28,7 +28,7 @@ const COARSE_LEVELS: usize = 2;
 const LEAST_CONFIDENCE: f64 = 0.5;
 
 /// New parts: minimum distance from the wide axis (its radii), minimum length (own radii), share within.
-const BESIDE: f64 = 0.33;
+const MIN_AXIS_DISTANCE: f64 = 0.33;
 const LEAST_RADII: f64 = 3.0;
 const LEAST_WITHIN: f64 = 0.3;
 const WITHIN: f64 = 1.15;
@@ -98,8 +98,8 @@ fn new_runs(track: &Track, wide: &[TrackPoint]) -> Vec<Track> {
     let mut runs = Vec::new();
     let mut first = 0;
     while first < off.len() {
-        let Some(start) = (first..off.len()).find(|n| off[*n] > BESIDE) else { break };
-        let end = (start..off.len()).find(|n| off[*n] <= BESIDE).unwrap_or(off.len());
+        let Some(start) = (first..off.len()).find(|n| off[*n] > MIN_AXIS_DISTANCE) else { break };
+        let end = (start..off.len()).find(|n| off[*n] <= MIN_AXIS_DISTANCE).unwrap_or(off.len());
         let within = off[start..end].iter().filter(|off| **off <= WITHIN).count() as f64;
         let run = Track { points: track.points[start..end].to_vec(), ..track.clone() };
         let is_new = run.points.len() > 1

@@ -39,7 +39,7 @@ impl<'a> Stages<'a> {
         if let Some(progress) = self.0 {
             progress.begin_stage(COSTS[stage as usize]);
         }
-        Pieces { told: self, all: pieces.max(1), done: AtomicUsize::new(0) }
+        Pieces { stages: self, all: pieces.max(1), done: AtomicUsize::new(0) }
     }
 
     pub(crate) fn end(self) {
@@ -51,7 +51,7 @@ impl<'a> Stages<'a> {
 
 #[derive(Debug)]
 pub(crate) struct Pieces<'a> {
-    told: Stages<'a>,
+    stages: Stages<'a>,
     all: usize,
     done: AtomicUsize,
 }
@@ -60,7 +60,7 @@ impl Pieces<'_> {
     pub(crate) fn done(&self, count: usize) {
         let before = self.done.fetch_add(count, Ordering::Relaxed);
         let parts = |pieces: usize| PARTS * pieces.min(self.all) / self.all;
-        if let Some(progress) = self.told.0 {
+        if let Some(progress) = self.stages.0 {
             progress.begin_pixels(parts(before + count) - parts(before));
         }
     }

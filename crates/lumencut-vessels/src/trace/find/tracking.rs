@@ -45,7 +45,7 @@ const BATCH: usize = 32;
 /// Candidates closer than this (radii, voxels) are tracked in sequence; maximum searched for others.
 const NEAR_RADII: f64 = 4.0;
 const NEAR_VOXELS: f64 = 8.0;
-const MOST_LOOKED_AT: usize = 128;
+const MAX_EXAMINED: usize = 128;
 
 pub(crate) struct Tracking<'a> {
     pub(crate) pyramid: &'a Pyramid,
@@ -160,7 +160,7 @@ impl Tracking<'_> {
         {
             take(&mut batch, candidate);
         }
-        while batch.candidates.len() < BATCH && batch.levels_examined < others.len().min(MOST_LOOKED_AT) {
+        while batch.candidates.len() < BATCH && batch.levels_examined < others.len().min(MAX_EXAMINED) {
             let candidate = others[batch.levels_examined];
             batch.levels_examined += 1;
             take(&mut batch, candidate);

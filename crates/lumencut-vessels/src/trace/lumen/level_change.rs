@@ -8,9 +8,9 @@ use crate::trace::lumen::surroundings::Surroundings;
 use crate::voxels::Voxels;
 
 /// Compared stretch before and after a place, and its distance from the place (mm, and radii).
-const STRETCH: f64 = 15.0;
+const STRETCH_MM: f64 = 15.0;
 const STRETCH_RADII: f64 = 2.0;
-const APART: f64 = 3.0;
+const GAP_MM: f64 = 3.0;
 const APART_RADII: f64 = 0.5;
 
 /// Minimum change: share of the contrast, and multiple of the noise on each side.
@@ -80,7 +80,7 @@ impl<'a> Along<'a> {
 
     fn step_at(&self, n: usize) -> Option<Step> {
         let radius = self.line.radius[n];
-        let (apart, stretch) = (APART.max(APART_RADII * radius), STRETCH.max(STRETCH_RADII * radius));
+        let (apart, stretch) = (GAP_MM.max(APART_RADII * radius), STRETCH_MM.max(STRETCH_RADII * radius));
         let at = self.lengths[n];
         let before = self.side(at - apart - stretch, at - apart)?;
         let after = self.side(at + apart, at + apart + stretch)?;

@@ -15,7 +15,7 @@ const STEP: f64 = 0.5;
 const TIMES_NOISE: f64 = 6.0;
 
 /// Maximum number of bright stretches, highest first; more are noise or stent struts.
-const MOST: usize = 16;
+const MAX_STRETCHES: usize = 16;
 
 struct Bright {
     first: usize,
@@ -89,7 +89,7 @@ fn bright(values: &[f32]) -> Vec<Bright> {
         .filter(|one| one.height > least)
         .collect();
     found.sort_by(|a, b| b.height.total_cmp(&a.height));
-    found.truncate(MOST);
+    found.truncate(MAX_STRETCHES);
     found.sort_by_key(|one| one.first);
     found
 }

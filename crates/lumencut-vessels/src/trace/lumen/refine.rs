@@ -25,13 +25,13 @@ const ROUNDS: [(f64, usize); 4] = [(1.0, 16), (1.0, 16), (STEP, 24), (STEP, 24)]
 const SMOOTHING: f64 = 1.5;
 
 /// Window of sections with similar radius (mm).
-const BESIDE: f64 = 1.75;
+const RADIUS_WINDOW_MM: f64 = 1.75;
 
 /// Minimum quality of a section.
 const LEAST_TRUST: f64 = 0.1;
 
 /// Window over which centres must advance (mm).
-const STRETCH: f64 = 2.0;
+const ADVANCE_WINDOW_MM: f64 = 2.0;
 
 /// Weight of points without a section.
 const UNSEEN: f64 = 0.1;
@@ -105,7 +105,8 @@ fn moved(probe: &Probe, line: &Centerline, round: usize) -> Centerline {
 fn unfolded(points: &[DVec3], sections: &[Option<LumenSection>], trust: &[f64], lengths: &[f64]) -> Vec<f64> {
     let mut left = trust.to_vec();
     for i in 0..points.len() {
-        let j = lengths.partition_point(|length| *length < lengths[i] + STRETCH).min(points.len() - 1);
+        let j =
+            lengths.partition_point(|length| *length < lengths[i] + ADVANCE_WINDOW_MM).min(points.len() - 1);
         let (Some(from), Some(to)) = (sections[i], sections[j]) else { continue };
         let way = points[j] - points[i];
         let progress = (to.center - from.center).dot(way) / way.length_squared().max(1e-12);
@@ -126,8 +127,8 @@ fn trust_of(section: &Option<LumenSection>, median: Option<f64>) -> f64 {
 fn medians(sections: &[Option<LumenSection>], lengths: &[f64]) -> Vec<Option<f64>> {
     (0..sections.len())
         .map(|i| {
-            let first = lengths.partition_point(|length| *length < lengths[i] - BESIDE);
-            let end = lengths.partition_point(|length| *length <= lengths[i] + BESIDE);
+            let first = lengths.partition_point(|length| *length < lengths[i] - RADIUS_WINDOW_MM);
+            let end = lengths.partition_point(|length| *length <= lengths[i] + RADIUS_WINDOW_MM);
             let around = &sections[first..end];
             let seen = around.iter().flatten().filter(|section| section.trust > LEAST_TRUST);
             let mut radii: Vec<f64> = seen.map(|section| section.radius).collect();

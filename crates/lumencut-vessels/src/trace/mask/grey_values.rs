@@ -22,7 +22,7 @@ const DIRECTIONS: usize = 12;
 const DISTANCES: usize = 3;
 
 /// Window of the lumen median along the vessel (mm).
-const STRETCH: f64 = 5.0;
+const WINDOW_MM: f64 = 5.0;
 
 /// Minimum contrast in standard deviations of the lumen noise.
 const LEAST_CONTRAST: f64 = 2.0;
@@ -103,8 +103,8 @@ impl GreyValues<'_, '_> {
 
 fn medians(values: &[(f64, f32)]) -> Vec<f32> {
     let median = |&(at, _): &(f64, f32)| {
-        let first = values.partition_point(|(length, _)| *length < at - STRETCH / 2.0);
-        let end = values.partition_point(|(length, _)| *length <= at + STRETCH / 2.0);
+        let first = values.partition_point(|(length, _)| *length < at - WINDOW_MM / 2.0);
+        let end = values.partition_point(|(length, _)| *length <= at + WINDOW_MM / 2.0);
         let mut around: Vec<f32> = values[first..end].iter().map(|(_, value)| *value).collect();
         around.sort_unstable_by(f32::total_cmp);
         around[around.len() / 2]

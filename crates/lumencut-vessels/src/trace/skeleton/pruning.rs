@@ -13,7 +13,7 @@ use lumencut_core::math::same_place::ALONG_LINE;
 const OWN_RADII: f64 = 4.0;
 
 /// Junctions closer than this share of the radius, or two voxels, are merged.
-const NEAR: f64 = 0.3;
+const MERGE_RADII: f64 = 0.3;
 
 /// Minimum length of a component in diameters.
 const ELONGATED: f64 = 1.25;
@@ -144,7 +144,7 @@ fn is_near(graph: &Graph, lumen: &Lumen, number: usize) -> bool {
     let inner = a != b && graph.incident[a].len() > 2 && graph.incident[b].len() > 2;
     let radius =
         branch.nodes.map(|node| lumen.radius_at_cell(graph.nodes[node])).into_iter().fold(0.0, f64::max);
-    inner && length(&lumen.positions(&branch.cells)) < (NEAR * radius).max(2.0 * lumen.side())
+    inner && length(&lumen.positions(&branch.cells)) < (MERGE_RADII * radius).max(2.0 * lumen.side())
 }
 
 pub(crate) fn remove_round_pieces(graph: &mut Graph, lumen: &Lumen) {

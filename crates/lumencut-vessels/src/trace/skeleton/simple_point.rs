@@ -14,7 +14,7 @@ const TOUCHING: [u32; 27] = neighbours(3, 0);
 const BY_FACES: [u32; 27] = neighbours(1, CORNERS);
 const CORNERS: u32 = 1 | 1 << 2 | 1 << 6 | 1 << 8 | 1 << 18 | 1 << 20 | 1 << 24 | 1 << 26;
 const FACES: u32 = 1 << 4 | 1 << 10 | 1 << 12 | 1 << 14 | 1 << 16 | 1 << 22;
-const AROUND: u32 = ((1 << 27) - 1) & !(1 << CENTER);
+const NEIGHBORS: u32 = ((1 << 27) - 1) & !(1 << CENTER);
 
 /// Positions within one step per axis and `most` in all, except `left_out` and the centre.
 const fn neighbours(most: usize, left_out: u32) -> [u32; 27] {
@@ -56,7 +56,7 @@ impl Neighbourhood {
                 }
             }
         }
-        Self(bits & AROUND)
+        Self(bits & NEIGHBORS)
     }
 
     pub(crate) fn count(self) -> u32 {
@@ -64,7 +64,7 @@ impl Neighbourhood {
     }
 
     pub(crate) fn is_simple(self) -> bool {
-        let background = !self.0 & AROUND & !CORNERS;
+        let background = !self.0 & NEIGHBORS & !CORNERS;
         let faces = background & FACES;
         if self.0 == 0 || faces == 0 {
             return false;
@@ -117,10 +117,10 @@ mod tests {
                 state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
                 bits |= u32::from((state >> 16) % 8 < 1 + round % 7) << place;
             }
-            bits &= AROUND;
+            bits &= NEIGHBORS;
             let lumen = parts(bits, |p, q| steps(p, q).into_iter().max() == Some(1)).len();
             let background =
-                parts(!bits & AROUND & !CORNERS, |p, q| steps(p, q).into_iter().sum::<usize>() == 1);
+                parts(!bits & NEIGHBORS & !CORNERS, |p, q| steps(p, q).into_iter().sum::<usize>() == 1);
             let touching = background.iter().filter(|part| **part & FACES != 0).count();
             assert_eq!(Neighbourhood(bits).is_simple(), lumen == 1 && touching == 1, "{bits:027b}");
             simple += u32::from(lumen == 1 && touching == 1);

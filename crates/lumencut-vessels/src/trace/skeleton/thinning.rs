@@ -10,7 +10,7 @@ use lumencut_core::error::Result;
 use lumencut_core::stop::{Stop, go_on};
 
 /// Distance range of one turn, in voxel sides.
-const TURN: f64 = 0.5;
+const TURN_RANGE: f64 = 0.5;
 
 /// Thins to sorted cells of voxel lines; `squares` are squared distances to background (mm²).
 pub(crate) fn thin(
@@ -19,7 +19,7 @@ pub(crate) fn thin(
     squares: &[f32],
     stop: Stop,
 ) -> Result<Vec<u32>> {
-    let step = TURN * foreground.smallest_side();
+    let step = TURN_RANGE * foreground.smallest_side();
     let turn_of = |cell: u32| (f64::from(squares[cell as usize]).sqrt() / step) as u64;
     let mut waiting: Vec<u64> = lumen.iter().map(|&cell| turn_of(cell) << 32 | u64::from(cell)).collect();
     waiting.sort_unstable();

@@ -19,7 +19,7 @@ const NONE: u8 = 255;
 const BETWEEN_STOPS: usize = 1 << 10;
 
 /// Unit of stretches without lumen (mm).
-const RUN: f64 = 0.1;
+const GAP_UNIT_MM: f64 = 0.1;
 
 /// Front data of one block: six bytes per voxel besides the costs.
 #[derive(Clone, Debug)]
@@ -106,14 +106,14 @@ impl Front {
         self.source
     }
 
-    /// Grows until the path to `target` is known. `told` receives the remaining distance (mm).
+    /// Grows until the path to `target` is known. `report` receives the remaining distance (mm).
     pub fn grow(
         &mut self,
         voxels: &Voxels,
         region: &mut Region,
         target: [i32; 3],
         stop: Stop,
-        told: &dyn Fn(f64),
+        report: &dyn Fn(f64),
     ) -> Result<Found> {
         let (block, voxel) = self.locate(voxels, region, target);
         let goal = voxels.center(target);
@@ -129,7 +129,7 @@ impl Front {
             if until_stop == 0 {
                 go_on(stop)?;
                 until_stop = BETWEEN_STOPS;
-                told(nearest);
+                report(nearest);
             }
             until_stop -= 1;
             let Some(waiting) = self.waiting.pop() else {
@@ -206,9 +206,12 @@ impl Front {
             if way >= self.known[to].way[at] || (is_pulled && self.known[to].is_offered(at)) {
                 continue;
             }
-            let stretch =
-                if code >= self.weak { run.saturating_add((f64::from(length) / RUN) as u8) } else { 0 };
-            if self.reach.longest_gap.is_some_and(|longest| f64::from(stretch) * RUN > longest) {
+            let stretch = if code >= self.weak {
+                run.saturating_add((f64::from(length) / GAP_UNIT_MM) as u8)
+            } else {
+                0
+            };
+            if self.reach.longest_gap.is_some_and(|longest| f64::from(stretch) * GAP_UNIT_MM > longest) {
                 continue;
             }
             let known = &mut self.known[to];

@@ -20,7 +20,7 @@ const OFF_MIDDLE: f64 = 0.4;
 const WALL: f64 = 15.0;
 
 /// Factor of the membership next to bone, calcium and metal, whose edges have lumen values.
-const RIM: f64 = 0.5;
+const RIM_FACTOR: f64 = 0.5;
 
 /// Share of noise left after averaging neighbours.
 const NOISE_LEFT: f64 = 0.23;
@@ -140,7 +140,7 @@ impl Region {
                 for i in 0..SIDE {
                     let from = ((k + HALO) * PADDED_SIDE + j + HALO) * PADDED_SIDE + i + HALO;
                     let bends = bends(&near, from);
-                    let rim = if beside_bone[from] { RIM } else { 1.0 };
+                    let rim = if beside_bone[from] { RIM_FACTOR } else { 1.0 };
                     let share = rim * raised(f64::from(near[from]), &bends, noise);
                     let membership = least + (1.0 - least) * share;
                     let off_middle = OFF_MIDDLE.mul_add(1.0 - f64::from(wide[from]), 1.0);

@@ -9,10 +9,10 @@ use lumencut_core::error::Result;
 use lumencut_core::stop::{Stop, go_on};
 
 /// Maximum distance of neighbours (mm).
-const NEAR: f64 = 12.0;
+const NEIGHBOR_MM: f64 = 12.0;
 
 /// Maximum ratio of their radii.
-const ALIKE: f64 = 2.2;
+const MAX_RADIUS_RATIO: f64 = 2.2;
 
 /// Sampling distance along a track (mm).
 const STEP: f64 = 2.0;
@@ -26,14 +26,15 @@ pub(crate) fn beside(tracks: &[Track], counts: &[bool], stop: Stop) -> Result<Ve
         owners.resize(owners.len() + places.len(), number);
     }
     let counted = places.iter().zip(counts).filter(|(_, counts)| **counts);
-    let grid = PointGrid::new(counted.flat_map(|(places, _)| places.iter().copied()).collect(), NEAR / 2.0);
+    let grid =
+        PointGrid::new(counted.flat_map(|(places, _)| places.iter().copied()).collect(), NEIGHBOR_MM / 2.0);
     let around = |number: usize| {
         go_on(stop)?;
         let mut found = vec![number];
         for place in &places[number] {
-            grid.near(*place, NEAR, |point| {
+            grid.near(*place, NEIGHBOR_MM, |point| {
                 let other = owners[point];
-                let is_alike = (radii[other] / radii[number]).ln().abs() <= ALIKE.ln();
+                let is_alike = (radii[other] / radii[number]).ln().abs() <= MAX_RADIUS_RATIO.ln();
                 if let (true, Err(at)) = (is_alike, found.binary_search(&other)) {
                     found.insert(at, other);
                 }

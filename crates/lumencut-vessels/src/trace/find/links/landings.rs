@@ -26,10 +26,10 @@ const LEVEL: f64 = 0.45;
 const TURN: f64 = 0.5;
 
 /// Radius (voxels) below which an end is narrow.
-const NARROW: f64 = 2.5;
+const NARROW_VOXELS: f64 = 2.5;
 
 /// Places tried per track.
-const TRIES: usize = 3;
+const PLACES_TRIED: usize = 3;
 
 pub(crate) struct Limits {
     /// Minimum confidence of both tracks.
@@ -93,7 +93,7 @@ impl<'a, 'v> Landings<'a, 'v> {
         place: glam::DVec3,
         wall: f64,
         reach: f64,
-        mut told: impl FnMut([usize; 2], f64),
+        mut visit: impl FnMut([usize; 2], f64),
     ) {
         for width in &self.widths {
             width.grid.near(place, reach.min(wall + width.widest), |n| {
@@ -101,7 +101,7 @@ impl<'a, 'v> Landings<'a, 'v> {
                 let point = &self.tracks[of[0]].points[of[1]];
                 let away = point.place.distance(place);
                 if away - point.radius < wall {
-                    told(of, away);
+                    visit(of, away);
                 }
             });
         }
@@ -121,12 +121,12 @@ impl<'a, 'v> Landings<'a, 'v> {
                 tries.push((link.to[0], 0));
                 tries.len() - 1
             });
-            if tries[tried].1 >= TRIES {
+            if tries[tried].1 >= PLACES_TRIED {
                 return None;
             }
             let level = lowest_level(self.scan, from, end);
             let is_lumen = level >= LEVEL;
-            tries[tried].1 += if is_lumen { TRIES } else { 1 };
+            tries[tried].1 += if is_lumen { PLACES_TRIED } else { 1 };
             is_lumen.then_some(Link { level, ..link })
         })
     }
@@ -149,7 +149,7 @@ impl<'a, 'v> Landings<'a, 'v> {
         let point: &TrackPoint = &self.tracks[to[0]].points[to[1]];
         let is_inside = away <= INSIDE * point.radius + self.scan.side;
         let turn = if away > 0.0 { end.direction.dot(point.place - end.place) / away } else { 1.0 };
-        let is_blurred = end.radius < NARROW * self.scan.side && end.level < point.level;
+        let is_blurred = end.radius < NARROW_VOXELS * self.scan.side && end.level < point.level;
         let counts = if is_blurred { limits.narrow } else { 1.0 };
         let unlike = counts * (end.level - point.level).abs() / end.contrast.max(point.contrast);
         if unlike >= limits.unlike || (!is_inside && turn < limits.turn) {

@@ -22,14 +22,14 @@ const WALLS: f64 = 3.0;
 const FARTHEST_WALL: f64 = 12.0;
 
 /// Maximum difference of levels (share of the contrast), and minimum level on the way.
-const UNLIKE: f64 = 0.3;
-const LEVEL: f64 = 0.7;
+const MAX_LEVEL_DIFFERENCE: f64 = 0.3;
+const MIN_LEVEL: f64 = 0.7;
 
 /// Maximum cosine: parallel tracks are an artery and its vein.
 const SIDE_BY_SIDE: f64 = 0.8;
 
 /// Places tried per pair of trees.
-const TRIES: usize = 8;
+const PLACES_TRIED: usize = 8;
 
 pub(crate) fn side_links(
     scan: &Scan,
@@ -99,20 +99,20 @@ impl Sides<'_, '_> {
         let unlike = (narrow.level - wide.level).abs() / narrow.contrast.max(wide.contrast);
         self.tracks[to[0]].confidence >= CONFIDENCE
             && self.radii[to[0]] > self.radii[from[0]]
-            && unlike < UNLIKE
+            && unlike < MAX_LEVEL_DIFFERENCE
             && narrow.direction.dot(wide.direction).abs() <= SIDE_BY_SIDE
     }
 
     fn first_of_lumen(&self, links: &[Link]) -> Option<Link> {
         let mut links = links.to_vec();
         links.sort_unstable_by(Link::order);
-        links.into_iter().take(TRIES).find_map(|link| {
+        links.into_iter().take(PLACES_TRIED).find_map(|link| {
             let [from, to] = [link.from, link.to].map(|of| {
                 let point = self.point(of);
                 WayEnd { place: point.place, level: point.level, contrast: point.contrast }
             });
             let level = lowest_level(self.scan, from, to);
-            (level >= LEVEL).then_some(Link { level, ..link })
+            (level >= MIN_LEVEL).then_some(Link { level, ..link })
         })
     }
 

@@ -7,7 +7,7 @@ use crate::trace::lumen::refine::STEP;
 use lumencut_core::math::arc_length::arc_lengths;
 
 /// Maximum distance of the ends of a ring, in radii.
-const NEAR: f64 = 1.0;
+const RING_GAP_RADII: f64 = 1.0;
 
 pub(crate) fn closed(mut run: Attached) -> Attached {
     let [first, last] = [run.points[0], run.points[run.points.len() - 1]];
@@ -15,7 +15,7 @@ pub(crate) fn closed(mut run: Attached) -> Attached {
     let radius = first.radius.min(last.radius);
     let places: Vec<_> = run.points.iter().map(|point| point.place).collect();
     let length = arc_lengths(&places).last().copied().unwrap_or(0.0);
-    let is_ring = run.met == [None; 2] && gap < NEAR * radius && length >= SMALL_LOOP * radius;
+    let is_ring = run.met == [None; 2] && gap < RING_GAP_RADII * radius && length >= SMALL_LOOP * radius;
     if is_ring && gap > 0.0 {
         let count = (gap / STEP).ceil();
         let between = |n: usize| LinePoint { place: last.place.lerp(first.place, n as f64 / count), ..last };

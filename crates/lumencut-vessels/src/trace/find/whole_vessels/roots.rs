@@ -12,7 +12,7 @@ use lumencut_core::stop::{Stop, go_on};
 const WIDEST: f64 = 10.0;
 
 /// Similar levels differ by this share of the contrast.
-const ALIKE: f64 = 0.2;
+const SIMILAR_LEVEL: f64 = 0.2;
 
 struct Part {
     rank: f64,
@@ -58,7 +58,7 @@ pub(crate) fn roots(scan: &Scan, tracks: &[Track], graph: &Graph, stop: Stop) ->
 fn importance(scan: &Scan, track: &Track) -> f64 {
     let wide = (track.radius() / scan.side).min(WIDEST);
     let contrast = track.points.iter().map(|point| point.contrast).sum::<f64>() / track.points.len() as f64;
-    let away = (usual(&track.points, |point| point.level) - scan.level) / (ALIKE * scan.contrast);
+    let away = (usual(&track.points, |point| point.level) - scan.level) / (SIMILAR_LEVEL * scan.contrast);
     track.length() * contrast / scan.contrast * track.confidence * wide * wide * (-away * away).exp()
 }
 

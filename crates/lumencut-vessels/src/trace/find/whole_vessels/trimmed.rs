@@ -11,7 +11,7 @@ const SHORTEST_RADII: f64 = 2.0;
 const SHORTEST: f64 = 2.0;
 
 /// Neighbours on each side for the median radius.
-const BESIDE: usize = 4;
+const NEIGHBORS: usize = 4;
 
 /// Runs trimmed to a minimum radius (mm); parts that other runs need always stay.
 pub(crate) fn trimmed(
@@ -78,7 +78,7 @@ fn wide_until<'a>(points: impl Iterator<Item = &'a LinePoint>, smallest_radius: 
     let radii: Vec<f64> = points.map(|point| point.radius).collect();
     let last = radii.len() - 1;
     let is_wide =
-        |n: &usize| usual(&radii[n.saturating_sub(BESIDE)..=(n + BESIDE).min(last)]) >= smallest_radius;
+        |n: &usize| usual(&radii[n.saturating_sub(NEIGHBORS)..=(n + NEIGHBORS).min(last)]) >= smallest_radius;
     (0..radii.len()).rev().find(is_wide)
 }
 

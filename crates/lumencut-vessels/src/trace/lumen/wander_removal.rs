@@ -14,7 +14,12 @@ const WIDTHS: [f64; 3] = [0.5, 1.0, 2.0];
 
 /// Returns the line unchanged if it never wanders; otherwise the smoothed and recentred version that wanders
 /// least. Sections of a line oblique in a wide lumen intersect, and their centres lead it back and forth.
-pub fn calmed(voxels: &Voxels, model: &LumenModel, line: Centerline, stop: Stop) -> Result<Centerline> {
+pub fn without_wander(
+    voxels: &Voxels,
+    model: &LumenModel,
+    line: Centerline,
+    stop: Stop,
+) -> Result<Centerline> {
     let mut best = (wandering_points(&line), line);
     let uneven = best.1.clone();
     for width in WIDTHS {
