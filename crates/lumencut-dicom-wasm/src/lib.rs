@@ -1,5 +1,5 @@
-//! Judges DICOM series in a browser; the documents are those of `lumencut_dicom::json`. A separate module, so
-//! that pages without DICOM need not load it.
+//! Plans how to read DICOM series in a browser; the documents are those of `lumencut_dicom::json`. A separate
+//! module, so that pages without DICOM need not load it.
 #![cfg(target_arch = "wasm32")]
 
 use lumencut_dicom::{Keyword, json};

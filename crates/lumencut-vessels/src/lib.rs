@@ -1,4 +1,4 @@
-//! From a volume to centerlines and numbers: traces vessels in a volume or a mask and measures them.
+//! Traces vessels in a volume or a mask and measures them.
 //!
 //! Points are in world space (LPS, mm).
 

@@ -10,13 +10,11 @@ use lumencut_core::volume::{Real, Volume, Voxel};
 use lumencut_core::with_voxels;
 
 pub(crate) trait VoxelSource: Sync {
-    /// Values of a cube of voxels, i fastest; NaN outside the volume.
     fn cube(&self, first: [i32; 3], side: usize, values: &mut [f32]);
     /// Trilinear value at a continuous index; NaN more than half a voxel beyond the outermost centres.
     fn at(&self, index: DVec3) -> f32;
     /// Value of a voxel, which must exist.
     fn voxel(&self, voxel: [i32; 3]) -> f32;
-    /// Appends sixteen values in steps of `stride` from `start`, continuing after the values already present.
     fn along(&self, start: DVec3, stride: DVec3, values: &mut Vec<f32>);
     /// Whether a value in every `every`-th row along i, from the first, is below `limit`.
     fn goes_below(&self, limit: f32, every: usize) -> bool;
@@ -73,7 +71,7 @@ impl<'a> Voxels<'a> {
         }
     }
 
-    /// See [`VoxelSource::cube`].
+    /// Values of a cube of voxels, i fastest; NaN outside the volume.
     pub fn cube(&self, first: [i32; 3], side: usize, values: &mut [f32]) {
         self.source.cube(first, side, values);
     }
@@ -93,7 +91,7 @@ impl<'a> Voxels<'a> {
         self.source.at(index)
     }
 
-    /// See [`VoxelSource::along`].
+    /// Appends sixteen values in steps of `stride` from `start`, continuing after the values already present.
     pub fn along(&self, start: DVec3, stride: DVec3, values: &mut Vec<f32>) {
         self.source.along(start, stride, values);
     }

@@ -55,7 +55,7 @@ impl CrossSection {
 }
 
 /// Plane of a section at an arc length (mm): with `profile` the plane of the nearest measured section,
-/// otherwise by [`Track`]. [`ErrorKind::Measuring`] for a wrong arc length or profile;
+/// otherwise that of the centerline. [`ErrorKind::Measuring`] for a wrong arc length or profile;
 /// [`ErrorKind::VesselTree`] for a vessel without length.
 pub fn section_place(vessel: &Vessel, at: f64, profile: Option<&Profile>) -> Result<SectionPlane> {
     let length = vessel.arc_length().last().copied().unwrap_or(0.0);

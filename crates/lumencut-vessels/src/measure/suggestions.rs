@@ -137,7 +137,7 @@ impl Profile {
     /// Suggested references before and after an arc length (mm): the nearest places at least their own
     /// diameter away, with parallel walls, typical width, not narrower than the place, and without
     /// [`Profile::hindrances`]. They lie before the next branch or step of the calibre, unless neither side
-    /// has such a place. Errors: [`ErrorKind::Measuring`] for a place beyond the vessel.
+    /// has such a place. Errors: `ErrorKind::Measuring` for a place beyond the vessel.
     pub fn suggested_references(&self, at: f64) -> Result<[Option<Spot>; 2]> {
         self.check_place("place on the vessel", at)?;
         let normal = self.normal_places(at);

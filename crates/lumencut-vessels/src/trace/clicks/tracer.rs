@@ -53,8 +53,8 @@ struct Search<'a, 'v> {
 
 impl Tracer {
     /// Traces all vessels of `clicks`, in order; a later vessel that meets an earlier one ends at one of its
-    /// points. Every call must use the same volume. Errors: [`ErrorKind::Tracing`] for clicks outside lumen,
-    /// or without lumen between them; [`ErrorKind::Interrupted`].
+    /// points. Every call must use the same volume. Errors: `ErrorKind::Tracing` for clicks outside lumen,
+    /// or without lumen between them; `ErrorKind::Interrupted`.
     pub fn trace(
         &mut self,
         volume: &Volume,
@@ -98,7 +98,7 @@ impl Tracer {
         way
     }
 
-    /// Checks a first click alone, as [`Tracer::trace`] would in the same volume. [`ErrorKind::Tracing`] for
+    /// Checks a first click alone, as [`Tracer::trace`] would in the same volume. `ErrorKind::Tracing` for
     /// a click outside the volume, or whose value excludes lumen.
     pub fn check_click(&self, volume: &Volume, click: DVec3) -> Result<()> {
         let voxels = &Voxels::new(volume);

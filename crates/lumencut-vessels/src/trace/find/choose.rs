@@ -20,7 +20,7 @@ struct Near {
 }
 
 /// Vessels of the part that contains a seed (mm, LPS), found as without it; outside all of them, fainter ones
-/// around it are found too. Errors: Those of [`trees`]; [`ErrorKind::Tracing`] for a seed outside the volume,
+/// around it are found too. Errors: Those of [`trees`]; `ErrorKind::Tracing` for a seed outside the volume,
 /// in no vessel, or in a part without a sure vessel.
 pub fn find_from(volume: &Volume, seed: DVec3, request: &FindRequest) -> Result<Trees> {
     let voxels = Voxels::new(volume);

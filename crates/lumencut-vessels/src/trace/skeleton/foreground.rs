@@ -16,7 +16,7 @@ pub const LUMEN: u8 = 1;
 
 /// The lumen box of a mask.
 pub struct Foreground {
-    /// [`LUMEN`] or [`BACKGROUND`]; i fastest, then j, then k.
+    /// Lumen or background per voxel; i fastest, then j, then k.
     pub cells: Vec<u8>,
     /// Cells along (i, j, k), including the border.
     pub size: [usize; 3],
